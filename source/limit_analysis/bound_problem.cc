@@ -55,7 +55,7 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    /** The cone of a point that has no part in anything: its B is zero. */
+    /** Cone of an excluded point, whose B is zero. */
     constexpr PointCone nothing = {0., 1.};
 
     /** sym(b x g) of the unit vector b along a component, in cone axes. */
@@ -183,7 +183,7 @@ namespace geocone::GEOCONE_DIM
                : problem.dead;
     }
 
-    /** Weight per area of a cell, in units. */
+    /** Weight of a cell per area, in units. */
     Tensor<1, dim>
     weight(const BoundScene &bound, const unsigned int cell)
     {
@@ -195,8 +195,8 @@ namespace geocone::GEOCONE_DIM
              bound.units.length / bound.units.stress;
     }
 
-    /** Adds the forces of a cell per area, in units: weight and that of water, which
-     *  is a dead load where the weight is not bounded with all others.
+    /** Adds the forces of a cell per area, in units: weight, and the force of water,
+     *  which is a dead load unless the weight is bounded with all other loads.
      *  @param add called with a vector of loads and the force */
     template <typename Function>
     void
@@ -228,7 +228,7 @@ namespace geocone::GEOCONE_DIM
       return -1. * g / g.norm();
     }
 
-    /** Calls f(component, value) for what a condition prescribes at x. */
+    /** Calls f(component, value) for the values prescribed by a condition at x. */
     template <typename Function>
     void
     prescribe(const BoundaryCondition &condition,
@@ -261,16 +261,16 @@ namespace geocone::GEOCONE_DIM
       return t / unit;
     }
 
-    /** A node of an edge of the boundary. */
+    /** Node of a boundary edge. */
     struct EdgeNode
     {
-      unsigned int dof;                      ///< of its x component; y follows
-      Point<dim>   of_velocity, of_traction; ///< where these are taken
-      double       part;                     ///< of the edge's length
+      unsigned int dof; ///< of its x component, followed by y
+      Point<dim>   of_velocity, of_traction; ///< points of evaluation
+      double       part;                     ///< share of the edge's length
     };
 
-    /** Prescribes velocities and adds tractions.
-     *  @param nodes_of (edge) -> its EdgeNodes */
+    /** Prescribes velocities and adds tractions. @param nodes_of (edge) -> its
+     *  EdgeNodes */
     template <typename NodesOfEdge>
     void
     apply_conditions(const BoundScene  &bound,
@@ -311,19 +311,20 @@ namespace geocone::GEOCONE_DIM
           }
     }
 
-    /** What a point of an interface is made of. */
+    /** Point of an interface. */
     struct InterfacePoint
     {
-      double part = 0.; ///< of the edge's length
+      double part = 0.; ///< share of the edge's length
 
-      /** The x dofs of the edge's nodes, and their parts in the velocity. */
+      /** The x dofs of the edge's nodes, with their weights in the velocity. */
       std::vector<std::pair<unsigned int, double>> nodes;
 
-      /** Where the velocity of an obstacle, which is linear, counts. */
+      /** Point where the obstacle's linear velocity is evaluated. */
       Point<dim> place;
     };
 
-    /** The motions of obstacles, then how far interfaces open, at three points each. */
+    /** Number of dofs of the obstacles' motions and of the openings, three per
+     *  interface. */
     unsigned int
     n_dofs_of_interfaces(const BoundScene &bound)
     {
@@ -370,7 +371,9 @@ namespace geocone::GEOCONE_DIM
         }
     }
 
-    /** Relative velocity across an interface at a point, for 1 in each dof. */
+    /**
+     * Relative velocity across an interface at a point, for a unit value of each dof.
+     */
     struct PassingVelocity
     {
       std::vector<unsigned int>   dofs;
@@ -383,7 +386,8 @@ namespace geocone::GEOCONE_DIM
         G.push_back(velocity);
       }
 
-      /** In cone axes, as far as a face of the set bounds them. @param N the normal */
+      /** In cone axes, restricted to the components bounded by a face. @param N the
+       *  normal */
       Strains
       strains(const Interface::Face &face, const Tensor<1, dim> &N) const
       {
@@ -400,7 +404,7 @@ namespace geocone::GEOCONE_DIM
       }
     };
 
-    /** That of the nodes of an edge, and of the obstacle if there is one. */
+    /** Relative velocity of the nodes of an edge and of the obstacle, if any. */
     PassingVelocity
     velocity_past(const BoundScene     &bound,
                   const Interface      &interface,
@@ -422,10 +426,12 @@ namespace geocone::GEOCONE_DIM
       return passing;
     }
 
-    /** Adds the interfaces as cells, and prescribes the obstacles' velocities, or loads
-     *  those that are free.
-     *  @param points_of (edge) -> its three points
-     *  @param first_dof of n_dofs_of_interfaces() */
+    /**
+     * Adds the interfaces as cells; prescribes the obstacles' velocities, or loads free
+     * ones.
+     * @param points_of (edge) -> its three points
+     * @param first_dof of n_dofs_of_interfaces()
+     */
     template <typename PointsOfEdge>
     void
     add_interfaces(const BoundScene   &bound,
@@ -481,7 +487,7 @@ namespace geocone::GEOCONE_DIM
     }
 
     /** Strains at vertex i of a cell of quadratic velocities, in cone axes.
-     *  @param g the gradients of its barycentric coordinates */
+     *  @param g gradients of its barycentric coordinates */
     Strains
     strains_of_quadratic(const std::array<Tensor<1, dim>, 3> &g,
                          const unsigned int                   i)
@@ -489,7 +495,8 @@ namespace geocone::GEOCONE_DIM
       Strains B = Strains::Zero(3, 12);
       for (unsigned int f = 0; f < 6; ++f)
         {
-          // Of the function of vertex f, or of the edge opposite to vertex f - 3.
+          // Gradient of the function of vertex f, or of the edge opposite to vertex f -
+          // 3.
           Tensor<1, dim> gradient;
           if (f < 3)
             gradient = f == i ? 3. * g[f] : -1. * g[f];
@@ -508,9 +515,9 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * Strength that is linear in a cell times a convex function D of rates that are
-     * linear is at most sum_ij l_i l_j k_i D(e_j), l_i the barycentric coordinates, whose
-     * integral is A/3 sum_j D(e_j) (k_j + sum_i k_i)/4.
+     * Upper estimate of the dissipation: for linear strength and a convex function D of
+     * linear rates, the integrand is at most sum_ij l_i l_j k_i D(e_j), l_i the
+     * barycentric coordinates, whose integral is A/3 sum_j D(e_j) (k_j + sum_i k_i)/4.
      */
     void
     bound_dissipation_from_above(BoundProblem &problem)
@@ -526,7 +533,7 @@ namespace geocone::GEOCONE_DIM
         }
     }
 
-    /** Takes the stress out where soil without cohesion is free.
+    /** Excludes stress-free points of cohesionless soil at free surfaces.
      *  @param end_dof (edge, vertex) -> its x dof */
     template <typename EndDof>
     void
@@ -575,8 +582,8 @@ namespace geocone::GEOCONE_DIM
             }
     }
 
-    /** Adds the cells of the lower bound, with velocities of the cell and of both ends of
-     *  each edge. @param end_dof (edge, vertex) -> its x dof */
+    /** Adds the cells of the lower bound, with velocities of the cell and of both ends
+     *  of each edge. @param end_dof (edge, vertex) -> its x dof */
     template <typename EndDof>
     void
     add_linear_cells(const BoundScene &bound,
@@ -589,8 +596,8 @@ namespace geocone::GEOCONE_DIM
           const auto g = triangles.gradients(c);
           for (unsigned int i = 0; i < 3; ++i)
             {
-              // The translation, and the ends here of both edges e, opposite to vertex
-              // e: L_e n_e = -2 A grad lambda_e.
+              // The translation, and the ends at this vertex of both edges e, opposite
+              // to vertex e: L_e n_e = -2 A grad lambda_e.
               Strains                   B(3, 6);
               std::vector<unsigned int> dofs;
               for (unsigned int d = 0; d < dim; ++d)
@@ -647,7 +654,7 @@ namespace geocone::GEOCONE_DIM
             problem, c, i, L * strains_of_quadratic(g, i), dofs);
         for (const unsigned int v : triangles.cells[c])
           is_used[v] = true;
-        // The integral of a vertex function is zero, of an edge function A/3.
+        // The integral is zero for a vertex function and A/3 for an edge function.
         add_body_forces(
           problem, bound, c, [&](Eigen::VectorXd &F, const Tensor<1, dim> &w) {
             for (unsigned int f = 3; f < 6; ++f)
@@ -656,7 +663,7 @@ namespace geocone::GEOCONE_DIM
           });
       }
     for (unsigned int v = 0; v < n_vertices; ++v)
-      if (!is_used[v]) // gmsh keeps points of the outline that no cell has
+      if (!is_used[v]) // gmsh keeps outline points without cells
         for (unsigned int d = 0; d < dim; ++d)
           problem.is_prescribed[dim * v + d] = true;
 
@@ -710,8 +717,8 @@ namespace geocone::GEOCONE_DIM
     };
     add_linear_cells(bound, end_dof, problem);
 
-    // w is the value of a linear velocity at the third point that is nearer to the
-    // end; the integral of its function with a linear traction is that of the end.
+    // w is the value of a linear velocity at the third point next to the end; the
+    // integral of its function with a linear traction equals the traction at the end.
     apply_conditions(
       bound,
       [&](const unsigned int edge) {
@@ -734,7 +741,7 @@ namespace geocone::GEOCONE_DIM
       bound,
       [&](const unsigned int edge) {
         const auto &ends = triangles.edges[edge].vertices;
-        // As with w: the third points.
+        // Third points, as for w.
         const Point<dim>    &x     = triangles.vertices[ends[0]];
         const Tensor<1, dim> third = (triangles.vertices[ends[1]] - x) / 3.;
         return std::array<InterfacePoint, 3>{

@@ -25,10 +25,11 @@ namespace geocone::GEOCONE_DIM
     void
     check_supports(const BoundScene &bound, const BoundProblem &problem)
     {
-      // Rigid motions in the dofs that are prescribed: translations and a rotation.
+      // Rigid motions of the prescribed dofs: two translations and a rotation.
       Eigen::Matrix3d  squares   = Eigen::Matrix3d::Zero();
       const Triangles &triangles = bound.triangles;
-      // About the body's centre: far from it a rotation looks like a translation.
+      // About the body's centre, since a rotation about a distant point resembles a
+      // translation.
       const Point<dim> centre =
         dealii::BoundingBox<dim>(triangles.vertices).center();
       const auto hold = [&](const Point<dim> &x, const Tensor<1, dim> &n) {
@@ -85,7 +86,7 @@ namespace geocone::GEOCONE_DIM
           " of the body, so no load has a limit: hold another side");
     }
 
-    /** @throws InputError if a vertex that is held is in the way of an obstacle
+    /** @throws InputError if a fixed vertex is in the way of an obstacle
      *  @param problem of quadratic velocities */
     void
     check_ways(const BoundScene &bound, const BoundProblem &problem)
@@ -356,7 +357,7 @@ namespace geocone::GEOCONE_DIM
       for (const double y : {lowest, highest})
         units.stress =
           std::max(units.stress, flow_cones[m].k + growth[m].at(y));
-    double dead = 0.; // what there is to bear
+    double dead = 0.; // sum of the dead loads
     for (unsigned int m = 0; m < scene.materials.size(); ++m)
       dead =
         std::max(dead,

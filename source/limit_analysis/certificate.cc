@@ -19,9 +19,9 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    /** What rounding may leave: of equilibrium and incompressibility, and of the
-     *  strength where there is no cohesion to scale by, as at a free surface, where
-     *  stresses are at the apex. */
+    /** Tolerated rounding error of equilibrium and incompressibility, and of the
+     *  strength where stresses cannot be scaled for lack of cohesion, e.g. at the apex
+     *  at a free surface. */
     constexpr double rounding = 1e-8;
 
     double
@@ -46,8 +46,7 @@ namespace geocone::GEOCONE_DIM
         {x[0] * n[0] + x[2] / sqrt2 * n[1], x[2] / sqrt2 * n[0] + x[1] * n[1]});
     }
 
-    /** The sum of the tractions of the cells on both sides at each end of each
-     *  edge. */
+    /** Sums of the tractions of the cells on both sides, at each end of each edge. */
     std::vector<Tensor<1, dim>>
     tractions_at_ends(const Triangles             &triangles,
                       const std::vector<Vector3d> &s)
@@ -71,7 +70,7 @@ namespace geocone::GEOCONE_DIM
       return sum;
     }
 
-    /** What the body exerts on the obstacles, in all dofs. */
+    /** Forces of the body on the obstacles, in all dofs. */
     VectorXd
     interface_forces(const BoundProblem          &problem,
                      const std::vector<Vector3d> &s)
@@ -83,17 +82,17 @@ namespace geocone::GEOCONE_DIM
         3 * problem.n_triangles);
     }
 
-    /** What linear stresses have to do with the loads of a lower problem. */
+    /** Equilibrium of linear stresses with the loads of a lower problem. */
     struct Statics
     {
       double power = 0.; ///< of the reactions to prescribed velocities
-      double error = 0.; ///< of equilibrium, over the largest stress
+      double error = 0.; ///< of equilibrium, relative to the largest stress
     };
 
     /**
-     * From the fields alone: |div s + body force| times the cell's size, jumps of
-     * tractions at both ends of all edges, boundary values included, and the
-     * tractions where velocities are prescribed.
+     * Evaluates equilibrium from the fields alone: |div s + body force| times the
+     * cell's size, jumps of tractions at both ends of all edges, including boundary
+     * values, and the tractions where velocities are prescribed.
      */
     Statics
     statics(const BoundScene            &bound,
@@ -154,8 +153,8 @@ namespace geocone::GEOCONE_DIM
       return result;
     }
 
-    /** Makes cylinders incompressible: the velocity that is nearest in the metric
-     *  of B'B with e_n = 0 there, by the method of multipliers. */
+    /** Makes cylinders incompressible: projects onto e_n = 0 in the metric of B'B, by
+     *  the method of multipliers. */
     bool
     make_incompressible(const BoundProblem &problem, VectorXd &q)
     {
@@ -190,8 +189,8 @@ namespace geocone::GEOCONE_DIM
       return true;
     }
 
-    /** (0, max(0, y - y_0)) in the dofs of the upper problem, y_0 the highest point
-     *  of what must not change its volume, or else the bottom of the body. */
+    /** Field (0, max(0, y - y_0)) in the dofs of the upper problem, y_0 the highest
+     *  point that must stay incompressible, or else the bottom of the body. */
     VectorXd
     uniaxial_extension(const BoundScene &bound, const BoundProblem &problem)
     {
@@ -259,7 +258,7 @@ namespace geocone::GEOCONE_DIM
           }
       }
     result.violation /= largest;
-    // Cones with their tip at zero stay what they are.
+    // Scaling does not apply to cones with apex at zero.
     const bool is_scaled = problem.dead.squaredNorm() == 0. && theta > 0.;
     if (!is_scaled)
       theta = 1.;
@@ -287,8 +286,9 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    /** Adds a uniaxial extension that takes the violation out, where prescribed
-     *  velocities leave room for one. @return their scale by it */
+    /** Removes the violation by a uniaxial extension, if prescribed velocities allow
+     *  one.
+     *  @return scale factor of the prescribed velocities */
     double
     repair_rates(const BoundScene   &bound,
                  const BoundProblem &problem,
@@ -312,7 +312,7 @@ namespace geocone::GEOCONE_DIM
           }
       if (!is_usable)
         return 1.;
-      // Its strain is a uniaxial extension: -w_n = |w_t| = 1/sqrt2.
+      // Its strain is uniaxial: -w_n = |w_t| = 1/sqrt2.
       double a = 0.;
       for (unsigned int p = 0; p < 3 * problem.n_triangles; ++p)
         a = std::max(a, problem.cone[p].a);
@@ -400,7 +400,7 @@ namespace geocone::GEOCONE_DIM
             gap[c] -= problem.volume[p] / 4. * (i == j ? 2. : 1.) *
                       lower.s[p].dot(e[3 * c + j]);
         }
-    // Of Bernstein's functions with those of linear reactions.
+    // Integrals of Bernstein's functions with those of linear reactions.
     constexpr double share[3][2] = {
       {1. / 4., 1. / 12.}, {1. / 6., 1. / 6.}, {1. / 12., 1. / 4.}};
     for (unsigned int c = problem.n_triangles;

@@ -48,7 +48,7 @@ namespace geocone::GEOCONE_DIM
     InteriorPoint::Options options;
     options.tolerance             = tolerance;
     options.flow_tolerance        = tolerance;
-    options.equilibrium_tolerance = 1e-7; // the repair may leave the cone
+    options.equilibrium_tolerance = 1e-7; // the repair may violate the cone
     options.stresses              = true;
     if (!below.can_be_scaled())
       options.strength_margin = 1e-5;
@@ -79,8 +79,7 @@ namespace geocone::GEOCONE_DIM
 
     bounds.gap    = gap_of_cells(above, bounds.upper.bound, bounds.lower.bound);
     bounds.uneven = bounds.gap;
-    // Where stresses are at their limit although the mechanism of the upper bound
-    // is elsewhere.
+    // Marks stresses at yield away from the upper bound's mechanism.
     std::vector<double> power      = bounds.lower.power;
     double              sum_of_gap = 0., sum_of_power = 0.;
     for (unsigned int c = 0; c < power.size(); ++c)
@@ -120,7 +119,7 @@ namespace geocone::GEOCONE_DIM
                const double               n_wanted)
   {
     const unsigned int n = triangles.cells.size();
-    // The means at the vertices of a number of the cells.
+    // Means over the cells at each vertex.
     const auto at_vertices = [&](const auto &of_cell) {
       std::vector<double>       mean(triangles.vertices.size(), 0.);
       std::vector<unsigned int> n_cells(mean.size(), 0);
@@ -146,7 +145,7 @@ namespace geocone::GEOCONE_DIM
           smooth += gap_around[v] / 3.;
         wish[c] = std::pow(std::max(smooth, least), -1. / 3.);
       }
-    // The factor that gives the mesh as many cells as it is to have.
+    // Ratio of the number of cells with a given factor to the wanted one.
     const auto ratio = [&](const double factor, const unsigned int c) {
       return std::clamp(factor * wish[c], 0.3, 1.6);
     };
@@ -160,7 +159,7 @@ namespace geocone::GEOCONE_DIM
         (cells > n_wanted ? lower_factor : upper_factor) = middle;
       }
     const std::vector<double> size = at_vertices([&](const unsigned int c) {
-      // That of an equilateral triangle of this area.
+      // Size of an equilateral triangle of this area.
       return ratio(upper_factor, c) *
              std::sqrt(4. / std::sqrt(3.) * triangles.area(c));
     });

@@ -25,12 +25,12 @@ namespace geocone::GEOCONE_DIM
       std::vector<Interface::Face> faces;
       if (mu > 0. || c > 0.)
         faces.push_back({mu, c, mu > 0., true});
-      if (mu == 0. || mu * t < c) // else the cone's apex says as much
+      if (mu == 0. || mu * t < c) // otherwise implied by the apex of the cone
         faces.push_back({1., t, true, false});
       return faces;
     }
 
-    /** How far the middle and both ends of an edge are from an obstacle. */
+    /** Distances of the midpoint and both ends of an edge from an obstacle. */
     std::array<double, 3>
     distances(const Obstacle       &obstacle,
               const Point<dim>     &a,

@@ -23,11 +23,11 @@ namespace geocone::GEOCONE_DIM
     using Points = std::vector<Vector3d>;
     using namespace cone_algebra;
 
-    /** Stiffness of the method of multipliers for Tresca's normal stress, where
-     *  strength, lengths and velocities are of order one. */
+    /** Stiffness of the method of multipliers for Tresca's normal stress; strength,
+     *  lengths and velocities are of order one. */
     constexpr double bulk = 1e6;
 
-    /** A load below all others: of stresses that prove none. */
+    /** Load below all others, for inadmissible stresses. */
     constexpr double no_load = -std::numeric_limits<double>::infinity();
 
     class Solver
@@ -72,7 +72,7 @@ namespace geocone::GEOCONE_DIM
         return strains.forces(problem.volume, s, problem.n_dofs());
       }
 
-      /** x - o, or of a cylinder s_n and s_t: stresses with Bs. */
+      /** Stresses dual to Bs: x - o, or s_n and s_t of a cylinder. */
       Points
       stresses() const
       {
@@ -83,7 +83,7 @@ namespace geocone::GEOCONE_DIM
         return s;
       }
 
-      /** k of a point, less the margin. */
+      /** Strength k of a point less the margin. */
       double
       strength(const unsigned int p) const
       {
@@ -106,7 +106,7 @@ namespace geocone::GEOCONE_DIM
       void
       evaluate();
 
-      /** A direction of the iterate, and the largest steps of x and z along it. */
+      /** Direction of the iterate, with the largest steps of x and z along it. */
       struct Direction
       {
         Points                x, z;
@@ -122,47 +122,46 @@ namespace geocone::GEOCONE_DIM
         }
       };
 
-      /** Newton's direction for W^-1 dx + W dz = d. */
+      /** Newton direction for W^-1 dx + W dz = d. */
       Direction
       direction(const Points &d) const;
 
-      /** Scales the iterate. @return whether the matrix of the directions could be
-       *  factorised */
+      /** Scales the iterate.
+       *  @return whether the matrix of the directions could be factorised */
       bool
       factorise();
 
-      /** Mehrotra's direction (1992), with correctors. */
+      /** Mehrotra's predictor-corrector direction (1992), with further correctors. */
       Direction
       centred_direction();
 
       /**
        * Gondzio's corrector (1996): with longer steps than the direction allows, points
-       * would leave the neighbourhood of the central path; a direction whose right-hand
-       * side moves them back may be taken farther. It costs a solution, no
-       * factorisation.
+       * would leave the neighbourhood of the central path; a right-hand side that moves
+       * them back allows a longer step. It costs a solution but no factorisation.
        * @param target centre times mu
-       * @param[in,out] d the right-hand side
+       * @param[in,out] d right-hand side
        * @return whether the direction was changed
        */
       bool
       correct(const double target, Points &d, Direction &along) const;
 
-      /** Repairs equilibrium in the metric of the cones, in which x hardly moves
-       *  across their borders; until what is missed no longer falls. */
+      /** Restores equilibrium in the metric of the cones, which limits their violation,
+       *  until the residual no longer decreases. */
       void
       polish();
 
-      /** What of the load is left when the stresses are scaled back into their
-       *  cones; nothing where that cannot be, or where they miss equilibrium. */
+      /** Load of the stresses after scaling them back into their cones; no_load if that
+       *  is impossible or equilibrium is violated. */
       double
       admissible_load() const;
 
-      /** Keeps the polished stresses if they bear more than those that are kept. The
-       *  iterate does not change. */
+      /** Keeps the polished stresses if their admissible load is higher than the best
+       *  so far. The iterate does not change. */
       void
       keep_stresses();
 
-      /** Whether the gap is closed, with velocities that flow as they must. */
+      /** Whether the gap is closed, with velocities of admissible flow. */
       bool
       is_closed() const
       {
@@ -176,7 +175,7 @@ namespace geocone::GEOCONE_DIM
         return options.tolerance * std::abs(load);
       }
 
-      /** @name Whether the iterate is the last one; the solution then says why */
+      /** @name Termination criteria; the solution then gives the reason */
       /** @{ */
       bool
       has_diverged();
@@ -184,16 +183,16 @@ namespace geocone::GEOCONE_DIM
       has_ended(const unsigned int iteration);
       /** @} */
 
-      /** Counts iterates that come no nearer to stresses that prove something. */
+      /** Counts iterates without progress towards admissible stresses. */
       void
       watch_stresses();
 
-      /** Moves the iterate along a direction, but for a hundredth of the way to the
-       *  border of the cones. */
+      /** Moves the iterate along a direction, up to a hundredth before the boundary of
+       *  the cones. */
       void
       advance(const Direction &along);
 
-      /** Gives the best stresses and the velocities to the solution. */
+      /** Copies the best stresses and the velocities into the solution. */
       void
       collect();
 
@@ -203,7 +202,7 @@ namespace geocone::GEOCONE_DIM
       const PointStrains           strains; ///< Bs
       PointMatrix                  matrix;
       std::vector<double>          omega;
-      double                       margin = 0.; ///< of the rates of cones
+      double                       margin = 0.; ///< of the cones of rates
 
       Points   x, z;
       VectorXd s_n, q;
@@ -215,14 +214,14 @@ namespace geocone::GEOCONE_DIM
       double               equilibrium = 0., flow = 0.;
       std::vector<Scaling> scaling;
       Points               scaled;         ///< W z = W^-1 x
-      double               last_step = 1.; ///< the shorter one
+      double               last_step = 1.; ///< the shorter of the two
 
-      Points kept; ///< stresses() of the best iterate, and what they bear
+      Points kept; ///< stresses() of the best iterate, and their load
       double kept_load = 0., most_admissible = no_load;
 
-      double       most         = 0.; ///< largest stress over the strength
+      double       most         = 0.; ///< largest stress over strength
       unsigned int first_solved = options.max_iterations + 1;
-      unsigned int n_without    = 0; ///< iterates, of watch_stresses()
+      unsigned int n_without    = 0; ///< without progress
       double       smallest_gap = std::numeric_limits<double>::infinity(),
              least_equilibrium  = smallest_gap;
 
@@ -274,9 +273,9 @@ namespace geocone::GEOCONE_DIM
         {
           const PointCone &cone = problem.cone[p];
           z[p][0]          = std::max(z[p][0], z[p].tail<2>().norm() + mean);
-          const double a   = std::min(cone.a, 0.9); // of interfaces also more
+          const double a   = std::min(cone.a, 0.9); // more: interfaces
           const double K_p = (1. + a) / (1. - a);
-          // Also where there is no cohesion.
+          // Positive also without cohesion.
           x[p][0] = cone.is_cylinder() ? strength(p)
                                        : K_p * K_p * std::max(cone.k, 0.1);
         }
@@ -298,7 +297,7 @@ namespace geocone::GEOCONE_DIM
       for (unsigned int p = 0; p < n; ++p)
         {
           r_p[p] = z[p] + omega[p] * rate[p];
-          if (problem.cone[p].is_cylinder()) // its normal rate is to vanish
+          if (problem.cone[p].is_cylinder()) // its normal rate must vanish
             r_p[p][0] = omega[p] * rate[p][0];
           else
             r_p[p][0] += omega[p] * margin;
@@ -311,7 +310,7 @@ namespace geocone::GEOCONE_DIM
         }
       mu   = product / (2. * n);
       flow = std::sqrt(miss / size);
-      // The power of the reactions of prescribed velocities.
+      // Power of the reactions to prescribed velocities.
       load               = problem.has_factor()
                              ? lambda
                              : (all - problem.dead).dot(problem.prescribed);
@@ -414,7 +413,7 @@ namespace geocone::GEOCONE_DIM
       for (unsigned int p = 0; p < n; ++p)
         affine += (x[p] + a_x * along.x[p]).dot(z[p] + a_z * along.z[p]);
       affine /= 2. * n;
-      // After a short step back to the middle of the cones, or more would follow.
+      // Stronger centring after a short step, as further short steps would follow.
       const double centre = std::max(std::pow(std::max(affine, 0.) / mu, 3),
                                      last_step < 0.15 ? 0.8 : 0.);
       for (unsigned int p = 0; p < n; ++p)
@@ -433,8 +432,8 @@ namespace geocone::GEOCONE_DIM
     bool
     Solver::correct(const double target, Points &d, Direction &along) const
     {
-      // Steps that are long enough; by how much longer ones are tried, and are to be;
-      // and how near eigenvalues stay to the target.
+      // Steps that are long enough; the attempted and the required increase of the
+      // step; and the neighbourhood of the target for the eigenvalues.
       constexpr double enough = 0.5, longer = 0.1, gained = 0.01, near = 0.1;
       if (along.shorter() > enough)
         return false;
@@ -446,7 +445,7 @@ namespace geocone::GEOCONE_DIM
           const Vector3d v = product(scaled[p] + t_x * along.scaled_x[p],
                                      scaled[p] + t_z * along.scaled_z[p]);
           const double   T = v.tail<2>().norm();
-          // Its eigenvalues, moved to the neighbourhood of the target.
+          // Correction that moves an eigenvalue to the neighbourhood of the target.
           const auto moved = [&](const double x) {
             return std::max(std::clamp(x, near * target, target / near) - x,
                             -target / near);
@@ -509,7 +508,7 @@ namespace geocone::GEOCONE_DIM
         }
       if (ok)
         return load;
-      // Dead loads, and soil without cohesion, cannot be scaled back.
+      // Stresses under dead loads or in cohesionless soil cannot be scaled back.
       return problem.dead.squaredNorm() == 0. && part > 0. ? part * load
                                                            : no_load;
     }
@@ -520,7 +519,7 @@ namespace geocone::GEOCONE_DIM
       const Points   x_before   = x;
       const VectorXd s_n_before = s_n;
       polish();
-      // The last ones where none prove anything yet.
+      // The latest stresses, while none are admissible.
       const double bears = admissible_load();
       if (bears > most_admissible ||
           (most_admissible == no_load && std::isfinite(load)))
@@ -559,12 +558,12 @@ namespace geocone::GEOCONE_DIM
     void
     Solver::watch_stresses()
     {
-      // What cannot be scaled back is beyond its cones in proportion to the gap:
-      // it needs a sharper optimum. Where no stresses are in equilibrium, the gap
-      // grows again, or closes without them.
+      // Stresses that cannot be scaled back violate their cones in proportion to the
+      // gap, so a sharper optimum is needed. Without stresses in equilibrium the gap
+      // grows again or closes.
       if (flow < options.flow_tolerance)
         smallest_gap = std::min(smallest_gap, gap);
-      if (most_admissible == no_load && most < 1e3) // or no load is the limit
+      if (most_admissible == no_load && most < 1e3) // else no limit
         n_without += gap > 5. * smallest_gap ||
                      (is_closed() && equilibrium > least_equilibrium / 2.);
       least_equilibrium = std::min(least_equilibrium, equilibrium);
@@ -577,7 +576,7 @@ namespace geocone::GEOCONE_DIM
         is_closed() && equilibrium < options.equilibrium_tolerance;
       if (is_solved)
         first_solved = std::min(first_solved, iteration);
-      // Stresses that are kept are in equilibrium and in their cones.
+      // Kept stresses are admissible and in equilibrium.
       if (is_closed() && most_admissible > load - 0.3 * allowed_gap())
         {
           solution.converged = true;
@@ -649,7 +648,7 @@ namespace geocone::GEOCONE_DIM
           evaluate();
           if (has_diverged() || has_ended(iteration))
             break;
-          // One process computes the bounds; others wait for it.
+          // Only one process computes the bounds.
           if (const int signal = stop_request_of_rank())
             throw Stopped(signal);
           if (!factorise())

@@ -38,7 +38,7 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    /** @param unit the load of a problem's 1 */
+    /** @param unit the load that a problem's 1 corresponds to */
     BoundLevel
     level_of(const CertifiedBounds &bounds,
              const unsigned int     n_cells,
@@ -197,7 +197,7 @@ namespace geocone::GEOCONE_DIM
       warnings.push_back("a mesh from a file is not made anew: the bounds are "
                          "those of this mesh; give a box or a polygon, or set "
                          "Analysis/Maximum levels = 1");
-    constexpr double later     = 1e6; // beyond any ramp
+    constexpr double later     = 1e6; // after any ramp
     const auto       is_loaded = [](const RigidMotion &load) {
       return load.centre.norm() + load.rotation.norm() > 0.;
     };
@@ -243,7 +243,7 @@ namespace geocone::GEOCONE_DIM
   void
   LimitAnalysis::check_water() const
   {
-    // Body forces are to be constant in each cell.
+    // Body forces must be constant in each cell.
     for (const auto &cell : triangles->cells)
       {
         dealii::Point<dim> centre;
@@ -388,8 +388,8 @@ namespace geocone::GEOCONE_DIM
   double
   LimitAnalysis::next_cells(const BoundLevel &level)
   {
-    // The gap falls about like one over the number of cells, of which gmsh makes some
-    // more than are asked for: the last mesh need not be larger than it has to.
+    // The gap is about inversely proportional to the number of cells, of which gmsh
+    // makes some more than requested. The last mesh is no larger than necessary.
     const double made =
       asked_cells > 0. ? std::clamp(level.cells / asked_cells, 1., 1.3) : 1.;
     const double left   = level.gap / (0.9 * gap_tolerance);
@@ -409,7 +409,7 @@ namespace geocone::GEOCONE_DIM
     const double  in_mesh = mesh_time.cpu_time();
     dealii::Timer time;
     BoundLevel    level;
-    // A level that is stopped is done again.
+    // A stopped level is repeated.
     const StrengthReduction before = reduction;
     try
       {
@@ -469,7 +469,7 @@ namespace geocone::GEOCONE_DIM
   void
   LimitAnalysis::write_fields(const double t)
   {
-    // Not between two meshes, where a run was stopped.
+    // A run that was stopped between two meshes has no fields.
     if (bounds.gap.size() == triangles->cells.size())
       limit_output.write_fields(t,
                                 *triangles,

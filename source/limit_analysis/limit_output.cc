@@ -70,7 +70,7 @@ namespace geocone::GEOCONE_DIM
     const auto add = [&](const std::string &column, const auto member) {
       table.add(column, [member](const BoundLevel &l) { return l.*member; });
     };
-    // A bound that is not certified is none.
+    // Bounds that are not certified are not written.
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
     add("level (-)", &BoundLevel::number);
     add("triangles (-)", &BoundLevel::cells);
@@ -132,7 +132,7 @@ namespace geocone::GEOCONE_DIM
       {"velocity", dim, vectors([&](const Index, const Index v, const Index d) {
          return upper.q.size() > 0 ? upper.q[dim * v + d] : 0.;
        })});
-    // Of the lower bound's dual: the translation of each triangle.
+    // Translation of each triangle, from the dual of the lower bound.
     table.columns.push_back(
       {"velocity_lower", dim, [&](std::vector<double> &to) {
          for (std::size_t i = 0; i < to.size(); ++i)
@@ -149,7 +149,7 @@ namespace geocone::GEOCONE_DIM
         {names[i], 1, each([=](const Index p, const Index) {
            return stress(p, i);
          })});
-    // The part of a triangle in the gap, over the mean.
+    // Contribution of a triangle to the gap, over the mean.
     double total = 0.;
     for (const double part : gap)
       total += std::max(part, 0.);

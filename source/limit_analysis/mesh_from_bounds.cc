@@ -20,7 +20,8 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    /** The load of a bound, if it is certified. @param unit the load of a problem's 1 */
+    /** Load of a bound, if certified. @param unit the load that a problem's 1
+     *  corresponds to */
     std::optional<double>
     proven(const Bound &bound, const double unit)
     {
@@ -51,7 +52,7 @@ namespace geocone::GEOCONE_DIM
         const double n_cells = triangles.cells.size();
         n_large += n_cells > 0.7 * parameters.number;
         const bool is_last = n_large == 4 || level + 1 == most_levels;
-        // gmsh makes some more triangles than its sizes ask for.
+        // gmsh makes some more triangles than requested.
         const double surplus =
           n_asked > 0. ? std::clamp(n_cells / n_asked, 1., 1.4) : 1.;
         n_asked =
@@ -83,7 +84,7 @@ namespace geocone::GEOCONE_DIM
                 }
             }
           catch (const Stopped &)
-            {} // as all ranks are, here:
+            {} // all ranks are together here
         stop_if_asked(comm);
         fault = mpi::broadcast(comm, fault);
         if (!fault.empty())

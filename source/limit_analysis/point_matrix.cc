@@ -18,8 +18,8 @@ namespace geocone
       if (!is_prescribed[i])
         row_of_dof[i] = n_rows++;
 
-    // The order of elimination is that of the rows: CHOLMOD then neither permutes
-    // nor transposes the matrix of each iteration.
+    // The rows are in elimination order, so that CHOLMOD neither permutes nor
+    // transposes the matrix of each iteration.
     set_pattern(n_rows);
     const std::vector<int> place_of = factors.fill_reducing_order(matrix);
     for (int &row : row_of_dof)
@@ -61,7 +61,7 @@ namespace geocone
   void
   PointMatrix::set_pattern(const unsigned int n_rows)
   {
-    // Rows of each column, the diagonal first, some of them several times.
+    // Rows of each column, diagonal first, with duplicates.
     std::vector<std::size_t> end(n_rows + 1, 0);
     for (unsigned int j = 0; j < n_rows; ++j)
       end[j + 1] = 1;
@@ -113,7 +113,7 @@ namespace geocone
   {
     cholmod().nmethods           = 1;
     cholmod().method[0].ordering = CHOLMOD_NATURAL;
-    cholmod().postorder          = false; // which the order has been
+    cholmod().postorder          = false; // the rows are in postorder
     analyzePattern(matrix);
   }
 

@@ -13,10 +13,10 @@ namespace geocone::GEOCONE_DIM
 {
   namespace
   {
-    /** Factors that no engineer asks for. */
+    /** Range of factors of practical interest. */
     constexpr double least = 1e-3, most = 1e3;
 
-    /** @throws StepFailure beyond what a factor can be */
+    /** @throws StepFailure outside that range */
     double
     checked(const double factor)
     {
@@ -34,7 +34,7 @@ namespace geocone::GEOCONE_DIM
       return factor;
     }
 
-    /** The bound of a load that is above zero, or nothing. */
+    /** Whether the bound is certified and positive. */
     bool
     is_usable(const CertifiedBounds::Side &side)
     {
@@ -42,7 +42,7 @@ namespace geocone::GEOCONE_DIM
              side.bound.load > 0.;
     }
 
-    /** A factor that one bound proves, near the root of lambda = 1.
+    /** A factor certified by one bound, near the root of lambda = 1.
      *  @param sign -1: the lower bound, +1: the upper one */
     template <typename Solve>
     std::optional<double>
@@ -68,13 +68,13 @@ namespace geocone::GEOCONE_DIM
               proven = !proven    ? tried
                        : sign < 0 ? std::max(*proven, tried)
                                   : std::min(*proven, tried);
-              // Not farther from the root than it has to be.
+              // Close enough to the root.
               if (std::abs(std::log(side.bound.load)) < 4. * margin * exponent)
                 return proven;
             }
           else
             margin *= 2.;
-          // Another point of the curve; a secant through both.
+          // Secant through this point and another one of the curve.
           if (std::abs(std::log(tried / factor)) > 1e-4)
             exponent = std::clamp(-std::log(side.bound.load / load) /
                                     std::log(tried / factor),
@@ -116,10 +116,10 @@ namespace geocone::GEOCONE_DIM
   StrengthReduction::on_mesh(const Reduced &reduced, const double tolerance)
   {
     Level level;
-    // The last solution that was far from the root: factor and load.
+    // The last solution far from the root: factor and load.
     std::optional<std::pair<double, double>> last;
-    // Where friction is so large that it bears any weight, the load has no limit: the
-    // body is safe there.
+    // With sufficient friction any weight is carried: the load has no limit and the
+    // body is safe.
     std::optional<double> without_limit;
     for (unsigned int attempt = 0;; ++attempt)
       {
@@ -146,7 +146,7 @@ namespace geocone::GEOCONE_DIM
             "; the lower one: " + lower.bound.objection +
             "\n  remedy:  check that the body can fail by its loads, its "
             "supports and strengths, or take other cells");
-        // The middle is between 1/5 and 5 times its distance from there.
+        // The midpoint is between 1/5 and 5 times its distance from there.
         const double load        = !is_usable(lower) ? upper.bound.load
                                    : !is_usable(upper)
                                      ? lower.bound.load
@@ -166,7 +166,7 @@ namespace geocone::GEOCONE_DIM
             factor = next;
             return level;
           }
-        // One more solution far from the root tells the exponent.
+        // One more solution far from the root determines the exponent.
         if (last && std::abs(std::log(factor / last->first)) > 1e-3)
           exponent = std::clamp(-std::log(load / last->second) /
                                   std::log(factor / last->first),

@@ -17,8 +17,8 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    /** The part of the edge from a to b that is in the box of a condition; all or
-     *  nothing if it is but for a rounding. */
+    /** Overlap of the edge from a to b with the box of a condition, snapped to all or
+     *  nothing within rounding. */
     double
     part_in_box(const BoundaryCondition &condition,
                 const Point<dim>        &a,

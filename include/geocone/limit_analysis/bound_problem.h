@@ -16,19 +16,17 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** What the load factor of a limit analysis multiplies. */
+  /** Loads multiplied by the load factor of a limit analysis. */
   enum class LoadFactor
   {
     automatic,
-    velocity,  ///< nothing: the load is the reaction to prescribed velocities
+    velocity,  ///< none: the load is the reaction to prescribed velocities
     weight,    ///< the weight; tractions are dead loads
     tractions, ///< the tractions; the weight is a dead load
     all        ///< weight and tractions
   };
 
-  /**
-   * The units in which a limit analysis computes: all numbers are of order one.
-   */
+  /** Units of a limit analysis, chosen so that all numbers are of order one. */
   struct BoundUnits
   {
     double length   = 1.; ///< (m)
@@ -48,7 +46,7 @@ namespace geocone::GEOCONE_DIM
       return opening < infinite_tension;
     }
 
-    /** Tresca's cylinder, whose normal rate is zero. */
+    /** Whether it is Tresca's cylinder, with zero normal rate. */
     bool
     is_cylinder() const
     {
@@ -64,14 +62,14 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * A rigid-plastic problem with associated flow in a space of velocities q, its
-   * points at the vertices of the triangles, one third of the area each:
+   * Rigid-plastic problem with associated flow in a discrete space of velocities q. The
+   * points are the vertices of the triangles, with one third of the area each:
    *   equilibrium  sum_p V_p B_p' s_p = lambda f + F0  in free dofs,
    *   strength     |s_t| <= a s_n + k,
    *   flow         -B_p q in K* = {a |e_t| <= -e_n}.
-   * Strains and stresses are in cone axes (second_order_cone.h), all in units.
-   * Either f q = 1, and lambda is the load, or some velocities are prescribed, and
-   * the load is the power of their reactions.
+   * Strains and stresses are in cone axes (second_order_cone.h), all in units. Either f
+   * q = 1 and lambda is the load, or some velocities are prescribed and the load is the
+   * power of their reactions.
    *
    * After the triangles come the faces of the interfaces, as cells of the same form:
    * V is a part of an edge's length, B q the velocity of the body relative to the
@@ -97,9 +95,9 @@ namespace geocone::GEOCONE_DIM
     unsigned int              first_cut_dof = 0; ///< nine for each of them
 
     std::vector<bool> is_prescribed; ///< by dof
-    std::vector<bool> has_no_force;  ///< prescribed, too: no stress is there
-    Eigen::VectorXd   prescribed;    ///< values there, or 0
-    Eigen::VectorXd   dead, live;    ///< F0 and f by dof; f = 0: no factor
+    std::vector<bool> has_no_force;  ///< prescribed dofs without any stress
+    Eigen::VectorXd   prescribed;    ///< prescribed values, else 0
+    Eigen::VectorXd   dead, live;    ///< F0 and f by dof; f = 0: no load factor
 
     unsigned int
     n_dofs() const
@@ -133,15 +131,17 @@ namespace geocone::GEOCONE_DIM
       return 3 * owner[cut_point / 3 - n_triangles] + cut_point % 3;
     }
 
-    /** Whether stresses that are scaled down bear a load that is scaled down: no
-     *  load is dead, and there is cohesion everywhere. */
+    /** Whether scaled-down stresses carry a scaled-down load: there is no dead load and
+     *  cohesion is positive everywhere. */
     bool
     can_be_scaled() const;
     unsigned int
     n_unknowns() const;
   };
 
-  /** What of a scene a limit analysis is about. */
+  /**
+   * Input of a limit analysis: the scene, its triangles, the load and the strengths.
+   */
   struct BoundScene
   {
     const Scene           &scene;
@@ -151,7 +151,7 @@ namespace geocone::GEOCONE_DIM
     std::vector<PointCone> cones; ///< of the materials, in units
     std::vector<Interface> interfaces;
 
-    /** How the k of cones grow with depth, of the materials (in units, per m). */
+    /** Growth of the k of each material's cone with depth (in units, per m). */
     std::vector<Material::Growth> growth;
 
     PointCone
@@ -162,8 +162,7 @@ namespace geocone::GEOCONE_DIM
       return cone;
     }
 
-    /** Makes a material's strength another one: tan(phi), and k over cos(phi) times a
-     *  factor. */
+    /** Changes a material's strength: tan(phi), and k over cos(phi) times a factor. */
     void
     change(const unsigned int material,
            const double       tan_phi,
@@ -171,30 +170,32 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Quadratic velocities with the points at the vertices: strains are linear in a
-   * cell, so flow that is admissible at its vertices is so everywhere, and the
-   * dissipation of the vertices is an upper estimate (exact for a > 0): what it
-   * gives is an upper bound (Makrodimopoulos and Martin 2007). Dofs: x and y of
-   * the vertices, then of the edges, then of the obstacles. Points of an interface
-   * are the values of Bernstein's basis, between which the relative velocity is.
+   * Upper-bound problem: quadratic velocities with the points at the vertices. Strains
+   * are linear in a cell, so flow that is admissible at its vertices is admissible
+   * everywhere, and the dissipation at the vertices is an upper estimate (exact for a >
+   * 0): the result is an upper bound (Makrodimopoulos and Martin 2007). Dofs: x and y
+   * of the vertices, then of the edges, then of the obstacles. Points of an interface
+   * are coefficients in Bernstein's basis, whose convex hull contains the relative
+   * velocity.
    */
   BoundProblem
   upper_problem(const BoundScene &scene);
 
   /**
-   * The dual of linear stresses that are discontinuous between triangles, in its
-   * velocities: a translation u of each triangle and w at both ends of each edge,
+   * Lower-bound problem: the dual of linear stresses that are discontinuous between
+   * triangles. Its velocities are a translation u of each triangle and w at both ends
+   * of each edge,
    *   B_i q = -3 sym(u x grad lambda_i) + 3/(2A) sum_{e at i} L_e sym(w_ei x n_e).
-   * Equilibrium of these rows is that of the continuum, so each admissible state
-   * is a lower bound (dual of Makrodimopoulos and Martin 2006). Dofs: x and y of
-   * the triangles, then of the two ends of the edges, then of the obstacles. Points
-   * of an interface are the ends of its edge, half of its length each, and one that
-   * has no part in anything.
+   * Equilibrium of these rows is that of the continuum, so each admissible state is a
+   * lower bound (dual of Makrodimopoulos and Martin 2006). Dofs: x and y of the
+   * triangles, then of the two ends of the edges, then of the obstacles. Points of an
+   * interface are the ends of its edge, half of its length each, and one that is
+   * unused.
    *
-   * At a free surface soil without cohesion has no stress: tractions vanish on the
-   * surface, so the stress is at the apex, so they vanish on all edges from there.
-   * No stress is inside its cone there, as an interior-point method asks; so points
-   * and ends at such vertices have no part in anything either.
+   * Cohesionless soil is free of stress at a free surface: tractions vanish there, so
+   * the stress is at the apex and tractions vanish on all edges from that vertex. An
+   * interior-point method needs stresses inside their cones, so points and ends at such
+   * vertices are excluded.
    */
   BoundProblem
   lower_problem(const BoundScene &scene);

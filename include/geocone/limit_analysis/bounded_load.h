@@ -14,10 +14,8 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /**
-   * What a limit analysis bounds: the load that a factor multiplies, the strengths
-   * of the materials, and the units in which both are of order one.
-   */
+  /** The load bounded by a limit analysis: the choice of the load factor, the strengths
+   *  of the materials, and the units in which both are of order one. */
   class BoundedLoad
   {
   public:
@@ -25,23 +23,29 @@ namespace geocone::GEOCONE_DIM
     void
     declare(dealii::ParameterAcceptor &section);
 
-    /** @param scene prepared @param triangles its first mesh
-     *  @throws InputError if there is nothing to be bounded, too much, or a body
-     *  that is not held */
+    /**
+     * @param scene prepared
+     * @param triangles of its first mesh
+     * @throws InputError if there is no load to bound, more than one, or a rigid motion
+     * of the body is free
+     */
     void
     prepare(const Scene &scene, const Triangles &triangles);
 
-    /** The same where the strength is reduced: the factor is that of all loads,
-     *  weight and tractions. @throws InputError also for soil without cohesion,
-     *  whose load factor is zero or infinite */
+    /**
+     * Prepares strength reduction: the factor multiplies all loads, weight and
+     * tractions.
+     * @throws InputError also for cohesionless soil, whose load factor is zero or
+     * infinite
+     */
     void
     prepare_reduction(const Scene &scene, const Triangles &triangles);
 
-    /** The scene on a mesh, as upper_problem() and lower_problem() take it. */
+    /** Input of upper_problem() and lower_problem() on a mesh. */
     BoundScene
     on(const Scene &scene, const Triangles &triangles) const;
 
-    /** The same with c/F and tan(phi)/F in place of c and tan(phi). */
+    /** The same with c/F and tan(phi)/F instead of c and tan(phi). */
     BoundScene
     reduced(const Scene     &scene,
             const Triangles &triangles,
@@ -50,14 +54,14 @@ namespace geocone::GEOCONE_DIM
     /**
      * The same with the strength of Davis (1968), whose flow is associated:
      *   tan(phi*) = cos(theta) sin(phi)/(1 - sin(theta) sin(phi)),
-     * and c* alike with c cos(phi); both divided by F.
+     * and c* likewise with c cos(phi); both are divided by F.
      */
     BoundScene
     by_davis(const Scene     &scene,
              const Triangles &triangles,
              const double     F) const;
 
-    /** What the factor multiplies, never automatic. */
+    /** Loads multiplied by the factor, never automatic. */
     LoadFactor
     factor() const
     {
@@ -67,7 +71,7 @@ namespace geocone::GEOCONE_DIM
     std::string
     word() const;
 
-    /** The load of a problem's 1: (N/m) for a reaction, else 1. */
+    /** Load that a problem's 1 corresponds to: (N/m) for a reaction, else 1. */
     double
     value_of_unit() const
     {
@@ -80,14 +84,14 @@ namespace geocone::GEOCONE_DIM
       return chosen == LoadFactor::velocity ? "N/m" : "-";
     }
 
-    /** The unit after a blank, if there is one. */
+    /** The unit, if any, after a blank. */
     std::string
     after_number() const
     {
       return chosen == LoadFactor::velocity ? " N/m" : "";
     }
 
-    /** Whether some material dilates less than its friction. */
+    /** Whether the dilatancy of some material is smaller than its friction. */
     bool
     non_associated() const
     {
@@ -97,14 +101,14 @@ namespace geocone::GEOCONE_DIM
     BoundUnits units;
 
   private:
-    /** @throws InputError where strength that grows with depth is not there */
+    /** @throws InputError where strength that grows with depth becomes negative */
     void
     check_strength(const Scene &scene, const Triangles &triangles) const;
     void
     check_loads(const Scene &scene, const Triangles &triangles);
     void
     take_cones(const Scene &scene);
-    /** The velocity that is prescribed, where it is not zero.
+    /** The prescribed non-zero velocity, if any.
      *  @throws InputError if there are several */
     std::optional<dealii::Tensor<1, dim>>
     prescribed_velocity(const Scene &scene, const Triangles &triangles) const;
@@ -120,7 +124,7 @@ namespace geocone::GEOCONE_DIM
     LoadFactor            chosen    = LoadFactor::automatic;
     double                load_unit = 1.;
     std::vector<FlowCone> flow_cones;
-    /** How their k grow with depth (Pa/m). */
+    /** Growth of their k with depth (Pa/m). */
     std::vector<Material::Growth> growth;
     bool                          less_dilatant = false;
   };

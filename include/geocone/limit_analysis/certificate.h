@@ -11,41 +11,39 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** What stresses may be beyond their cones where they cannot be scaled back, over the
-   *  largest of them. */
+  /** Tolerated violation of the cones, relative to the largest stress, where stresses
+   *  cannot be scaled back. */
   constexpr double rounding_strength = 1e-8;
 
-  /**
-   * A bound, and what proves it: all is computed anew from the fields, whatever
-   * solver made them. In units of the problem.
-   */
+  /** A bound with its certificate: all values are recomputed from the fields,
+   *  independently of the solver. In units of the problem. */
   struct Bound
   {
     double      load      = 0.;
     bool        certified = false;
-    std::string objection; ///< why it is not certified
+    std::string objection; ///< reason for rejection, if not certified
 
-    /** Largest violation before the repair: of the strength by stresses, over the
-     *  largest stress; of admissible flow by strain rates, over the largest. */
+    /** Largest violation before the repair: of the strength, relative to the largest
+     *  stress, or of admissible flow, relative to the largest strain rate. */
     double violation = 0.;
 
-    /** Lower bound: largest error of div s + body force, of tractions across edges
-     *  and on the boundary, over the largest stress (over the cell's size). Upper
-     *  bound: largest normal rate of cylinders over the largest rate. */
+    /** Lower bound: largest error of div s + body force and of tractions across edges
+     *  and on the boundary, relative to the largest stress (over the cell's size).
+     *  Upper bound: largest normal rate of cylinders, relative to the largest rate. */
     double error = 0.;
 
-    /** The fields of the bound: stresses at the points in cone axes, scaled, or
-     *  velocities of all dofs, repaired. A lower bound's velocities are those of its
-     *  dual, which show how it would fail and prove nothing. */
+    /** Fields of the bound: scaled stresses at the points in cone axes, or repaired
+     *  velocities of all dofs. The velocities of a lower bound are those of its dual:
+     *  they show the failure mechanism but prove nothing. */
     std::vector<Eigen::Vector3d> s;
     Eigen::VectorXd              q;
   };
 
   /**
-   * Checks stresses: in the cone at the points, which linear stresses then are
-   * everywhere, and in equilibrium with the loads to rounding. Where the strength
-   * is exceeded, all stresses are scaled by theta = min k/(k + excess), which needs
-   * cohesion and no dead load; otherwise 1e-8 of the largest stress is left to
+   * Certifies stresses: in the cone at the points, and hence everywhere since they are
+   * linear, and in equilibrium with the loads to rounding. Where the strength is
+   * exceeded, all stresses are scaled by theta = min k/(k + excess), which needs
+   * cohesion and no dead load; otherwise 1e-8 of the largest stress is tolerated as
    * rounding.
    */
   Bound
@@ -54,10 +52,10 @@ namespace geocone::GEOCONE_DIM
                 const BoundSolution &solution);
 
   /**
-   * Checks velocities: -B q in K* at the points, which linear rates then are
-   * everywhere. Cylinders are made incompressible by a projection; elsewhere a
-   * violation is removed by adding the uniaxial extension (0, y - y_bottom), where
-   * that obeys the boundary conditions.
+   * Certifies velocities: -B q in K* at the points, and hence everywhere since rates
+   * are linear. Cylinders are made incompressible by a projection. Elsewhere a
+   * violation is removed by adding the uniaxial extension (0, y - y_bottom), if that
+   * obeys the boundary conditions.
    */
   Bound
   certify_upper(const BoundScene    &scene,
@@ -65,7 +63,7 @@ namespace geocone::GEOCONE_DIM
                 const BoundSolution &solution);
 
   /**
-   * The parts of the triangles in (upper - lower) f.v, which are not negative:
+   * Contributions of the triangles to (upper - lower) f.v, which are not negative:
    *   eta_T = sum_i A/3 D(e_i) - sum_ij A/12 (1 + delta_ij) s_i . e_j
    * with e of the upper and s of the lower bound (Ciria, Peraire and Bonet 2008).
    */

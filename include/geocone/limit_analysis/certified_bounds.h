@@ -22,24 +22,27 @@ namespace geocone::GEOCONE_DIM
       Bound         bound;
       unsigned int  n_unknowns = 0;
 
-      /** Of the lower side: |V s.e| of each triangle for its own velocities. */
+      /** Lower side: |V s.e| of each triangle for its own velocities. */
       std::vector<double> power;
     };
     Side upper, lower;
 
-    /** The part of each triangle in the gap, see gap_of_cells(). */
+    /** Contribution of each triangle to the gap, see gap_of_cells(). */
     std::vector<double> gap;
 
-    /** What the next mesh is to make equal: those parts, and of the lower bound the power
-     *  on its own velocities times the size of the triangle, which shows where its
-     *  stresses are at their limit although the upper bound's mechanism is elsewhere. */
+    /**
+     * Refinement indicator, equal for all triangles of an ideal mesh: the contribution
+     * to the gap, and the lower bound's power on its own velocities times the size of
+     * the triangle. The latter marks stresses at yield away from the upper bound's
+     * mechanism.
+     */
     std::vector<double> uneven;
 
-    /** Their sum over the gap of the bounds; 1 where both fields are exact. */
+    /** Sum of the contributions over the gap; 1 where both fields are exact. */
     double gap_share = 0.;
   };
 
-  /** Solves the problem of one side and certifies what is found.
+  /** Solves the problem of one side and certifies the result.
    *  @param tolerance of the interior-point method, relative to the load */
   /** @{ */
   CertifiedBounds::Side
@@ -48,13 +51,13 @@ namespace geocone::GEOCONE_DIM
   certified_lower(const BoundScene &bound, const double tolerance);
   /** @} */
 
-  /** Solves both problems of a mesh and certifies what is found.
+  /** Solves both problems of a mesh and certifies the results.
    *  @param tolerance of the interior-point method, relative to the load */
   CertifiedBounds
   certified_bounds(const BoundScene &bound, const double tolerance);
 
-  /** Both bounds of the load of Davis's soil on a mesh, an estimate for flow that is not
-   *  associated (doc/theory/limit_analysis.md), in the unit of the load. */
+  /** Both bounds of the load for Davis's soil on a mesh, in the unit of the load: an
+   *  estimate for non-associated flow (doc/theory/limit_analysis.md). */
   std::array<double, 2>
   davis_estimate(const BoundedLoad &load,
                  const Scene       &scene,
@@ -62,11 +65,11 @@ namespace geocone::GEOCONE_DIM
                  const double       tolerance);
 
   /**
-   * Sizes that make the parts of the gap equal on the next mesh, where a part falls
-   * with the size to the power 3: its mean with the cells around counts, as a coarse
-   * cell beside others that are refined would have to wait for one more mesh.
+   * Sizes of the next mesh that equalise the contributions to the gap, which scale with
+   * the size to the power 3. Contributions are averaged with those of neighbouring
+   * cells: a coarse cell beside refined ones would otherwise be refined one mesh later.
    * @param gap CertifiedBounds::uneven
-   * @param n_wanted about so many triangles
+   * @param n_wanted approximate number of triangles
    */
   CellSizes
   sizes_by_gap(const Triangles           &triangles,

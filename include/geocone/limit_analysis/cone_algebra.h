@@ -9,8 +9,8 @@
 #include <algorithm>
 #include <cmath>
 
-/** The Jordan algebra of the cone {|x_t| <= x_0} of three components, and what an
- *  interior point method does with it, point by point. */
+/** Jordan algebra of the cone {|x_t| <= x_0} of three components, and the pointwise
+ *  operations of an interior-point method in it. */
 namespace geocone::cone_algebra
 {
   inline double
@@ -30,7 +30,7 @@ namespace geocone::cone_algebra
     return p;
   }
 
-  /** y with product(l, y) = d. */
+  /** Solution y of product(l, y) = d. */
   inline Eigen::Vector3d
   divide(const Eigen::Vector3d &l, const Eigen::Vector3d &d)
   {
@@ -42,7 +42,7 @@ namespace geocone::cone_algebra
     return y;
   }
 
-  /** The largest step with l + step d in the cone, at most 1/0.99. */
+  /** Largest step with l + step d in the cone, at most 1/0.99. */
   inline double
   step_in_cone(const Eigen::Vector3d &l, const Eigen::Vector3d &d)
   {
@@ -65,9 +65,9 @@ namespace geocone::cone_algebra
     return step;
   }
 
-  /** Nesterov's and Todd's scaling of a point: W z = W^-1 x, with
-   *  W = eta (w_0, w_t'; w_t, I + w_t w_t'/(1 + w_0)), w_0^2 = 1 + |w_t|^2. The matrices
-   *  are applied, not stored: loops over the points wait for memory. */
+  /** Nesterov-Todd scaling of a point: W z = W^-1 x, with W = eta (w_0, w_t'; w_t, I +
+   *  w_t w_t'/(1 + w_0)), w_0^2 = 1 + |w_t|^2. The matrices are applied instead of
+   *  stored, since loops over the points are limited by memory bandwidth. */
   struct Scaling
   {
     double          eta;
@@ -120,7 +120,7 @@ namespace geocone::cone_algebra
       return eta * eta * S;
     }
 
-    /** @name Of a cylinder, whose x_0 does not change */
+    /** @name For a cylinder, with constant x_0 */
     /** @{ */
     Eigen::Matrix2d
     tangential() const
@@ -137,7 +137,7 @@ namespace geocone::cone_algebra
                              (1. + 2. * w.tail<2>().squaredNorm()) *
                              w.tail<2>();
     }
-    /** dz_0 with (W^2 dz)_0 = r_0 for a given dz_t. */
+    /** Rate dz_0 with (W^2 dz)_0 = r_0 for a given dz_t. */
     double
     first_rate(const double r_0, const Eigen::Vector2d &dz_t) const
     {
@@ -147,7 +147,7 @@ namespace geocone::cone_algebra
     /** @} */
 
   private:
-    /** W v/eta, or its inverse with the other sign of w_t. */
+    /** W v/eta, or its inverse for the other sign of w_t. */
     Eigen::Vector3d
     turned(const Eigen::Vector2d &w_t, const Eigen::Vector3d &v) const
     {

@@ -12,21 +12,22 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * An edge of the boundary on which the body slides: on an obstacle, or along a
-   * side that is held normally and lies along neither x nor y. The force r of what
-   * is outside, per area, and the velocity u of the body relative to it do what a
-   * point of a body does with its stress and strain rate: r = (s_n, s_t) is in a
-   * cone |s_t| <= a s_n + k, and the associated rate is e = -(u_N, u_T).
+   * Boundary edge on which the body slides: on an obstacle, or along a side that is
+   * fixed in its normal direction and aligned with neither x nor y. The outside force r
+   * per area and the velocity u of the body relative to the outside correspond to
+   * stress and strain rate of a point: r = (s_n, s_t) is in a cone |s_t| <= a s_n + k,
+   * with the associated rate e = -(u_N, u_T).
    */
   struct Interface
   {
     Triangles::HeldEdge    held;
     dealii::Tensor<1, dim> normal;        ///< into the body, unit length
-    int                    obstacle = -1; ///< its number, or none
+    int                    obstacle = -1; ///< its index, or -1
 
     /**
-     * The sets in which r is, all of them: Coulomb's cone, r_N >= -t with the tensile
-     * strength t where the cone goes farther; or only |r_T| <= k where r_N is free.
+     * Sets whose intersection contains r: Coulomb's cone, and r_N >= -t with the
+     * tensile strength t if the cone extends beyond it; or |r_T| <= k alone, with free
+     * r_N.
      */
     struct Face
     {
@@ -35,8 +36,8 @@ namespace geocone::GEOCONE_DIM
     };
     std::vector<Face> faces;
 
-    /** Whether both of them bound r_N: then the body opens by w against the second one
-     *  alone, and (u_N - w, u_T) is the first one's. */
+    /** Whether both sets bound r_N. The body then opens by w against the second one
+     *  alone, and (u_N - w, u_T) belongs to the first. */
     bool
     opens() const
     {
@@ -44,12 +45,12 @@ namespace geocone::GEOCONE_DIM
     }
   };
 
-  /** @throws InputError if an obstacle touches no edge, or a part of one, or is in
+  /** @throws InputError if an obstacle touches no edge or a part of one, or penetrates
    *  the body */
   std::vector<Interface>
   interfaces(const Scene &scene, const Triangles &triangles);
 
-  /** Whether a normal is along x or y, where nodes are held without an interface. */
+  /** Whether a normal is along x or y, where nodes are fixed without an interface. */
   bool
   is_along_axis(const dealii::Tensor<1, dim> &normal);
 } // namespace geocone::GEOCONE_DIM

@@ -11,35 +11,34 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Where an interior-point method ended. */
+  /** Result of an interior-point method. */
   struct BoundSolution
   {
-    Eigen::VectorXd              q;                   ///< velocities, all dofs
-    std::vector<Eigen::Vector3d> s;                   ///< stress in cone axes
-    double                       load           = 0.; ///< by the stresses
+    Eigen::VectorXd              q; ///< velocities of all dofs
+    std::vector<Eigen::Vector3d> s; ///< stress in cone axes
+    double                       load           = 0.; ///< from the stresses
     unsigned int                 factorisations = 0;
     bool                         converged      = false;
     std::string                  reason; ///< why it did not converge
-    bool                         grows =
-      false; ///< with stresses beyond all bounds: no load is the limit
+    bool grows = false; ///< stresses are unbounded: no limit load
   };
 
   /**
-   * The pair of programmes of a BoundProblem,
-   *   static    max lambda: sum V Bs' (x - o) = lambda f + F0, x in K,
+   * Solver of the pair of programmes of a BoundProblem,
+   *   static max lambda: sum V Bs' (x - o) = lambda f + F0, x in K,
    *   kinematic min sum V o.z - F0.q: z = -Bs q in K, f.q = 1,
    * with x = (a s_n + k, s_t), Bs = diag(1/a, 1, 1) B, o = (k, 0, 0), K = {x_0 >=
-   * |x_t|}, by a primal-dual interior-point method from an infeasible start, with
-   * the scaling of Nesterov and Todd, Mehrotra's corrector, and a unit weight of
-   * each cone in the barrier (rates times V/mean V). For Tresca's cylinder x_0 = k
-   * is eliminated in the point, and s_n is found by the method of multipliers. One
-   * sparse Cholesky factorisation per iteration.
+   * |x_t|}. A primal-dual interior-point method from an infeasible start, with
+   * Nesterov-Todd scaling, Mehrotra's corrector, and a unit weight of each cone in the
+   * barrier (rates times V/mean V). For Tresca's cylinder x_0 = k is eliminated at the
+   * point, and s_n is found by the method of multipliers. One sparse Cholesky
+   * factorisation per iteration.
    *
-   * Stresses are to be in equilibrium to rounding. What an iterate lacks is added in
-   * the metric of its cones, which leaves them by the less the farther the iterate
-   * is from their borders: the last one is not always the best of them. Where they
-   * count, the stresses are those of the iterate whose load, scaled back until all
-   * are in their cones, is the highest.
+   * Stresses must be in equilibrium to rounding. The residual of an iterate is removed
+   * in the metric of its cones, which violates them less the farther the iterate is
+   * from their boundaries: the last iterate is not always the best one. If stresses are
+   * wanted, the result is those of the iterate with the highest load after all stresses
+   * are scaled back into their cones.
    */
   class InteriorPoint
   {
@@ -48,18 +47,18 @@ namespace geocone::GEOCONE_DIM
     {
       double       tolerance      = 1e-4; ///< inner gap, relative to the load
       double       flow_tolerance = 1e-8; ///< |z + Bs q| relative to |Bs q|
-      double       flow_margin = 0.; ///< -Bs q is to be so far in K, likewise
+      double       flow_margin    = 0.;   ///< margin of -Bs q in K, likewise
       double       equilibrium_tolerance = 1e-4; ///< relative to the forces
       unsigned int max_iterations        = 60;
 
-      /** Whether the stresses of the iterates count, and not the velocities. */
+      /** Whether the stresses of the iterates are wanted, and not the velocities. */
       bool stresses = false;
 
-      /** What stresses are to be in their cones by, as if k were so much less: what
-       *  cannot be scaled back into them is then in them soon. */
+      /** Safety margin of the stresses in their cones, as a reduction of k: stresses
+       *  that cannot be scaled back then become admissible soon. */
       double strength_margin = 0.;
 
-      unsigned int correctors = 2; ///< at most, of an iteration
+      unsigned int correctors = 2; ///< maximum per iteration
     };
 
     static BoundSolution

@@ -21,19 +21,18 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** What is computed of a scene. */
+  /** Kind of analysis of a scene. */
   enum class AnalysisKind
   {
-    steps,             ///< its motion, step by step
-    limit_load,        ///< strict bounds of its limit load
-    strength_reduction ///< strict bounds of its factor of safety
+    steps,             ///< motion, step by step
+    limit_load,        ///< strict bounds of the limit load
+    strength_reduction ///< strict bounds of the factor of safety
   };
 
   /**
-   * The limit load of a rigid-plastic scene with associated flow, or the factor of
-   * safety of its strength, between strict bounds, on meshes that are made anew
-   * where the bounds differ: a level is a
-   * step of the run.
+   * Limit analysis of a rigid-plastic scene with associated flow: strict bounds of the
+   * limit load, or of the factor of safety, on meshes refined adaptively where the
+   * bounds differ. Each level is a step of the run.
    */
   class LimitAnalysis : public Simulation, public dealii::ParameterAcceptor
   {
@@ -53,61 +52,61 @@ namespace geocone::GEOCONE_DIM
     }
 
   private:
-    /** Of the interior-point method. */
+    /** Tolerance of the interior-point method. */
     double
     inner_tolerance() const
     {
       return std::min(tolerance, gap_tolerance / 10.);
     }
 
-    /** @throws InputError for parameters out of their range, ranks and particles */
+    /** @throws InputError for parameters out of range, several ranks and particles */
     void
     check_parameters() const;
 
-    /** Checks the scene, and that it has strict bounds. @throws InputError */
+    /** Checks the scene, and that it admits strict bounds. @throws InputError */
     void
     prepare_scene(const RunOptions &options);
 
-    /** Warnings of its sizes, of a mesh that stays and of loads that grow. */
+    /** Warnings about the scene's sizes, a fixed mesh and growing loads. */
     std::vector<std::string>
     warnings_of(const dealii::BoundingBox<dim> &body) const;
 
-    /** @throws InputError if the table of water cuts cells of the first mesh */
+    /** @throws InputError if the water table cuts cells of the first mesh */
     void
     check_water() const;
 
-    /** Whether the factor of safety is bounded, not a load. */
+    /** Whether the factor of safety is bounded instead of a load. */
     bool
     reduces_strength() const
     {
       return analysis == AnalysisKind::strength_reduction;
     }
 
-    /** What is bounded, in messages. */
+    /** Name of the bounded quantity, for messages. */
     std::string
     bounded() const
     {
       return reduces_strength() ? "factor of safety" : "load";
     }
 
-    /** Bounds the load on the present mesh. @throws StepFailure if there is none */
+    /** Bounds the load on the present mesh. @throws StepFailure if there is no bound */
     BoundLevel
     bound_load();
 
-    /** Bounds the factor of safety there. @throws StepFailure alike */
+    /** Bounds the factor of safety on the present mesh. @throws StepFailure likewise */
     BoundLevel
     bound_factor();
 
-    /** How many the next mesh is asked to have. */
+    /** Number of cells requested of the next mesh. */
     double
     next_cells(const BoundLevel &level);
 
-    /** Davis's estimate of what is bounded, where flow is not associated: both
-     *  bounds on the last mesh. */
+    /** Davis's estimate for non-associated flow: both bounds of the bounded quantity on
+     *  the last mesh. */
     std::array<double, 2>
     estimate_by_davis() const;
 
-    /** What the levels have proven, with that estimate. */
+    /** The bracket certified so far, with that estimate. */
     LoadBracket
     bracket() const;
 
@@ -157,11 +156,11 @@ namespace geocone::GEOCONE_DIM
     double       tolerance     = 1e-3;
 
     std::optional<CellSizes> sizes; ///< of the next mesh
-    double asked_cells = 0.;        ///< of it, or 0 for the first one
+    double asked_cells = 0.;        ///< requested of it, or 0 for the first one
 
     std::optional<std::array<double, 2>> davis; ///< of the last mesh
 
-    /** @name The last level */
+    /** @name Last level */
     /** @{ */
     std::optional<Triangles> triangles;
     CertifiedBounds          bounds;

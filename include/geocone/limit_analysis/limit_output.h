@@ -15,8 +15,7 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** A level of a limit analysis: a mesh with both bounds, in the unit of the
-   *  load. */
+  /** Level of a limit analysis: a mesh with both bounds, in the unit of the load. */
   struct BoundLevel
   {
     unsigned int number = 0; ///< from 1
@@ -39,33 +38,34 @@ namespace geocone::GEOCONE_DIM
     state(StateRow &row);
   };
 
-  /** The best certified bounds of some levels, those of every mesh hold for the
-   *  body, and what they took. */
+  /** The best certified bounds of some levels, with their total cost: the bounds of
+   *  every mesh hold for the body. */
   LoadBracket
   best_of(const std::vector<BoundLevel> &levels);
 
   /**
-   * The order of the gap in the number of triangles: minus the slope of log(gap) over
-   * log(triangles) in the last three meshes that have both bounds, by least squares;
-   * nothing where fewer than two have.
+   * Order of convergence of the gap in the number of triangles: minus the slope of
+   * log(gap) over log(triangles) of the last three meshes with both bounds, by least
+   * squares. Empty if fewer than two meshes have both bounds.
    */
   std::optional<double>
   order_of_gap(const std::vector<BoundLevel> &levels);
 
-  /** What is written of a limit analysis: bounds.csv, a line per level, the fields
-   *  of the levels, and the summary. */
+  /** Output of a limit analysis: bounds.csv with a line per level, the fields of the
+   *  levels, and the summary. */
   class LimitOutput : public TableOutput<BoundLevel>
   {
   public:
     using TableOutput::TableOutput;
 
-    /** @param unit of the load, e.g. "N/m"; @param reference or nothing */
+    /** @param unit of the load, e.g. "N/m"
+     *  @param reference or nothing */
     void
     prepare(const RunOptions           &options,
             const std::string          &unit,
             const std::optional<double> reference);
 
-    /** Writes the triangles with both mechanisms and their part of the gap. */
+    /** Writes the triangles with both mechanisms and their contributions to the gap. */
     void
     write_fields(const double               number,
                  const Triangles           &triangles,
@@ -74,7 +74,7 @@ namespace geocone::GEOCONE_DIM
                  const Bound               &lower,
                  const std::vector<double> &gap);
 
-    /** The topic "bounds" of the summary, of one level at least. */
+    /** Topic "bounds" of the summary, for at least one level. */
     Json
     bounds(const LoadBracket &bracket) const;
 

@@ -13,14 +13,14 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * The sizes of a mesh of about MeshParameters::number triangles on which a step
-   * can find the limit load of a scene: those that make the parts of the triangles
-   * in the gap of its strict bounds equal. Meshes grow twofold from that of the
-   * other parameters until they have as many triangles, and three more of that size
-   * follow: what is singular becomes finer each time. Flow counts as associated.
-   * Collective; the first rank computes, and has the bracket of the load on the way,
-   * with Davis's estimate where flow is not associated.
-   * @throws InputError for scenes that have no such bounds
+   * Sizes of a mesh of about MeshParameters::number triangles for incremental analyses
+   * of the limit load: they equalise the triangles' contributions to the gap of strict
+   * bounds. Meshes double in size from the one of the other parameters until they have
+   * that many triangles; three more of that size follow and refine singularities
+   * further. Flow is assumed to be associated. Collective; the first rank computes and
+   * also returns the bracket of the load, with Davis's estimate for non-associated
+   * flow.
+   * @throws InputError for scenes without such bounds
    */
   std::pair<CellSizes, LoadBracket>
   sizes_from_bounds(const MeshParameters &parameters,

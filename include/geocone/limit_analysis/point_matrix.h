@@ -13,10 +13,8 @@
 
 namespace geocone
 {
-  /**
-   * The matrix sum_p B_p' C_p B_p of the free dofs of some points, C_p symmetric 3 x 3,
-   * with its Cholesky factors.
-   */
+  /** Matrix sum_p B_p' C_p B_p of the free dofs of some points, C_p symmetric 3 x 3,
+   *  with its Cholesky factors. */
   class PointMatrix
   {
   public:
@@ -28,14 +26,14 @@ namespace geocone
     using Blocks = std::vector<Eigen::Matrix3d>;
 
     /**
-     * Assembles and factorises; the diagonal is raised by a part of 1e-15, for
+     * Assembles and factorises. A relative shift of the diagonal of 1e-15 regularises
      * redundant equations.
-     * @return whether it is positive definite
+     * @return whether the matrix is positive definite
      */
     bool
     factorise(const Blocks &blocks);
 
-    /** Solves in the free dofs; others are zero. */
+    /** Solves for the free dofs; all others are zero. */
     Eigen::VectorXd
     solve(const Eigen::VectorXd &rhs) const;
 
@@ -44,15 +42,15 @@ namespace geocone
   private:
     const PointStrains         &strains;
     std::vector<int>            row_of_dof; ///< or -1
-    std::vector<int>            place;      ///< of entries of the points, or -1
+    std::vector<int>            place;      ///< of each entry, or -1
     Eigen::SparseMatrix<double> matrix;     ///< lower triangle
 
-    /** Makes the matrix, empty, of the rows as they are numbered. */
+    /** Sets the sparsity pattern for rows in their present order. */
     void
     set_pattern(const unsigned int n_rows);
 
-    /** Calls f(row, column) for each entry on or below the diagonal that a point has,
-     *  in the order of `place`; negative where a dof is prescribed. */
+    /** Calls f(row, column) for each entry on or below the diagonal of a point, in the
+     *  order of `place`; negative where a dof is prescribed. */
     template <typename Function>
     void
     for_entries(const Function &f) const;
@@ -61,11 +59,11 @@ namespace geocone
       : public Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<double>>
     {
     public:
-      /** The place of each row in an order of elimination with little fill. */
+      /** Position of each row in an elimination order with little fill. */
       std::vector<int>
       fill_reducing_order(const Eigen::SparseMatrix<double> &matrix);
 
-      /** For a matrix that is in such an order. */
+      /** Analyses a matrix that is already in such an order. */
       void
       analyse_as_it_is(const Eigen::SparseMatrix<double> &matrix);
     };

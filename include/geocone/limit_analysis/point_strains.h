@@ -12,10 +12,10 @@
 namespace geocone
 {
   /**
-   * The matrices B_p of the strain rates B_p q of points, each with those dofs only
-   * that the point knows: of the linear stresses' dual 6 of the 14 of a cell, of
-   * quadratic velocities 10 of 12. They are in a row in memory, which is what loops
-   * over points wait for.
+   * Matrices B_p of the strain rates B_p q of points, restricted to the dofs that
+   * contribute: 6 of the 14 of a cell for the dual of linear stresses, 10 of 12 for
+   * quadratic velocities. They are contiguous, since loops over points are limited by
+   * memory bandwidth.
    */
   class PointStrains
   {
@@ -26,21 +26,22 @@ namespace geocone
      *  13 */
     explicit PointStrains(const unsigned int n_columns);
 
-    /** Adds a point. @param B a column for each of the dofs; those that are zero are
-     *  left out */
+    /**
+     * Adds a point. @param B a column for each of the dofs; zero columns are dropped
+     */
     void
     add(const Eigen::Matrix<double, 3, Eigen::Dynamic> &B,
         const std::vector<unsigned int>                &dofs);
 
-    /** Takes a point out of everything. */
+    /** Excludes a point from all sums. */
     void
     remove(const unsigned int point);
 
-    /** Whether a point has no part in anything. */
+    /** Whether a point is excluded. */
     bool
     is_removed(const unsigned int point) const;
 
-    /** Divides the row of the normal strain of a point. */
+    /** Divides the normal-strain row of a point. */
     void
     divide_normal(const unsigned int point, const double by);
 
@@ -54,14 +55,14 @@ namespace geocone
     std::vector<Eigen::Vector3d>
     rates(const Eigen::VectorXd &q) const;
 
-    /** sum_p V_p B_p' s_p from a point on, in as many dofs as asked. */
+    /** Forces sum_p V_p B_p' s_p of the points from first_point on, in n_dofs dofs. */
     Eigen::VectorXd
     forces(const std::vector<double>          &volume,
            const std::vector<Eigen::Vector3d> &s,
            const unsigned int                  n_dofs,
            const unsigned int                  first_point = 0) const;
 
-    /** Calls f with the number of dofs of a point as a constant. */
+    /** Calls f with the number of dofs per point as a compile-time constant. */
     template <typename Function>
     void
     with_n_columns(const Function &f) const
@@ -85,8 +86,8 @@ namespace geocone
         &values[3 * n * point]);
     }
 
-    /** Its dofs, n_columns of them; where it knows fewer, some are there twice, with
-     *  zeros in B. */
+    /** Dofs of a point, n_columns of them; for fewer, some are repeated with zeros in
+     *  B. */
     const unsigned int *
     dofs_of(const unsigned int point) const
     {
@@ -95,8 +96,8 @@ namespace geocone
 
   private:
     unsigned int              n_columns = 0;
-    std::vector<double>       values; ///< by points, rows, columns
-    std::vector<unsigned int> dofs;   ///< by points, columns
+    std::vector<double>       values; ///< order: points, rows, columns
+    std::vector<unsigned int> dofs;   ///< order: points, columns
   };
 } // namespace geocone
 

@@ -13,38 +13,37 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * The factor of safety F of a body: that by which c and tan(phi) of all its
-   * materials are divided at the limit. With the bounds lambda^-(F) and lambda^+(F)
-   * of the factor of all loads, F is safe if lambda^- >= 1 (all loads at once are
-   * then borne, as stresses in equilibrium with nothing and with lambda^- times the
-   * loads are both within the strength, and so is what lies between), and fails if
-   * lambda^+ <= 1. Both are certificates: no convergence is asked for.
+   * Factor of safety F of a body: the divisor of c and tan(phi) of all its materials at
+   * the limit. Let lambda^-(F) and lambda^+(F) be the bounds of the factor of all
+   * loads. F is safe if lambda^- >= 1: the zero stress and the stresses in equilibrium
+   * with lambda^- times the loads are both admissible, and so are their convex
+   * combinations, one of which carries the loads. F fails if lambda^+ <= 1. Both are
+   * certificates that need no convergence.
    *
-   * On each mesh the roots of both bounds are found by secants of log lambda over
-   * log F, and confirmed by one more solution a thousandth on the safe side.
+   * On each mesh the roots of both bounds are found by secants of log lambda over log
+   * F, and each is confirmed by one more solution a thousandth on the safe side.
    */
   class StrengthReduction
   {
   public:
-    /** The scene with the strength divided by F, on the present mesh. */
+    /** Returns the scene with the strength divided by F, on the present mesh. */
     using Reduced = std::function<BoundScene(const double F)>;
 
     struct Level
     {
-      /** Both bounds of the load at the factor. */
+      /** Both bounds of the load at `factor`. */
       double          factor = 1.;
       CertifiedBounds bounds;
 
-      /** What has been proven on this mesh, if anything. */
+      /** Bounds of F certified on this mesh, if any. */
       std::optional<double> lower, upper;
 
-      /** All factorisations of the mesh, of either problem. */
+      /** All factorisations on the mesh, of either problem. */
       unsigned int iterations_lower = 0, iterations_upper = 0;
     };
 
     /** @param tolerance of the interior-point method, relative to the load
-     *  @throws StepFailure if no factor makes the body fail, or none bears its
-     *  loads */
+     *  @throws StepFailure if no factor makes the body fail, or if none is safe */
     Level
     on_mesh(const Reduced &reduced, const double tolerance);
 
@@ -55,13 +54,13 @@ namespace geocone::GEOCONE_DIM
     }
 
   private:
-    /** Proves factors near the root of each bound that is usable. */
+    /** Certifies factors near the root of each usable bound. */
     void
     prove_root(const Reduced &reduced,
                const double   tolerance,
                Level         &level) const;
 
-    double factor   = 1.; ///< from where the next mesh begins
+    double factor   = 1.; ///< initial value for the next mesh
     double exponent = 1.; ///< -d log lambda/d log F
   };
 } // namespace geocone::GEOCONE_DIM

@@ -14,7 +14,7 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** The triangles of a mesh as plain arrays. */
+  /** Triangles of a mesh as plain arrays. */
   struct Triangles
   {
     explicit Triangles(const CoarseMesh &mesh);
@@ -34,8 +34,8 @@ namespace geocone::GEOCONE_DIM
 
     std::map<std::string, dealii::types::boundary_id> sides;
 
-    /** The edges of the boundary that a condition holds.
-     *  @throws InputError if there is none, or one is partly in its box */
+    /** Boundary edges on which a condition acts.
+     *  @throws InputError if there is none, or if one is partly in its box */
     struct HeldEdge
     {
       unsigned int edge, cell, opposite_vertex;
@@ -43,7 +43,7 @@ namespace geocone::GEOCONE_DIM
     std::vector<HeldEdge>
     held_edges(const BoundaryCondition &condition) const;
 
-    /** All edges of the boundary. */
+    /** All boundary edges. */
     std::vector<HeldEdge>
     outer_edges() const;
 
