@@ -43,7 +43,7 @@ namespace geocone
     taken_away          = removed;
     removed_potential   = potential_part;
     const double before = lost;
-    // By differences: a potential energy may be large against what it changes by.
+    // Differences first: the potential energy may be large compared with its changes.
     lost = done.external + released() - done.dissipated() -
            (taken_away - removed_potential) -
            (last.kinetic - at_start.kinetic) -
@@ -84,7 +84,7 @@ namespace geocone
                                  const double       least,
                                  const std::string &remedy)
   {
-    // What rounding leaves of nothing is no energy.
+    // Energy within rounding of zero is ignored.
     const double scale = std::max(turnover(), least);
     if (warned || !(lost < -tolerance * scale) || !(lost < -1e-12))
       return;
@@ -111,7 +111,7 @@ namespace geocone
     const Json       out   = weight_changes ? Json() : Json(released());
     constexpr double least = std::numeric_limits<double>::min();
     const double     scale = std::max(turnover(), least);
-    // What the loss of a step is rounded by.
+    // Rounding error of a step's loss.
     const double rounding = std::max({std::abs(done.external),
                                       std::abs(released()),
                                       last.elastic,

@@ -73,7 +73,7 @@ namespace geocone::GEOCONE_DIM
                         const bool            points_move,
                         const double          t) const
   {
-    // Squares of |u_h - u|, |u|, |s_h - s|, |s|, integrated.
+    // Integrals of the squares of |u_h - u|, |u|, |s_h - s|, |s|.
     std::array<double, 4> sums  = {};
     const auto add_displacement = [&](const dealii::Tensor<1, dim> &u_h,
                                       const dealii::Point<dim>     &x,

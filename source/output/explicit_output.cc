@@ -122,8 +122,8 @@ namespace geocone::GEOCONE_DIM
     const Exchange &e = record.exchange;
     Works           works;
     works.external = e.support_work;
-    // Where the weight changes, its work is not what the potential energy loses:
-    // the rest is that of an external force.
+    // If the weight changes, its work differs from the loss of potential energy: the
+    // difference is the work of an external force.
     if (scene->gravity.is_ramped())
       works.external +=
         e.gravity_work - (initial.energies.potential - e.removed_potential -
@@ -156,10 +156,10 @@ namespace geocone::GEOCONE_DIM
                  std::max(s.energies.kinetic, initial.energies.kinetic))});
     add_record(record);
 
-    // At the start next to nothing is turned over: a hundred-thousandth of what the
-    // weight could do over the size of the body counts as such. Velocities are known
-    // half a step before stresses, so that energies which grow are off by what a step
-    // does: twice its mean may be missing.
+    // The initial turnover is almost zero; its lower limit is a hundred-thousandth of
+    // the work of the weight over the size of the body. Velocities are known half a
+    // step before stresses, so that growing energies are off by their change in a step:
+    // twice its mean is tolerated.
     const double turned_by_weight = 1e-5 * initial.mass *
                                     scene->gravity.at(record.time).norm() *
                                     initial.lower.distance(initial.upper);
@@ -182,7 +182,7 @@ namespace geocone::GEOCONE_DIM
     FieldTable table;
     for (const PointArrays &group : groups)
       table.n_nodes += group.n_points();
-    // A column whose values are functions of the group, the point and a component.
+    // Generates a column from a function of the group, the point and a component.
     const auto filled = [&](const unsigned int n_components,
                             const auto        &value) {
       return [&, n_components, value](std::vector<double> &to) {
@@ -220,8 +220,7 @@ namespace geocone::GEOCONE_DIM
     add("material", [](const Group &g, Index, Index) { return g.of_material; });
     add("volume",
         [](const Group &g, const Index p, Index) { return g.volume[p]; });
-    if (scene->geometry
-          .is_axisymmetric()) // what a point is in the plane of pictures
+    if (scene->geometry.is_axisymmetric()) // section of a point in the plane
       add("area", [this](const Group &g, const Index p, Index) {
         return g.volume[p] /
                Geometry::measure(scene->geometry.symmetry, g.position.of(p));
@@ -233,7 +232,7 @@ namespace geocone::GEOCONE_DIM
       return g.cumulative_plastic_strain[p];
     });
 
-    // What any of the laws can show; where a law cannot, not a number.
+    // Output quantities of all laws; not a number where a law has none.
     for (const std::string &name : scene->materials.shown_names())
       table.columns.push_back({name, 1, [&, name](std::vector<double> &to) {
                                  double *next = to.data();
@@ -346,7 +345,7 @@ namespace geocone::GEOCONE_DIM
     double               largest = 0.;
     for (const ExplicitRecord &record : records)
       largest = std::max(largest, momentum_residual(record).norm());
-    // What a turning body of this size and energy would have.
+    // Angular momentum scale of a rotating body of this size and energy.
     const double turning =
       std::sqrt(2. * initial.mass * initial.energies.kinetic) *
       (initial.lower.norm() + initial.upper.norm());

@@ -31,7 +31,7 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    /** Does something unless there is a problem; says what goes wrong. */
+    /** Performs an action unless there is a problem; catches errors as a problem. */
     void
     attempt(std::string &problem, const std::function<void()> &action)
     {
@@ -53,7 +53,7 @@ namespace geocone::GEOCONE_DIM
           }
     }
 
-    /** A name in a text between the marks of XML. */
+    /** Escapes a name for XML attributes. */
     std::string
     escaped(const std::string &name)
     {
@@ -88,7 +88,7 @@ namespace geocone::GEOCONE_DIM
       out.write(text.data(), text.size());
     }
 
-    /** Numbers as VTK wants them: blocks of zlib, and before them their sizes. */
+    /** Encodes numbers for VTK: zlib blocks preceded by their sizes. */
     template <typename T>
     void
     write_blocks(std::ostream &out, const std::vector<T> &values)
@@ -109,7 +109,7 @@ namespace geocone::GEOCONE_DIM
           const std::size_t end  = packed.size();
           uLongf            room = compressBound(size);
           packed.resize(end + room);
-          // Better compression takes ten times as long for a fifth of the size.
+          // Better compression takes ten times as long and saves a fifth of the size.
           const int result =
             compress2(&packed[end], &room, bytes + first, size, Z_BEST_SPEED);
           if (result == Z_MEM_ERROR)
@@ -129,14 +129,14 @@ namespace geocone::GEOCONE_DIM
       out << "\n";
     }
 
-    /** The attributes of an array of three-dimensional vectors or scalars. */
+    /** XML attributes of an array of three-dimensional vectors or scalars. */
     std::string
     components(const unsigned int n)
     {
       return n > 1 ? " NumberOfComponents=\"3\"" : "";
     }
 
-    /** In single precision, vectors with a third component 0. */
+    /** Converts to single precision; vectors get a third component 0. */
     std::vector<float>
     as_vtk(const std::vector<double> &values, const unsigned int n_components)
     {
@@ -244,7 +244,7 @@ namespace geocone::GEOCONE_DIM
       out << "</Collection>\n</VTKFile>\n";
     }
 
-    /** The reference of an XDMF record to an array of the .h5 file. */
+    /** Reference of an XDMF file to an array of the .h5 file. */
     std::string
     data_item(const std::string &file,
               const std::string &name,
@@ -259,13 +259,13 @@ namespace geocone::GEOCONE_DIM
              escaped(file + ":/" + name) + "\n</DataItem>\n";
     }
 
-    /** The meshes of all states in VTKHDF's terms. Cells have nodes of their own, so
-     *  states of as many nodes have the same ones, and share a mesh. */
+    /** Meshes of all states in VTKHDF's terms. Cells share no nodes, so states with the
+     *  same number of nodes share a mesh. */
     struct VtkhdfMeshes
     {
       using Integers = std::vector<long long>;
 
-      /** The number of the mesh of a state, which its file holds. */
+      /** Index of the mesh of a state, stored in its file. */
       std::size_t
       find_or_add(const FieldTable  &table,
                   const std::string &file,
@@ -341,7 +341,7 @@ namespace geocone::GEOCONE_DIM
     if (format != FieldsFormat::hdf5)
       {
         attempt(problem, [&]() { write_as_vtu(table, folder, time, comm); });
-        // A record names only pieces that are there.
+        // The index names only existing pieces.
         end_together();
         attempt(problem, [&]() { record_vtu(table, folder, time, comm); });
       }
@@ -409,7 +409,7 @@ namespace geocone::GEOCONE_DIM
     const unsigned int        n    = table.nodes_per_cell();
     const std::string         file = base + geocone::format("-%04u.h5", number);
     std::unique_ptr<Hdf5File> out;
-    // Nothing but the arrays of all ranks is asked for between the attempts.
+    // Between the attempts only the arrays of all ranks are collected.
     if (writes)
       attempt(problem, [&]() {
         out = std::make_unique<Hdf5File>(folder + "/" + file,
@@ -520,7 +520,7 @@ namespace geocone::GEOCONE_DIM
       return all;
     };
 
-    // The names are VTKHDF's.
+    // Names defined by VTKHDF.
     Hdf5File out(folder + "/" + base + ".vtkhdf", Hdf5File::Access::create);
     out.write_attribute("VTKHDF", "Version", Integers{2, 0});
     out.write_attribute("VTKHDF", "Type", std::string("UnstructuredGrid"));

@@ -12,7 +12,7 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    /** The linear cells, in unit coordinates, that a cell of degree p shows as. */
+    /** Linear cells, in unit coordinates, that represent a cell of degree p. */
     std::vector<std::vector<Point<dim>>>
     sub_cells(const unsigned int p, const bool simplicial)
     {
@@ -30,8 +30,9 @@ namespace geocone::GEOCONE_DIM
         {
           if (simplicial)
             {
-              // Of degree 2 four at the corners, and the octahedron between them in
-              // four around its diagonal from the middle of 01 to that of 23.
+              // For degree 2: four at the corners, and the octahedron between them
+              // split into four around its diagonal from the midpoint of 01 to that of
+              // 23.
               if (p == 1)
                 return {{x(0, 0, 0), x(1, 0, 0), x(0, 1, 0), x(0, 0, 1)}};
               const Point<dim> o = x(1, 0, 0), q = x(0, 1, 1);
@@ -71,14 +72,14 @@ namespace geocone::GEOCONE_DIM
       return cells;
     }
 
-    /** A component of the tensor of a Mandel vector. */
+    /** Tensor component of a Mandel vector. */
     double
     component(const Mandel &t, const int i)
     {
       return is_shear(i) ? t[i] / sqrt2 : t[i];
     }
 
-    /** What is written of each cell: the material, and means. */
+    /** Names of the cell data: the material and means. */
     std::vector<std::string>
     names_of_means(const Materials &materials)
     {
@@ -92,7 +93,7 @@ namespace geocone::GEOCONE_DIM
       return names;
     }
 
-    /** The material and the means over volume that names_of_means() names. */
+    /** The material and the volume means listed by names_of_means(). */
     std::vector<double>
     means_of_cell(const MaterialPoints &points,
                   const Materials      &materials,
@@ -124,7 +125,7 @@ namespace geocone::GEOCONE_DIM
       return means;
     }
 
-    /** The components of points or vectors, one after another. */
+    /** Components of points or vectors, one after another. */
     template <typename Values>
     FieldTable::Fill
     components(const Values &values)
@@ -141,7 +142,8 @@ namespace geocone::GEOCONE_DIM
       return [from = std::move(from)](std::vector<double> &to) { to = from; };
     }
 
-    /** Cells as linear ones, with vectors on nodes and means, which the table holds. */
+    /** Table of cells as linear ones, with nodal vectors and means, which the table
+     *  owns. */
     FieldTable
     table_of_cells(const BackgroundMesh                              &mesh,
                    const Space                                       &space,
@@ -197,7 +199,7 @@ namespace geocone::GEOCONE_DIM
       return table;
     }
 
-    /** The points with their variables, all of which stay where they are. */
+    /** Table of the points with their variables, which must outlive it. */
     FieldTable
     table_of_points(const BackgroundMesh &mesh,
                     const MaterialPoints &points,
@@ -223,7 +225,7 @@ namespace geocone::GEOCONE_DIM
         }
       add("material", [&](const std::size_t p) { return points.material[p]; });
       add("volume", [&](const std::size_t p) { return points.volume[p]; });
-      // What a point is in the plane of the pictures.
+      // Section of a point in the plane.
       if (mesh.is_axisymmetric())
         add("area", [&](const std::size_t p) {
           return points.volume[p] / mesh.measure(points.position[p]);
@@ -256,7 +258,7 @@ namespace geocone::GEOCONE_DIM
       add("cumulative_plastic_strain", [&](const std::size_t p) {
         return points.cumulative_plastic_strain[p];
       });
-      if (moving) // their order changes from time to time
+      if (moving) // their order changes
         add("id", [&](const std::size_t p) { return points.id[p]; });
       return table;
     }
@@ -272,7 +274,7 @@ namespace geocone::GEOCONE_DIM
                 const Kinematics     &kinematics)
   {
     const MPI_Comm comm = mesh.triangulation().get_communicator();
-    // Also on a rank that has no points, to write the same data as the others.
+    // Also on a rank without points, so that all ranks write the same data.
     const bool moving =
       Utilities::MPI::logical_or(!points.values.empty(), comm);
     std::vector<std::pair<std::string, Vector>> on_nodes;
@@ -301,7 +303,7 @@ namespace geocone::GEOCONE_DIM
     const MPI_Comm comm    = mesh.triangulation().get_communicator();
     const auto [low, high] = mesh.bounding_box().get_boundary_points();
 
-    // All of them by the first rank.
+    // The first rank writes all of them.
     std::vector<double> places, numbers;
     if (Utilities::MPI::this_mpi_process(comm) == 0)
       for (unsigned int o = 0; o < obstacles.list.size(); ++o)

@@ -12,9 +12,10 @@ namespace geocone
   namespace
   {
     /**
-     * The branch of the curve, between two reversals of the displacement, with
-     * the most work, taken (footing) or given (active wall): the loading, not a rest, an unloading or a reloading
-     * that is cut short. Its displacements count from its beginning.
+     * Loading branch of the curve: the branch between two reversals of the displacement
+     * with the most work, done by the support (footing) or on it (active wall), as
+     * opposed to rests, unloading, or interrupted reloading. Its displacements start at
+     * zero.
      */
     std::vector<LoadPoint>
     main_branch(const std::vector<LoadPoint> &curve)
@@ -67,10 +68,10 @@ namespace geocone
       return length > 0. ? sum / length : 0.;
     }
 
-    /** A step that covers more than this part of a plateau is all of it. */
+    /** A step that covers more than this fraction of a plateau counts as all of it. */
     constexpr double nearly_all = 0.9;
 
-    /** The step that covers nearly all from begin to the end; 0: there is none. */
+    /** Index of the step that covers nearly all from begin to the end; 0 if none. */
     std::size_t
     only_step(const std::vector<LoadPoint> &branch, const double begin)
     {

@@ -84,7 +84,7 @@ namespace geocone
       format("incremental %s %.6g", name.c_str(), incremental) +
       (unit.empty() ? "" : " " + unit);
     const auto against = [&](const double other, const char *what) {
-      // A reaction that is observed with the other sign is no part of it.
+      // A reaction observed with the other sign is not comparable.
       if (other * incremental <= 0.)
         return;
       line +=

@@ -16,10 +16,10 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    /** Larger meshes are not legible in a picture. */
+    /** Limit of a legible picture. */
     constexpr std::size_t most_cells_drawn = 30000;
 
-    /** Parts of a face in the plane, of which a condition may hold some. */
+    /** Subdivisions of a face, some of which may belong to a condition. */
     const std::array<unsigned int, dim - 1> number_of_parts = {{8}};
 
     template <int size>
@@ -42,7 +42,7 @@ namespace geocone::GEOCONE_DIM
       return all;
     }
 
-    /** The parts of a face that a condition holds. */
+    /** Parts of a face on which a condition acts. */
     std::vector<SidePart>
     held_parts(const SidePart &face, const BoundaryCondition &condition)
     {
@@ -66,8 +66,8 @@ namespace geocone::GEOCONE_DIM
       return held;
     }
 
-    /** Times at which prescribed values are looked at: the ends of the stages and of
-     *  tenths of them. */
+    /** Sampling times of prescribed values: the ends of the stages and of tenths of
+     *  them. */
     std::vector<double>
     times_of(const LoadingProgramme &loading)
     {
@@ -81,8 +81,8 @@ namespace geocone::GEOCONE_DIM
       return times;
     }
 
-    /** The vector of a condition at a place: the largest of those times. Components that
-     *  it does not prescribe are 0. */
+    /** Largest vector of a condition at a position over those times. Free components
+     *  are 0. */
     Tensor<1, dim>
     largest_value(const BoundaryCondition   &condition,
                   const SidePart            &face,
@@ -105,7 +105,7 @@ namespace geocone::GEOCONE_DIM
       return largest;
     }
 
-    /** Conditions with their faces and, of each, the largest value. */
+    /** Conditions with their faces and the largest value on each. */
     Json
     conditions_of(const BoundaryConditions  &conditions,
                   const ModelMesh           &mesh,
@@ -133,8 +133,8 @@ namespace geocone::GEOCONE_DIM
       return all;
     }
 
-    /** Which points of a lattice over the body a function selects, by rows from below:
-     *  for what a formula describes. */
+    /** Row-wise lattice points over the body selected by a function, for shapes given
+     *  by formulas. */
     template <typename Selected>
     Json
     lattice_of(const Geometry &geometry, const Selected &selected)
@@ -174,7 +174,7 @@ namespace geocone::GEOCONE_DIM
               sides[name] = json_of_places(geometry.side_ends(id));
           body["sides"] = sides;
         }
-      // Outlines describe neither discs nor the part where a formula is positive.
+      // Outlines describe neither discs nor the region where a formula is positive.
       if (dim == 2 && geometry.shape != Geometry::Shape::file &&
           (geometry.outline.empty() || geometry.is_part_by_formula()))
         body["lattice"] = lattice_of(
@@ -228,14 +228,15 @@ namespace geocone::GEOCONE_DIM
       return all;
     }
 
-    /** Whether a condition of particles is on the sides of the body, not of the mesh. */
+    /** Whether a condition of particles acts on the sides of the body instead of the
+     *  mesh. */
     bool
     is_on_body(const BoundaryCondition &condition)
     {
       return condition.moves() || condition.is_traction();
     }
 
-    /** The sides of a box that a condition is on. */
+    /** Sides of a box on which a condition acts. */
     std::vector<SidePart>
     sides_of(const std::array<Point<dim>, 2> &box,
              const BoundaryCondition         &condition)
@@ -263,7 +264,7 @@ namespace geocone::GEOCONE_DIM
     const auto  corners       = mesh.bounding_box().get_boundary_points();
     model.box                 = {{corners.first, corners.second}};
     std::vector<std::pair<unsigned int, Face>> own;
-    // Vertices of quadrilaterals are numbered by rows.
+    // Vertices of quadrilaterals are in lexicographic order.
     const auto add = [&](const auto &part, const unsigned int material) {
       Face face = {part->vertex(0), part->vertex(1)};
       if (part->n_vertices() == 4)
@@ -335,7 +336,7 @@ namespace geocone::GEOCONE_DIM
   model_of(const Scene &scene, const ModelMesh &mesh)
   {
     const std::vector<double> times = times_of(scene.loading);
-    // Of a file the mesh is the body; that of particles is larger.
+    // For meshes from files the mesh is the body; for particles it is larger.
     auto [low, high] = mesh.box;
     if (scene.geometry.shape != Geometry::Shape::file)
       std::tie(low, high) = scene.geometry.bounding_box();

@@ -25,8 +25,7 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    /** The place of the first number of a summary that is not finite, or
-     *  nothing. */
+    /** Path of the first number of a summary that is not finite, or nothing. */
     std::string
     first_not_finite(const Json &json, const std::string &place)
     {
@@ -180,7 +179,7 @@ namespace geocone::GEOCONE_DIM
       {
         together = dealii::Utilities::MPI::n_mpi_processes(comm) == 1;
       }
-    end_status(path, status); // unless that has been done
+    end_status(path, status); // unless already done
     return together;
   }
 

@@ -25,7 +25,7 @@ namespace geocone
   {
     namespace fs = std::filesystem;
 
-    /** Whether there is anything but a lock. */
+    /** Whether the folder has files other than a lock. */
     bool
     is_used(const fs::path &folder)
     {
@@ -38,7 +38,7 @@ namespace geocone
       return static_cast<bool>(error);
     }
 
-    /** Why nobody may overwrite a folder, or nothing. */
+    /** Reason why a folder must not be overwritten, or nothing. */
     std::string
     why_no_old_run(const fs::path &folder)
     {
@@ -65,8 +65,8 @@ namespace geocone
       return std::regex_match(name, names);
     }
 
-    /** Deletes the files that the list of the run before names, and the list.
-     *  @return why not, or nothing; then all is left as it was */
+    /** Deletes the files listed by the earlier run, and the list.
+     *  @return reason for refusal, or nothing; if refused, no file is deleted */
     std::string
     remove_old_run(const fs::path &folder)
     {
@@ -74,7 +74,7 @@ namespace geocone
       std::error_code       ignored;
       std::set<std::string> names;
       for (std::string name; std::getline(list, name);)
-        // The list is a file like others: only plain names in this folder.
+        // The list may be forged: only plain names in this folder are accepted.
         if (!name.empty() && fs::path(name).filename() == name &&
             name != list_of_files &&
             !fs::is_directory(fs::symlink_status(folder / name, ignored)))
@@ -103,8 +103,8 @@ namespace geocone
       return list < 0 || ::close(list) != 0 ? errno : 0;
     }
 
-    /** Takes a folder and empties it as far as that may be. @param exists is set if
-     *  it is there and may not be. @return why not, or nothing */
+    /** Locks a folder and empties it if allowed. @param exists is set if the folder
+     *  exists and must not. @return reason for refusal, or nothing */
     std::string
     take_for_new_run(const std::string &path,
                      const IfExists     if_exists,
@@ -133,7 +133,7 @@ namespace geocone
             fs::exists(fs::symlink_status(fs::path(path) / lock_file, ignored));
           return why_not;
         }
-      why_not = why_not_used(); // before it was ours it may have changed
+      why_not = why_not_used(); // may have changed before locking
       if (why_not.empty() && is_used(path))
         why_not = remove_old_run(path);
       if (why_not.empty())
@@ -145,7 +145,7 @@ namespace geocone
       return why_not;
     }
 
-    /** Why the folder cannot be used; empty if it has been made. */
+    /** Makes the folder. @return reason for refusal, or empty */
     std::string
     make_folder(std::string &path, const IfExists if_exists)
     {
@@ -199,7 +199,7 @@ namespace geocone
     IfExists chosen = if_exists;
     if (chosen == IfExists::automatic)
       chosen = was_named ? IfExists::refuse : IfExists::number;
-    // Rank 0 makes the folder; all learn its name, or why there is none.
+    // Rank 0 makes the folder; all ranks receive its name or the reason for refusal.
     std::string path = wanted, refusal;
     if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
       refusal = make_folder(path, chosen);
@@ -235,7 +235,7 @@ namespace geocone
 
   namespace
   {
-    /** Why this process may not go on with the run in a folder; or nothing. */
+    /** Reason why this process may not resume the run in a folder, or nothing. */
     std::string
     why_not_enter(const std::string &path)
     {

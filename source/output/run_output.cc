@@ -117,7 +117,7 @@ namespace geocone::GEOCONE_DIM
   void
   RunOutput::add_balance_columns()
   {
-    // Sums over the run, of which a record has the step's part only.
+    // Sums over the run, since a record only has those of its step.
     const auto add_work = [&](const std::string &column,
                               double Works::*member) {
       add(column,
@@ -240,8 +240,8 @@ namespace geocone::GEOCONE_DIM
   void
   RunOutput::warn_of_jump()
   {
-    // The last but one load, if the support has moved on in one direction and
-    // the load was about the same before and after it.
+    // The last but one load, if the support has moved in one direction and the loads
+    // before and after it are about equal.
     const std::size_t n = records.size();
     if (n < 3 || !scene->observation.has_load())
       return;

@@ -1,7 +1,7 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-// The results of a run: its summary, and what is printed of it.
+// Results of a run: its summary and printed results.
 #include <geocone/output/run_output.h>
 
 #include <cmath>
@@ -11,7 +11,7 @@ namespace geocone::GEOCONE_DIM
 {
   namespace
   {
-    /** By how much displacements grow at least before a body fails. */
+    /** Smallest growth of displacements that indicates failure. */
     constexpr double least_growth = 3.;
   } // namespace
 
@@ -57,7 +57,7 @@ namespace geocone::GEOCONE_DIM
                  whole ? "equilibrium is found for all factors of the stages"
                        : "the stages have not come to their end"}};
       }
-    // Where not even the first reduction is borne, the body may have failed before.
+    // If even the first reduction fails, the body may have failed before.
     const double lower = loading.strength_factor(failure->carried_until),
                  upper = loading.strength_factor(failure->not_until);
     const bool found   = lower > loading.factor_before(failure->stage);
@@ -100,7 +100,7 @@ namespace geocone::GEOCONE_DIM
   Json
   RunOutput::friction_memory() const
   {
-    // The strength of an instant ago is in the load: by tau dF/dt.
+    // The load reflects the strength at an earlier time, by tau dF/dt.
     Json         delay;
     const auto   n           = records.size();
     const double tau         = scene->materials.traits().friction_memory;
@@ -128,8 +128,8 @@ namespace geocone::GEOCONE_DIM
     const Works             &works = balance.works();
     const dealii::Point<dim> front =
       records.empty() ? worst.front : records.back().last.motion.front;
-    // Steps whose load is more than 5 % below those before and after, while what
-    // presses moves on.
+    // Steps whose load is more than 5 % below those before and after, while the support
+    // moves in one direction.
     unsigned int n_drops = 0;
     for (std::size_t i = 1; i + 1 < records.size(); ++i)
       {
@@ -190,7 +190,7 @@ namespace geocone::GEOCONE_DIM
     double                 offset = 0.;
     for (const ImplicitRecord &record : records)
       {
-        // A reset of the displacement is no step of the curve.
+        // A reset of the displacement is not a step of the curve.
         if (record.resets && !curve.empty())
           offset = curve.back().displacement;
         curve.push_back({offset + record.displacement, record.load});
@@ -316,8 +316,7 @@ namespace geocone::GEOCONE_DIM
             topic["incremental"] = load ? Json(*load) : Json();
           }
       }
-    if (
-      field_errors) // where the exact field is zero there is no relative error
+    if (field_errors) // relative errors need a non-zero exact field
       json["field_errors"] = {
         {"displacement", finite_or_null(field_errors->displacement)},
         {"stress", finite_or_null(field_errors->stress)}};
@@ -503,7 +502,7 @@ namespace geocone::GEOCONE_DIM
           out << format("error %.5g %%\n",
                         100. * limit["relative_error"].get<double>());
       }
-    // Bodies left to themselves have their initial energy only.
+    // Bodies without external work only have their initial energy.
     const Works &works = balance.works();
     const double turnover =
       std::abs(works.external) + std::abs(works.dissipation);

@@ -24,8 +24,8 @@ namespace geocone
 {
   namespace
   {
-    /** When a process of this machine began, in ticks since the machine did; numbers of
-     *  processes come again. Empty where that is not known. */
+    /** Start time of a process of this machine in ticks since boot, as process ids are
+     *  reused. Empty if unknown. */
     std::string
     start_of(const long pid)
     {
@@ -69,8 +69,8 @@ namespace geocone
       return summary.contains("status") && summary["status"] == "running";
     }
 
-    /** Writes over a file without asking the disk for space: blanks fill what the
-     *  text leaves of it. */
+    /** Overwrites a file without requesting disk space: the remainder is filled with
+     *  blanks. */
     bool
     write_in_place(const std::string &file_name, const std::string &text)
     {
@@ -91,7 +91,7 @@ namespace geocone
   Json
   read_summary(const std::string &file_name)
   {
-    // A folder may hold anything; no summary is that large.
+    // The folder may contain anything; no summary is that large.
     constexpr std::uintmax_t largest = 64 << 20;
     std::error_code          error;
     if (!std::filesystem::is_regular_file(file_name, error) ||
@@ -147,7 +147,7 @@ namespace geocone
           }
         catch (const std::exception &)
           {}
-        // No space for another one: a short one into the place of the old.
+        // No space for another file: a short text overwrites the old one.
         const Json short_one = {{"status", status.substr(0, 400)},
                                 {"run", run_topic()}};
         write_in_place(
@@ -160,7 +160,7 @@ namespace geocone
 
   namespace
   {
-    /** Which start of this machine's kernel goes on; containers have it alike. */
+    /** Boot id of this machine's kernel, also the same in containers. */
     std::string
     start_of_machine()
     {
@@ -170,7 +170,7 @@ namespace geocone
       return id;
     }
 
-    /** The lock of this process. */
+    /** Lock of this process. */
     struct FolderLock
     {
       ~FolderLock()
@@ -189,7 +189,7 @@ namespace geocone
       return lock;
     }
 
-    /** Whether a name is that of an open file; nothing if it is that of no file. */
+    /** Whether a name refers to an open file; nothing if no such file exists. */
     std::optional<bool>
     is_name_of(const std::string &name, const int file)
     {
@@ -223,7 +223,7 @@ namespace geocone
              " goes on in it";
     }
 
-    /** Seconds without a sign of life after which a lock counts as left over. */
+    /** Time without a sign of life after which a lock is abandoned (s). */
     constexpr double longest_silence = 120.;
 
     enum class TakenOver
@@ -234,9 +234,8 @@ namespace geocone
     };
 
     /**
-     * Puts a lock of one's own, held and complete, in the place of one that is left
-     * over.
-     * @param own_name the name that it has so far
+     * Replaces an abandoned lock by this process's own, which is complete and locked.
+     * @param own_name its temporary name
      * @param has_locks whether files can be locked there
      */
     TakenOver
@@ -271,7 +270,7 @@ namespace geocone
       why_not = who_holds(lock);
       if (is_held)
         return TakenOver::no;
-      // The kernel knows the locks of its own processes; of others tells the time.
+      // The kernel reports locks of its own processes; others are judged by time.
       const bool is_known =
         has_locks && lock.value("machine", Json()) == Json(start_of_machine());
       struct stat now, last;
@@ -309,7 +308,7 @@ namespace geocone
     std::error_code   error;
     const std::string name =
       (std::filesystem::absolute(folder, error) / lock_file).string();
-    // It gets its name when it is complete and held.
+    // It gets its final name when it is complete and locked.
     std::string own_name = name + ".XXXXXX";
     const int   file     = ::mkostemp(own_name.data(), O_CLOEXEC);
     if (file < 0)
@@ -333,7 +332,7 @@ namespace geocone
       }
     for (int i = 0; i < 1000 && taken == TakenOver::look_again; ++i)
       {
-        // Some disks have no links.
+        // Some file systems have no links.
         if (::link(own_name.c_str(), name.c_str()) == 0 ||
             ((errno == EPERM || errno == EOPNOTSUPP || errno == ENOSYS) &&
              ::renameat2(AT_FDCWD,

@@ -21,14 +21,14 @@ namespace geocone
     /** The program's end of the pipe to its watcher. */
     int to_watcher = -1;
 
-    /** Seconds between the signs of life of a run; take_folder() waits for longer. */
+    /** Time between the signs of life of a run (s); take_folder() waits longer. */
     constexpr int between_signs = 10;
 
-    /** The watching process, which ends after the program. */
+    /** Main loop of the watcher, which ends after the program. */
     [[noreturn]] void
     stay_and_watch(const int from_program, const pid_t program)
     {
-      // Signals to the program's group are not meant for it.
+      // Signals to the program's process group do not concern it.
       setsid();
       for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT})
         std::signal(signal, SIG_IGN);
@@ -42,7 +42,7 @@ namespace geocone
           pollfd said = {from_program, POLLIN, 0};
           if (::poll(&said, 1, 1000 * between_signs) == 0)
             {
-              if (!folder.empty()) // the time of the file is that of its disk
+              if (!folder.empty()) // sets the file server's time
                 utimensat(AT_FDCWD,
                           (folder + "/" + lock_file).c_str(),
                           nullptr,
@@ -113,6 +113,6 @@ namespace geocone
     const std::string path =
       std::filesystem::absolute(folder, error).string() + '\0';
     if (::write(to_watcher, path.data(), path.size()) < 0)
-      to_watcher = -1; // it is gone: the sign of life is what is left
+      to_watcher = -1; // it has ended: only the sign of life remains
   }
 } // namespace geocone

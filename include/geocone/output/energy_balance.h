@@ -14,65 +14,69 @@
 namespace geocone
 {
   /**
-   * The balance of energy since the start of a run, by whatever method (J/m):
+   * Energy balance since the start of a run, for all methods (J/m):
    *   numerical loss = E_0 + W - E - D - R,
-   * E the energies of the body, W the external work, D what was dissipated, R what
-   * was removed with parts of the body. It is what the time integration and the
-   * transfer take; where it is negative, they have created energy. Explicit steps
-   * know the work of the stress only, stored and dissipated: there it is in D, with
-   * what damping takes.
+   * E the energy of the body, W the external work, D the dissipation, R the energy of
+   * removed parts of the body. The loss is the energy dissipated by time integration
+   * and transfer; if negative, they have created energy. Explicit steps only provide
+   * the total work of the stress, stored and dissipated, which is part of D there, as
+   * is damping.
    */
   class EnergyBalance
   {
   public:
-    /** The part of what was turned over that may be created without a warning. */
+    /**
+     * Created energy, relative to the turnover, that is tolerated without a warning.
+     */
     static constexpr double tolerance = 0.01;
 
-    /** The energies at the start. */
+    /** Sets the initial energies. */
     void
     begin(const Energies &energies);
 
-    /** A step has led to these energies. @param of_lost those of particles that left
-     *  the mesh, which are no more among them */
+    /**
+     * Adds a step that ends with these energies.
+     * @param of_lost energies of particles that left the mesh, not included in `end`
+     */
     void
     add_step(const Energies &end,
              const Energies &of_lost,
              const Works    &of_step);
 
-    /** The energies now, with all works since the start, and what was removed, of
-     *  which a part was potential energy. */
+    /** Sets the present energies, the works since the start, and the removed energy
+     *  with its potential part. */
     void
     set(const Energies &now,
         const Works    &since_start,
         const double    removed,
         const double    removed_potential);
 
-    /** The energies before and after a change of the body. */
+    /** Accounts for a change of the body by the energies before and after it. */
     void
     change_body(const Energies &before, const Energies &after);
 
-    /** At the start. */
+    /** Initial energies. */
     const Energies &
     initial() const
     {
       return at_start;
     }
 
-    /** Since the start. */
+    /** Works since the start. */
     const Works &
     works() const
     {
       return done;
     }
 
-    /** See the class. */
+    /** Numerical loss. */
     double
     loss() const
     {
       return lost;
     }
 
-    /** R of the class. */
+    /** Removed energy R. */
     double
     removed() const
     {
@@ -85,28 +89,26 @@ namespace geocone
       return kinetic_max;
     }
 
-    /** E + D + R - W, which falls by the loss. */
+    /** Energy E + D + R - W, which decreases by the loss. */
     double
     total() const
     {
       return last.sum() + done.dissipated() + taken_away - done.external;
     }
 
-    /** The potential energy that is no longer there, but for what was removed. */
+    /** Decrease of the potential energy, apart from removed parts. */
     double
     released() const
     {
       return at_start.potential - removed_potential - last.potential;
     }
 
-    /** The energy that was turned over, for relative losses. */
+    /** Energy turnover, the reference of relative losses. */
     double
     turnover() const;
 
-    /**
-     * Warns once more than 1 % of the energy was created by the method.
-     * @param least what counts as turned over at the start (J/m)
-     */
+    /** Warns once if the method has created more than 1 % of the turnover.
+     *  @param least lower limit of the turnover (J/m) */
     void
     warn_if_created(Log               &log,
                     const double       time,
@@ -115,9 +117,9 @@ namespace geocone
                     const std::string &remedy);
 
     /**
-     * The topic of a summary.
-     * @param unit turns the unit of plane strain into that of the scene
-     * @param weight_changes whether the potential energy does with it
+     * Topic of a summary.
+     * @param unit converts the unit of plane strain into that of the scene
+     * @param weight_changes whether the potential energy changes with the weight
      */
     Json
     json(const std::function<std::string(const std::string &)> &unit,
@@ -139,7 +141,7 @@ namespace geocone
     }
 
   private:
-    /** What has left the body with a part of it. */
+    /** Accounts for the energies of a removed part of the body. */
     void
     remove(const Energies &energies);
 

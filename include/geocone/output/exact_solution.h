@@ -15,7 +15,7 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Relative errors in the L2 norm, against given exact fields. */
+  /** Relative errors in the L2 norm against given exact fields. */
   struct FieldErrors
   {
     double displacement = 0.; ///< |u_h - u| / |u|
@@ -23,10 +23,10 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Exact displacement and stress at the end of the run, as formulas in x, y, t;
-   * for verification by manufactured or analytical solutions. Of points that
-   * move, x and y are where they were when displacements began to count, and
-   * their errors are sums over the points, weighted by volume.
+   * Exact displacement and stress at the end of the run, as formulas in x, y, t, for
+   * verification by manufactured or analytical solutions. For material points, x and y
+   * are the positions at which displacements are zero, and errors are volume-weighted
+   * sums over the points.
    */
   class ExactSolution : public dealii::ParameterAcceptor
   {
@@ -42,8 +42,8 @@ namespace geocone::GEOCONE_DIM
       return given;
     }
 
-    /** @param displacement of the nodes of FEM; empty with MPM
-     *  @param points_move whether points are where their displacement has led them */
+    /** @param displacement of the nodes with FEM; empty with MPM
+     *  @param points_move whether points move with their displacement */
     FieldErrors
     errors(const BackgroundMesh &mesh,
            const Space          &space,

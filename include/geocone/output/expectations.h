@@ -11,11 +11,8 @@
 
 namespace geocone
 {
-  /**
-   * A statement about a number of summary.json, "TOPIC/NAME <= NUMBER",
-   * ">= NUMBER" or "= NUMBER +- NUMBER": so a parameter file carries its own
-   * acceptance.
-   */
+  /** Condition on a number of summary.json, "TOPIC/NAME <= NUMBER", ">= NUMBER" or "=
+   *  NUMBER +- NUMBER": acceptance criterion of a parameter file. */
   class Expectation
   {
   public:
@@ -25,11 +22,11 @@ namespace geocone
      */
     Expectation(const std::string &text, const std::string &parameter);
 
-    /** Whether it holds; not if the summary has no such number. */
+    /** Whether the condition holds; false if the summary has no such number. */
     bool
     holds(const Json &summary) const;
 
-    /** The number that it speaks of, as text. */
+    /** The number of the summary, as text. */
     std::string
     found(const Json &summary) const;
 

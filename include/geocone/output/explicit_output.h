@@ -14,7 +14,7 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** A step of the loading programme, of many explicit ones. */
+  /** Step of the loading programme, with the explicit steps it consists of. */
   struct ExplicitRecord : StepRecord<ExplicitState>
   {
     double         cpu = 0.; ///< CPU time of its explicit steps, this rank (s)
@@ -30,28 +30,28 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * The folder of an explicit run: statistics.csv (a line per step of the loading
+   * Folder of an explicit run: statistics.csv (a line per step of the loading
    * programme, each of many explicit ones), summary.json and points-NNNN.vtu, with
    *   numerical loss    = gravity's and the supports' work - stress work
    *                       - damping - removed - kinetic energy gained,
-   * which is that of EnergyBalance, and
+   * as in EnergyBalance, and
    *   momentum residual = momentum gained + removed - impulse of gravity,
    *                       supports and damping,
-   * which is zero up to rounding. Read only with respect to the state.
+   * which is zero within rounding. The state is only read.
    */
   class ExplicitOutput : public SceneOutput<ExplicitRecord>
   {
   public:
     using SceneOutput::SceneOutput;
 
-    /** Makes the folder, or enters that of the run before. @throws InputError */
+    /** Makes the folder, or reopens that of a resumed run. @throws InputError */
     void
     prepare(const RunOptions &options, const Scene &scene);
 
     void
     state_of_run(StateRow &row) override;
 
-    /** The state that gains are counted from. */
+    /** Sets the reference state of all gains. */
     void
     set_initial(const ExplicitState &state);
 
@@ -59,11 +59,11 @@ namespace geocone::GEOCONE_DIM
     void
     add_step(const ExplicitRecord &record);
 
-    /** Writes the points, if wanted. */
+    /** Writes the points if requested. */
     void
     write_points(const double time, const std::vector<PointArrays> &groups);
 
-    /** The topics of the summary: all that the steps have brought.
+    /** Topics of the summary: the results of all steps.
      *  @param counts since the start, of all ranks */
     Json
     results(const LawCounts &counts) const;
@@ -74,7 +74,7 @@ namespace geocone::GEOCONE_DIM
   private:
     using Record = ExplicitRecord;
 
-    /** @name The columns of statistics.csv, with their units in plane strain */
+    /** @name Columns of statistics.csv, with their units in plane strain */
     /** @{ */
     void
     add_step_columns();
@@ -99,15 +99,15 @@ namespace geocone::GEOCONE_DIM
     void
     update_balance(const ExplicitRecord &record);
 
-    /** See the class. */
+    /** Momentum residual. */
     dealii::Tensor<1, dim>
     momentum_residual(const ExplicitRecord &record) const;
 
     void
     report_results(std::ostream &out) const override;
 
-    /** One of the values that laws show, of the points of a group; not a number
-     *  where its law does not know it. */
+    /** Output quantity of the laws at the points of a group; not a number if undefined
+     *  for the group's law. */
     void
     show(const std::string &name,
          const PointArrays &group,
@@ -115,7 +115,7 @@ namespace geocone::GEOCONE_DIM
 
     ExplicitState               initial;
     std::unique_ptr<FieldFiles> point_files;
-    double largest_impulse = 0.; ///< of all records, for scales
+    double largest_impulse = 0.; ///< of all records, as a scale
   };
 } // namespace geocone::GEOCONE_DIM
 

@@ -18,14 +18,14 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * What a file of fields holds of this rank: cells that share no nodes, and
-   * values at the nodes. Arrays are asked for one at a time, so that a file costs
-   * the memory of one of them.
+   * This rank's content of a field file: cells that share no nodes, and nodal values.
+   * Arrays are generated one at a time, so that a file needs the memory of only one of
+   * them.
    */
   struct FieldTable
   {
-    /** What each cell is; its nodes stand one after another, those of quadrilaterals
-     *  and hexahedra in lexicographic order. */
+    /** Cell type; the nodes of a cell are consecutive, those of quadrilaterals and
+     *  hexahedra in lexicographic order. */
     enum class Cell
     {
       point,
@@ -35,7 +35,7 @@ namespace geocone::GEOCONE_DIM
       hexahedron
     };
 
-    /** What a kind of cells is in VTK's and XDMF's terms. */
+    /** Cell type in terms of VTK and XDMF. */
     struct Kind
     {
       unsigned int                n_nodes, vtk_type;
@@ -45,14 +45,14 @@ namespace geocone::GEOCONE_DIM
     const Kind &
     kind() const;
 
-    /** Fills an array with the values of each node one after another. */
+    /** Fills an array with the nodal values, node by node. */
     using Fill = std::function<void(std::vector<double> &)>;
 
     struct Column
     {
       std::string  name;
-      unsigned int n_components; ///< 1, or dim of a vector
-      Fill         fill;         ///< its argument has the right length
+      unsigned int n_components; ///< 1, or dim for a vector
+      Fill         fill;         ///< receives an array of the right length
     };
 
     Cell                cell    = Cell::point;
@@ -66,7 +66,7 @@ namespace geocone::GEOCONE_DIM
       return kind().n_nodes;
     }
 
-    /** The numbers of the nodes of all cells in VTK's order, @p n_nodes in all. */
+    /** Node numbers of all cells in VTK's order, @p n_nodes in all. */
     template <typename Number>
     std::vector<Number>
     connectivity(const std::size_t n_nodes) const
@@ -84,12 +84,12 @@ namespace geocone::GEOCONE_DIM
       return n_nodes / nodes_per_cell();
     }
 
-    /** The array of a column, or the positions. */
+    /** Array of a column or of the positions. */
     std::vector<double>
     values(const Fill &fill, const unsigned int n_components) const;
   };
 
-  /** What fields are written as. */
+  /** Format of field files. */
   enum class FieldsFormat
   {
     vtu,
@@ -98,16 +98,15 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * The files of one kind of cells at all times, in the formats wanted:
+   * Files of one cell type at all times, in the requested formats:
    *  - vtu: base-NNNN.vtu, or a file per rank and base-NNNN.pvtu, and the series
-   *    base.pvd. Single precision, compressed in haste.
-   *  - hdf5: base-NNNN.h5, of all ranks, with the arrays nodes, cells and one for
-   *    each column, vectors with a third component 0. Double precision, not
-   *    compressed. The first rank holds the file in memory. Two records of the
-   *    series: base.xdmf, and base.vtkhdf, a VTKHDF file (version 2.0, of an
-   *    unstructured grid) of all times whose arrays are those of the .h5 files, which
-   *    it names and does not copy.
-   * Each file is written whole.
+   *    base.pvd. Single precision, with fast compression.
+   *  - hdf5: base-NNNN.h5 for all ranks, with the arrays nodes, cells and one for each
+   *    column; vectors have a third component 0. Double precision, uncompressed. The
+   *    first rank holds the file in memory. Two indices of the series: base.xdmf, and
+   *    base.vtkhdf, a VTKHDF file (version 2.0, unstructured grid) of all times whose
+   *    arrays link to the .h5 files instead of copying them.
+   * Each file is written completely or not at all.
    */
   class FieldFiles
   {
@@ -123,7 +122,7 @@ namespace geocone::GEOCONE_DIM
           const double       time,
           const MPI_Comm     comm);
 
-    /** The series so far, for a checkpoint. */
+    /** Indices of the series so far, for a checkpoint. */
     void
     state(StateRow &row)
     {
@@ -131,7 +130,7 @@ namespace geocone::GEOCONE_DIM
     }
 
   private:
-    /** The .vtu file of a rank. */
+    /** Name of the .vtu file of a rank. */
     std::string
     piece(const unsigned int rank, const unsigned int n_ranks) const;
 
@@ -142,14 +141,14 @@ namespace geocone::GEOCONE_DIM
                  const double       time,
                  const MPI_Comm     comm) const;
 
-    /** Enters the pieces of all ranks, which have been written, in the record. */
+    /** Adds the pieces of all ranks, already written, to the index. */
     void
     record_vtu(const FieldTable  &table,
                const std::string &folder,
                const double       time,
                const MPI_Comm     comm);
 
-    /** @param problem what has gone wrong on this rank; then nothing is done */
+    /** @param problem error on this rank; if set, nothing is done */
     void
     write_as_hdf5(const FieldTable  &table,
                   const std::string &folder,
@@ -157,13 +156,13 @@ namespace geocone::GEOCONE_DIM
                   const MPI_Comm     comm,
                   std::string       &problem);
 
-    /** The records of the .h5 files so far, whose columns are those of @p table. */
+    /** Indices of the .h5 files so far, with the columns of @p table. */
     void
     write_xdmf(const FieldTable &table, const std::string &folder) const;
     void
     write_vtkhdf(const FieldTable &table, const std::string &folder) const;
 
-    /** What a .h5 file holds. */
+    /** Entry of an .h5 file in the index. */
     struct Hdf5State
     {
       double      time;
@@ -181,7 +180,7 @@ namespace geocone::GEOCONE_DIM
     const FieldsFormat format;
     unsigned int       number = 0;
 
-    /** Of the first rank: times and files. */
+    /** On the first rank: times and files. */
     std::vector<std::pair<double, std::string>> vtu;
     std::vector<Hdf5State>                      hdf5;
   };

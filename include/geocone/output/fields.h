@@ -15,22 +15,21 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Fields as files for ParaView, and, the VTU files, for scripts/plot:
-   *  - cells-NNNN.vtu: displacement and velocity on the mesh (cells of degree p
-   *    as p^dim linear ones), and per cell the material, the mean stress, the mean
-   *    plastic strain rate and the mean cumulative plastic strain, and of undrained
-   *    soil the mean excess pore pressure. Of points that move: only the cells with
-   *    points, and the velocity only;
-   *  - points-NNNN.vtu: the material points with their material, volume (m^dim; around
-   *    an axis m^3, and the area in the plane of the picture), stress, excess pore
+   * Fields as files for ParaView; scripts/plot reads the VTU files:
+   *  - cells-NNNN.vtu: displacement and velocity on the mesh (cells of degree p as p^dim
+   *    linear ones), and per cell the material, the mean stress, the mean plastic strain
+   *    rate, the mean cumulative plastic strain, and for undrained soil the mean excess
+   *    pore pressure. With particles: only cells with particles, only the velocity;
+   *  - points-NNNN.vtu: the material points with their material, volume (m^dim; if
+   *    axisymmetric m^3, and the area in the plane of the picture), stress, excess pore
    *    pressure (Pa), plastic strain, plastic strain rate (1/s), cumulative plastic
-   *    strain, and what the laws show; of points that move also their number,
-   *    velocity and displacement;
-   *  - obstacles-NNNN.vtu: where the obstacles are, of which each has its number;
+   *    strain, and output quantities of the laws; particles also with their number, velocity and
+   *    displacement;
+   *  - obstacles-NNNN.vtu: positions of the obstacles, with their numbers;
    *  - cells.pvd, points.pvd, obstacles.pvd: the series in time.
-   * On several ranks a file per rank, and .pvtu records that join them. Or, one
-   * file of all ranks for each time, cells-NNNN.h5 and points-NNNN.h5 with the
-   * series cells.xdmf and points.xdmf.
+   * On several ranks: a file per rank, and .pvtu files that join them; or one file of
+   * all ranks for each time, cells-NNNN.h5 and points-NNNN.h5 with the series
+   * cells.xdmf and points.xdmf.
    */
   class Fields
   {
@@ -50,8 +49,8 @@ namespace geocone::GEOCONE_DIM
           const Materials      &materials,
           const Kinematics     &kinematics);
 
-    /** Writes where the obstacles are, if there are any. Collective.
-     *  @param moved since the start, one by one */
+    /** Writes the positions of the obstacles, if any. Collective.
+     *  @param moved displacement of each since the start */
     void
     write_obstacles(const std::string              &folder,
                     const double                    time,
@@ -59,7 +58,7 @@ namespace geocone::GEOCONE_DIM
                     const Obstacles                &obstacles,
                     const std::vector<RigidMotion> &moved);
 
-    /** The series so far, for a checkpoint. */
+    /** Indices of the series so far, for a checkpoint. */
     void
     state(StateRow &row)
     {

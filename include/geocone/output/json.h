@@ -10,10 +10,11 @@
 
 namespace geocone
 {
-  /** JSON as summary.json has it: entries stay in the order in which they came. */
+  /** JSON with entries in the order of insertion, as in summary.json. */
   using Json = nlohmann::ordered_json;
 
-  /** A number that may have no value, e.g. the displacement of a point that has left. */
+  /** Number that may be undefined, e.g. the displacement of a point that has left the
+   *  mesh. */
   inline Json
   finite_or_null(const double value)
   {

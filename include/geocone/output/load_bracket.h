@@ -13,48 +13,46 @@
 namespace geocone
 {
   /**
-   * What a limit analysis proves and what it estimates of a limit load. Where soil
-   * dilates less than its friction, the certified lower bound holds for associated flow
-   * only, the upper one for any dilatancy (Radenkovic 1961), and Davis's load (1968) is
-   * an estimate and no bound.
+   * Bounds and estimate of a limit load by limit analysis. If the dilatancy is smaller
+   * than the friction, the certified lower bound holds for associated flow only, the
+   * upper bound holds for any dilatancy (Radenkovic 1961), and Davis's load (1968) is
+   * an estimate, not a bound.
    */
   struct LoadBracket
   {
     std::string           name = "load";
-    std::string           unit;         ///< of a reaction; a factor has none
-    std::optional<double> lower, upper; ///< certified, or not there
+    std::string           unit;         ///< of a reaction; empty for a factor
+    std::optional<double> lower, upper; ///< empty if not certified
 
-    /** Both bounds of the load of Davis's soil, where flow is not associated. */
+    /** Both bounds of the load for Davis's soil, for non-associated flow. */
     std::optional<std::array<double, 2>> davis;
     bool                                 is_associated = true;
 
     unsigned int cells   = 0;  ///< of the last mesh
     double       seconds = 0.; ///< of all meshes
 
-    /** Takes bounds of another mesh that are better; those that are not certified are
-     *  not there. */
+    /** Adopts better bounds from another mesh; empty if not certified. */
     void
     take(const std::optional<double> other_lower,
          const std::optional<double> other_upper);
 
-    /** upper/lower - 1, if there are both. */
+    /** Gap upper/lower - 1, if both exist. */
     std::optional<double>
     gap() const;
 
-    /** The topic bounds: lower, upper, gap, middle, certified; null where there is
-     *  none. */
+    /** Topic bounds: lower, upper, gap, middle, certified; null if undefined. */
     Json
     bounds() const;
 
-    /** The topic non_associated: what is certified, and Davis's estimate. */
+    /** Topic non_associated: the certified bounds and Davis's estimate. */
     Json
     non_associated() const;
 
-    /** What is certified and what is an estimate, in a line. */
+    /** One line with the certified bounds and the estimate. */
     std::string
     text() const;
 
-    /** How an incremental load compares with both, in a line. */
+    /** One line that compares an incremental load with both. */
     std::string
     beside(const double incremental) const;
   };

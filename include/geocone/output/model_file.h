@@ -15,10 +15,10 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Name of the file that describes the scene of a run to those who draw it. */
+  /** Name of the file with the scene's description, for plots. */
   constexpr const char *model_file = "model.json";
 
-  /** Mesh of a scene, as far as a picture shows it. */
+  /** Mesh of a scene, as drawn. */
   struct ModelMesh
   {
     /** A polygon in the plane, or a flat face in space. */
@@ -31,16 +31,16 @@ namespace geocone::GEOCONE_DIM
      *  Scene::geometry. */
     std::vector<unsigned int> materials;
 
-    /** Corners of the box around it. */
+    /** Corners of the bounding box. */
     std::array<dealii::Point<dim>, 2> box;
 
-    /** Boundary faces on the sides of a condition. */
+    /** Returns the boundary faces on which a condition acts. */
     std::function<std::vector<SidePart>(const BoundaryCondition &)> faces_of;
   };
 
   /**
-   * The mesh of a run. Collective.
-   * @param of_particles whether conditions may be on the sides of the body instead of
+   * Mesh of a run. Collective.
+   * @param of_particles whether conditions may act on the sides of the body instead of
    * those of the mesh
    */
   ModelMesh
@@ -48,16 +48,16 @@ namespace geocone::GEOCONE_DIM
                 const Scene          &scene,
                 const bool            of_particles);
 
-  /** A uniform grid between lines, whose nodes the conditions hold. */
+  /** Uniform grid between lines, with the conditions on its nodes. */
   ModelMesh
   model_mesh_of(const std::array<std::vector<double>, dim> &lines,
                 const Scene                                &scene);
 
   /**
    * Describes a scene before its first step (m, m/s, Pa): the body and its materials,
-   * the mesh, supports, tractions, obstacles, observed points and what changes in each
-   * stage. Prescribed values are those of the time of the programme, out of a few, at
-   * which they are largest.
+   * the mesh, supports, tractions, obstacles, observed points and the changes in each
+   * stage. A prescribed value is the largest of those at a few sampled times of the
+   * programme.
    */
   Json
   model_of(const Scene &scene, const ModelMesh &mesh);

@@ -25,7 +25,7 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Which fields a run writes. */
+  /** Output of fields requested by the user. */
   struct FieldsAsked
   {
     bool         are_written;
@@ -33,10 +33,10 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * What the outputs of all runs have in common: the folder with parameters.prm
-   * (as used), log.txt and files.txt (what the run has written), a table that
-   * grows, summary.json with the status of the run (run_status.h) and the
-   * warnings that it gave, and the expectations that the summary must fulfil.
+   * Common part of the outputs of all runs: the folder with parameters.prm (as used),
+   * log.txt and files.txt (list of written files), a growing table, summary.json with
+   * the status of the run (run_status.h) and its warnings, and the expectations that
+   * the summary must fulfil.
    */
   class OutputBase : public dealii::ParameterAcceptor
   {
@@ -44,8 +44,8 @@ namespace geocone::GEOCONE_DIM
     OutputBase(const MPI_Comm comm, Log &log);
 
     /**
-     * Compares the summary with the expectations of the parameter file, and says
-     * so.
+     * Compares the summary with the expectations of the parameter file and reports the
+     * outcome.
      * @return whether all hold
      */
     bool
@@ -58,8 +58,8 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * Makes the folder of a run that is checked only: results/NAME-model, whose files
-     * of an earlier check are replaced, or the one that was named.
+     * Makes the folder of a run that is only checked: the named one, or
+     * results/NAME-model, where files of an earlier check are replaced.
      * @throws InputError as a run
      */
     void
@@ -81,16 +81,16 @@ namespace geocone::GEOCONE_DIM
       return {with_fields, fields_format == FieldsFormat::both ? 2U : 1U};
     }
 
-    /** Whether a sign of life is due: a summary of a run that goes on. */
+    /** Whether an update of the summary of a running simulation is due. */
     bool
     summary_is_old() const;
 
     /**
-     * Tells in the summary how a run ended by an exception.
-     * @param write_all writes the summary, with the status that it is given, and
-     * the last fields; it is called where all ranks have found the end together
-     * @return whether they are still together; otherwise this rank could not do
-     * its part, and others may wait for it
+     * Records in the summary that an exception ended the run.
+     * @param write_all writes the summary, with the given status, and the last fields;
+     * called only if all ranks have stopped together
+     * @return whether the ranks are still synchronised; otherwise this rank has failed
+     * alone, and others may wait for it
      */
     [[nodiscard]] bool
     end_with(
@@ -99,26 +99,29 @@ namespace geocone::GEOCONE_DIM
 
     unsigned int verbosity = 1;
 
-    /** Writes summary.json, with the topics "run" and "warnings" of every run.
+    /**
+     * Writes summary.json, with the topics "run" and "warnings" of every run.
      * @param status running | finished | failed: why
      * @param topics those of the method, in their order
-     * @throws StepFailure if the run says that it has finished, but a number is
-     * not finite; the summary then says so, too
+     * @throws StepFailure if the status is "finished" but a number is not finite; the
+     * summary then has the status "failed"
      */
     void
     write_summary(const std::string &status, const Json &topics);
 
-    /** Prints the results of a run that has finished, from its last summary. */
+    /** Prints the results of a finished run from its last summary. */
     virtual void
     print_result() const
     {}
 
-    /** Writes the file 'output' of tests, if asked for; expectations come after it. */
+    /** Writes the file 'output' of tests, if requested, after the expectations were
+     *  checked. */
     void
     report() const;
 
-    /** What the tables and the summary of the rest of the run need of what was
-     *  before, for a checkpoint. */
+    /**
+     * State of the tables and the summary that a resumed run needs, for a checkpoint.
+     */
     virtual void
     state_of_run(StateRow &row);
 
@@ -130,18 +133,18 @@ namespace geocone::GEOCONE_DIM
     void
     make_folder(const RunOptions &options);
 
-    /** The results that tests compare. */
+    /** Writes the results that tests compare. */
     virtual void
     report_results(std::ostream &out) const = 0;
 
     const MPI_Comm comm;
-    const bool     writes; ///< whether this is the rank that writes tables
+    const bool     writes; ///< whether this rank writes tables
     Log           &log;
 
     std::string path;
     std::string name;
     std::string parameter_file;
-    bool        resumes = false; ///< whether the folder is that of a run before
+    bool        resumes     = false; ///< whether a run is resumed
     bool        with_fields = true;
     CsvFile     statistics;
     Json        summary;
@@ -153,7 +156,7 @@ namespace geocone::GEOCONE_DIM
                                            {"both", FieldsFormat::both}}};
 
   private:
-    /** What the file 'output' of tests has. */
+    /** Content of the file 'output' of tests. */
     enum class Report
     {
       none,

@@ -13,10 +13,10 @@
 namespace geocone
 {
   /**
-   * What a run is compared with: a number of summary.json, and what it should be
-   * by theory, experiment or another code. It becomes the topic "reference" of
-   * the summary, {quantity, value, expected, relative_error}, which is the same for
-   * runs of any kind.
+   * Reference value of a run: a number of summary.json and its value by theory,
+   * experiment or another code. It becomes the topic "reference" of the summary,
+   * {quantity, value, expected, relative_error}, which is the same for runs of any
+   * kind.
    */
   class ReferenceCase : public dealii::ParameterAcceptor
   {
@@ -27,11 +27,11 @@ namespace geocone
     void
     prepare();
 
-    /** What counts where the file names no quantity. */
+    /** Sets the quantity and value used if the file names none. */
     void
     set_default(const std::string &name, const double value);
 
-    /** Whether there is anything to compare. */
+    /** Whether a reference value is given. */
     bool
     is_given() const
     {
@@ -45,12 +45,12 @@ namespace geocone
       return asked;
     }
 
-    /** The topic; value and relative_error (value/expected - 1) are null where the
-     *  summary has no such number. */
+    /** The topic; value and relative_error (value/expected - 1) are null if the summary
+     *  has no such number. */
     Json
     topic(const Json &summary) const;
 
-    /** The comparison in a line. */
+    /** The comparison as one line. */
     std::string
     text(const Json &summary) const;
 

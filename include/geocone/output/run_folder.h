@@ -13,23 +13,23 @@
 
 namespace geocone
 {
-  /** What to do if the folder of a run exists and is not empty. */
+  /** Treatment of an existing folder that is not empty. */
   enum class IfExists
   {
-    automatic, ///< refuse one that the user has named, number another one
-    number,    ///< take NAME-2, NAME-3, ...
-    refuse,    ///< end
-    overwrite  ///< delete the files that the list of the run before names
+    automatic, ///< refuse if named by the user, else number
+    number,    ///< use NAME-2, NAME-3, ...
+    refuse,    ///< terminate
+    overwrite  ///< delete the files listed by the earlier run
   };
 
-  /** The parameter "Output/If folder exists", to be declared. */
+  /** Parameter "Output/If folder exists", to be declared. */
   Choice<IfExists>
   if_exists_choice();
 
   /**
-   * Makes the folder of a run, its list of files (files.h) and parameters.prm,
-   * the parameters as used. Two runs that want the same folder at the same time
-   * never both get it: the one that takes it (run_status.h) has it.
+   * Makes the folder of a run, its list of files (files.h) and parameters.prm, the
+   * parameters as used. If two runs want the same folder at the same time, only the one
+   * that locks it (run_status.h) gets it.
    * @param wanted its name
    * @param was_named whether the user has given it
    * @return the name of the folder, the same on all ranks
@@ -42,17 +42,17 @@ namespace geocone
                   const IfExists     if_exists);
 
   /**
-   * The parameters that the run in a folder has used. Names of files in them count
-   * from where they did for that run.
+   * Parameters used by the run in a folder. File names in them are relative to the same
+   * folder as for that run.
    * @throws InputError if it is not the folder of a run
    */
   ParameterFile
   parameters_of_run(const std::string &folder);
 
   /**
-   * Enters the folder of a run that goes on; as long as this process lives, no
-   * other one can (run_status.h).
-   * @throws InputError if it is not one, or its run has not ended
+   * Reopens the folder of a run to be resumed, and locks it for the lifetime of this
+   * process (run_status.h).
+   * @throws InputError if it is not the folder of a run, or its run has not ended
    */
   void
   enter_run_folder(const MPI_Comm comm, const std::string &path);

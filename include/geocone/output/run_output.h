@@ -19,20 +19,20 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** A step with all its substeps: the report is of the last one, works are of the
-   *  step. */
+  /** Step with all its substeps: the report is that of the last one, works are of the
+   *  whole step. */
   struct ImplicitRecord : StepRecord<StepReport>
   {
     unsigned int substeps     = 0;     ///< accepted
-    unsigned int failures     = 0;     ///< substeps tried in vain
-    unsigned int iterations   = 0;     ///< of all substeps, failed ones too
-    unsigned int regularised  = 0;     ///< Jacobians that needed a blend
-    bool         resets       = false; ///< displacements count from here
+    unsigned int failures     = 0;     ///< failed substeps
+    unsigned int iterations   = 0;     ///< of all substeps, incl. failed
+    unsigned int regularised  = 0;     ///< regularised Jacobians
+    bool         resets       = false; ///< displacement is reset here
     double       displacement = 0.;    ///< of the load (m)
     double       load         = 0.;    ///< (N/m)
-    double       raised       = 0.;    ///< way of raised loads (m)
+    double       raised       = 0.;    ///< path under load control (m)
     std::vector<double>
-      pressures; ///< in excess, of observed points in undrained soil
+      pressures; ///< excess, of observed points in undrained soil
 
     void
     state(StateRow &row)
@@ -50,32 +50,30 @@ namespace geocone::GEOCONE_DIM
     }
   };
 
-  /** Whether what presses moves on in one direction over three records. */
+  /** Whether the loading support moves in one direction over three records. */
   bool
   moves_on(const ImplicitRecord &a,
            const ImplicitRecord &b,
            const ImplicitRecord &c);
 
-  /** How a stage ended that was to go on until failure. */
+  /** End of a stage that continues until failure. */
   struct Failure
   {
     std::string stage;
-    double      carried_until; ///< time of the last step that was solved (s)
-    double      not_until;     ///< that of the smallest step that was not (s)
+    double      carried_until; ///< time of the last converged step (s)
+    double      not_until;     ///< time of the smallest failed step (s)
     std::string reason;
   };
 
-  /**
-   * The folder of an implicit run: statistics.csv (a line per step), newton.csv (a line
-   * per iteration), summary.json, VTU series. Read only with respect to the state.
-   */
+  /** Folder of an implicit run: statistics.csv (a line per step), newton.csv (a line
+   *  per iteration), summary.json, VTU series. The state is only read. */
   class RunOutput : public SceneOutput<ImplicitRecord>
   {
   public:
     using SceneOutput::SceneOutput;
 
     /**
-     * Makes the folder, or enters that of the run before.
+     * Makes the folder, or reopens that of a resumed run.
      * @param points_move through the mesh
      * @param points_leave may leave it
      * @throws InputError if it exists and may not be used, or cannot be written
@@ -89,32 +87,32 @@ namespace geocone::GEOCONE_DIM
     void
     state_of_run(StateRow &row) override;
 
-    /** The energy that the losses start from. */
+    /** Sets the initial energy of the balance. */
     void
     set_initial_energy(const Energies &energies)
     {
       balance.begin(energies);
     }
 
-    /** Takes away the energy of what is removed, and adds that of what is added. */
+    /** Accounts for the energies of removed and added parts of the body. */
     void
     change_body(const BodyChange &change)
     {
       balance.change_body(change.before, change.after);
     }
 
-    /** Adds a tried (sub)step to newton.csv. */
+    /** Adds an attempted (sub)step to newton.csv. */
     void
     add_newton_table(const unsigned int step,
                      const double       time,
                      const double       h,
                      const StepReport  &report);
 
-    /** Adds an accepted step to statistics.csv and to the balance of energy. */
+    /** Adds an accepted step to statistics.csv and to the energy balance. */
     void
     add_step(const ImplicitRecord &record);
 
-    /** Writes fields, if wanted. */
+    /** Writes fields if requested. */
     void
     write_fields(const double                    time,
                  const BackgroundMesh           &mesh,
@@ -123,25 +121,25 @@ namespace geocone::GEOCONE_DIM
                  const Kinematics               &kinematics,
                  const std::vector<RigidMotion> &moved_obstacles);
 
-    /** The topics of the summary: all that the steps have brought. */
+    /** Topics of the summary: the results of all steps. */
     Json
     results() const;
 
-    /** Adds the errors against exact fields to the summaries to come. */
+    /** Adds the errors against exact fields to subsequent summaries. */
     void
     set_field_errors(const FieldErrors &errors)
     {
       field_errors = errors;
     }
 
-    /** Adds the strict bounds of the load to the summaries to come. */
+    /** Adds the strict bounds of the load to subsequent summaries. */
     void
     set_bracket(const LoadBracket &of_load)
     {
       bracket = of_load;
     }
 
-    /** Tells, at once and in the summaries to come, how the run ended. */
+    /** Reports how the run ended, now and in subsequent summaries. */
     void
     set_failure(const Failure &failure);
 
@@ -151,7 +149,7 @@ namespace geocone::GEOCONE_DIM
   private:
     using Record = ImplicitRecord;
 
-    /** @name The columns of statistics.csv */
+    /** @name Columns of statistics.csv */
     /** @{ */
     void
     add_load_columns();
@@ -167,7 +165,7 @@ namespace geocone::GEOCONE_DIM
 
     /** @name Topics of the summary */
     /** @{ */
-    /** The last ones: the factor of safety, bounds, errors and how the run failed. */
+    /** Last topics: the factor of safety, bounds, errors and the failure. */
     void
     add_outcome(Json &json) const;
 
@@ -176,8 +174,9 @@ namespace geocone::GEOCONE_DIM
     Json
     safety() const;
 
-    /** How much faster the observed point that moves most does by the last reduction of
-     *  the strength than by the first one, per factor; nothing: none is observed. */
+    /** Displacement per strength factor in the last reduction of the strength over that
+     *  in the first one, for the observed point that moves most; empty if none is
+     *  observed. */
     std::optional<double>
     growth_of_displacement() const;
 
@@ -186,7 +185,7 @@ namespace geocone::GEOCONE_DIM
     Json
     friction_memory() const;
     Json
-    motion() const; ///< whether particles that move are sound
+    motion() const; ///< quality of particle motion
     /** @} */
 
     void
@@ -195,19 +194,19 @@ namespace geocone::GEOCONE_DIM
     void
     report_results(std::ostream &out) const override;
 
-    /** The load of a summary that stands beside the bracket, if there are both in one
-     *  unit. */
+    /** Load of a summary in the unit of the bracket, if both exist. */
     std::optional<double>
     bracketed_load(const Json &of_run) const;
 
-    /** Warns if the memory of friction has changed the result by more than about 1 %. */
+    /** Warns if friction with memory has changed the result by more than about 1 %. */
     void
     warn_of_memory() const;
 
     void
     print_safety() const;
 
-    /** Whether the load is of raised loads that 'Factor' does not turn into a force. */
+    /** Whether the load is a load-stepping factor that 'Factor' does not convert into a
+     *  force. */
     bool
     load_is_number() const;
 

@@ -13,8 +13,8 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * The outputs of a run of a scene: the columns of statistics.csv and the topics of
-   * the summary that all methods share, each once.
+   * Outputs of a run of a scene: the columns of statistics.csv and the topics of the
+   * summary that all methods share.
    * @tparam Record a StepRecord
    */
   template <typename Record>
@@ -30,7 +30,9 @@ namespace geocone::GEOCONE_DIM
       row(balance);
     }
 
-    /** Motion and flow of the body at the end of a step, for the line of progress. */
+    /**
+     * Motion and plastic flow of the body at the end of a step, for the progress line.
+     */
     std::string
     text_of_motion(const StepEnd &end) const
     {
@@ -44,7 +46,7 @@ namespace geocone::GEOCONE_DIM
     using TableOutput<Record>::table;
     using TableOutput<Record>::records;
 
-    /** Makes the folder, or enters that of the run before. @throws InputError */
+    /** Makes the folder, or reopens that of a resumed run. @throws InputError */
     void
     begin(const RunOptions &options, const Scene &of_run)
     {
@@ -52,14 +54,14 @@ namespace geocone::GEOCONE_DIM
       this->make_folder(options);
     }
 
-    /** See Geometry::unit(). */
+    /** Unit of the scene, see Geometry::unit(). */
     std::string
     unit(const std::string &in_plane_strain) const
     {
       return scene->geometry.unit(in_plane_strain);
     }
 
-    /** Adds a column, named with its unit in plane strain. */
+    /** Adds a column, given with its unit in plane strain. */
     void
     add(const std::string                             &column,
         const typename StatisticsTable<Record>::Value &value,
@@ -68,7 +70,7 @@ namespace geocone::GEOCONE_DIM
       table.add(unit(column), value, finite);
     }
 
-    /** @name Columns of all methods, in groups where each of them has its own between */
+    /** @name Columns of all methods, grouped so that methods can insert their own */
     /** @{ */
     void
     add_time_columns()
@@ -84,7 +86,7 @@ namespace geocone::GEOCONE_DIM
           [](const Record &r) { return r.last.largest_plastic_strain; });
     }
 
-    /** @param knows_elastic whether the method knows Energies::elastic */
+    /** @param knows_elastic whether the method provides Energies::elastic */
     void
     add_energy_columns(const bool knows_elastic)
     {
@@ -104,8 +106,8 @@ namespace geocone::GEOCONE_DIM
           [this](const Record &) { return balance.loss(); });
     }
 
-    /** Moments of the observed conditions, but of a round body, which they do not turn,
-     *  and displacements of the observed points. */
+    /** Moments of the observed conditions, except in axisymmetric problems, and
+     *  displacements of the observed points. */
     void
     add_observed_columns()
     {
@@ -133,7 +135,7 @@ namespace geocone::GEOCONE_DIM
 
     /** @name Topics of all summaries */
     /** @{ */
-    /** The observed displacements at the end, under "points". */
+    /** Final displacements of the observed points, under "points". */
     void
     add_points(Json &summary) const
     {

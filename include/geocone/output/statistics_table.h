@@ -10,14 +10,14 @@
 
 namespace geocone
 {
-  /** Whether a value that is not finite spoils a run. */
+  /** Whether a value must be finite. */
   enum class Finite
   {
     must_be,
-    may_be ///< e.g. the displacement of a point that has left
+    may_be ///< e.g. the displacement of a point that has left the mesh
   };
 
-  /** The end of an error about a number that is not finite. */
+  /** End of the error message about a number that is not finite. */
   inline constexpr const char *not_finite_remedy =
     " is not a finite number\n  remedy:  look for absurd magnitudes among "
     "the parameters, the formulas and the files that were read";
@@ -26,10 +26,8 @@ namespace geocone
   void
   check_finite(const std::string &column, const double value);
 
-  /**
-   * The columns of statistics.csv: each is a name with its unit, and where its
-   * value in the record of a step comes from.
-   */
+  /** Columns of statistics.csv: each has a name with its unit, and a function that
+   *  evaluates the record of a step. */
   template <typename Record>
   class StatisticsTable
   {
@@ -53,7 +51,7 @@ namespace geocone
       return all;
     }
 
-    /** The values. @throws StepFailure if one that must be finite is not */
+    /** Values of a record. @throws StepFailure if one that must be finite is not */
     std::vector<double>
     line(const Record &record) const
     {

@@ -12,7 +12,7 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** The outputs of a run that keeps its records, each a line of its table. */
+  /** Outputs of a run that keeps its records, each a line of its table. */
   template <typename Record>
   class TableOutput : public OutputBase
   {
@@ -20,7 +20,7 @@ namespace geocone::GEOCONE_DIM
     using OutputBase::OutputBase;
 
     /** Adds a record and its line.
-     *  @throws StepFailure if a value of it is not finite, but must be */
+     *  @throws StepFailure if a value that must be finite is not */
     void
     add_record(const Record &record)
     {
@@ -30,7 +30,7 @@ namespace geocone::GEOCONE_DIM
         statistics.add_line(line);
     }
 
-    /** All so far. */
+    /** All records so far. */
     const std::vector<Record> &
     all_records() const
     {
@@ -45,7 +45,7 @@ namespace geocone::GEOCONE_DIM
     }
 
   protected:
-    /** Begins the table, of which all columns are known, in the folder. */
+    /** Begins the table in the folder, after all columns were added. */
     void
     open_table(const std::string &file)
     {

@@ -11,16 +11,15 @@
 namespace geocone
 {
   /**
-   * A process of its own that outlives the program and then looks at the summary
-   * of its run: one that still says "running" is changed to "killed", for its
-   * process was ended by force (kill -9, lack of memory, a crash, an abort) and
-   * could not say so itself. If the watcher is killed, too, the topic "run" of
-   * the summary (run_topic()) still tells which process it was and when it was
-   * seen last. As long as the program lives it renews the sign of life of the
-   * folder's lock.
+   * Watchdog process that outlives the program and then corrects the summary of its
+   * run: "running" is replaced by "killed", since the process was ended by force (kill
+   * -9, lack of memory, a crash, an abort) and could not report that itself. If the
+   * watcher is killed as well, the topic "run" of the summary (run_topic()) still
+   * identifies the process and its last sign of life. While the program lives, the
+   * watcher renews the sign of life of the folder's lock.
    *
-   * The kernel gives a process that is killed no time to write, so that another one
-   * has to. It is forked before MPI starts, whose processes must not be copied.
+   * A separate process is needed because the kernel gives a killed process no time to
+   * write. It is forked before MPI starts, whose processes must not be copied.
    */
   class Watcher
   {
@@ -31,7 +30,7 @@ namespace geocone
     Watcher &
     operator=(const Watcher &) = delete;
 
-    /** The folder of the run of this process; a later call replaces it. */
+    /** Sets the folder of this process's run, in place of an earlier one. */
     static void
     watch(const std::string &folder);
 
