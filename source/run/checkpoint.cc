@@ -23,7 +23,7 @@ namespace geocone
 
     const std::string prefix = "checkpoint-", ending = ".h5";
 
-    /** Those in a folder, the last one first. */
+    /** Checkpoints in a folder, latest first. */
     std::vector<std::string>
     checkpoints_in(const std::string &folder)
     {
@@ -49,8 +49,8 @@ namespace geocone
       return names;
     }
 
-    /** What a checkpoint must fit to: the parameters as used, but for those of
-     *  the output that may change. */
+    /** Parameters that a checkpoint must match: all but those of the output that may
+     *  change. */
     std::string
     digest(const std::string &folder)
     {
@@ -122,7 +122,7 @@ namespace geocone
       {
         const std::string this_one = fs::path(name).filename().string();
         unsigned int      n_kept   = 0;
-        bool              is_later = true; // those of steps to be done again
+        bool              is_later = true; // steps to be repeated
         for (const std::string &present : checkpoints_in(folder))
           {
             is_later = is_later && present != this_one;

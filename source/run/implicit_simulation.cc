@@ -31,8 +31,8 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    /** Says if points start with a stress that their soil cannot bear: the first
-     *  step then begins with a jump to another one. Collective. */
+    /** Warns of points with inadmissible initial stress, which is redistributed
+     *  abruptly in the first step. Collective. */
     std::string
     outside_strength(const MaterialPoints &points,
                      const Materials      &materials,
@@ -61,7 +61,7 @@ namespace geocone::GEOCONE_DIM
              "strength";
     }
 
-    /** Whether a material that flows with little dilatancy has nu > 0.49. */
+    /** Whether a material of low dilatancy has nu > 0.49. */
     bool
     is_nearly_incompressible(const Materials &materials)
     {
@@ -74,8 +74,8 @@ namespace geocone::GEOCONE_DIM
       return false;
     }
 
-    /** What friction with memory makes of the steps, for the estimate.
-     *  @throws InputError if it makes too many of them */
+    /** Effect of friction with memory on the steps, for the estimate.
+     *  @throws InputError if there are too many substeps */
     std::string
     text_of_memory(const Scene &scene)
     {
@@ -202,7 +202,7 @@ namespace geocone::GEOCONE_DIM
   void
   ImplicitSimulation::remember_friction()
   {
-    // The exact law is easy for particles, unless volume hardly changes at all.
+    // The exact law is easy with particles unless the soil is nearly incompressible.
     if ((!method.is_mpm() || is_nearly_incompressible(scene.materials)) &&
         !newton.wants_exact_friction() &&
         scene.materials.traits().has_hard_flow)
@@ -317,8 +317,8 @@ namespace geocone::GEOCONE_DIM
         for (const std::string &remark : change.remarks)
           log.print("stage " + stage.name + ": " + remark);
       }
-    // What begins to move jumps: a step of a small part of the memory is nearly
-    // convex, and longer ones follow by themselves.
+    // Velocities jump at the onset of motion: a step of a small fraction of the memory
+    // time is nearly convex, and later ones grow.
     constexpr double first_part = 1. / 16.;
     substep                     = std::min(stage.step_sizes()[0],
                        first_part * scene.materials.traits().friction_memory);
@@ -336,7 +336,7 @@ namespace geocone::GEOCONE_DIM
         present      = {};
         present.step = step;
         present.time = place.time + h;
-        // A substep that stood for a whole step grows with the steps.
+        // A substep that covered the full step grows with the steps.
         if (place.in_stage > 0 && substep >= last_size * (1. - 1e-6))
           substep = h;
         substep   = std::min(substep, largest_substep(h));
@@ -357,7 +357,7 @@ namespace geocone::GEOCONE_DIM
                        "factor' below 1, e.g. 0.5, and rise from there");
             throw;
           }
-        // What of the step was carried is the end of the curve.
+        // The curve ends at the last converged substep.
         if (done > 0.)
           {
             present.time = reached;
@@ -386,7 +386,7 @@ namespace geocone::GEOCONE_DIM
     freezer.set_step(step);
     while (done < h)
       {
-        // Land on the end of the step exactly, without a sliver before it.
+        // Ends exactly at the end of the step, without a tiny last substep.
         stop_if_asked(comm);
         const double left = h - done;
         const double size = left <= substep * (1. + 1e-6) ? left : substep;
@@ -430,7 +430,7 @@ namespace geocone::GEOCONE_DIM
                               reached,
                               present.substeps,
                               present.iterations));
-        // Works add up over the substeps, and the worst of them counts.
+        // Works are summed over the substeps; errors are the largest of them.
         report.works += present.last.works;
         report.contact.take_worse(present.last.contact);
         report.motion.take_worse(present.last.motion);
@@ -446,8 +446,8 @@ namespace geocone::GEOCONE_DIM
         report.newton.friction_lag = std::max(report.newton.friction_lag,
                                               present.last.newton.friction_lag);
         present.last               = std::move(report);
-        // Friction that lags stands for what smaller steps did not solve; what it
-        // leaves of the strength grows with the step.
+        // Lagged friction is used where smaller steps have failed; its excess over the
+        // strength grows with the step.
         if (present.last.newton.iterations <= step_control.easy_iterations ||
             (last_lag > 0. && 1.5 * last_share <= step_control.accepted_excess))
           substep = std::min(largest_substep(h), 1.5 * substep);
@@ -457,7 +457,7 @@ namespace geocone::GEOCONE_DIM
   double
   ImplicitSimulation::largest_substep(const double h) const
   {
-    // Equal ones.
+    // Substeps of equal size.
     const double most = scene.materials.traits().friction_memory / 2.;
     return h <= most ? h : h / std::ceil(h / most - 1e-6);
   }
@@ -475,7 +475,7 @@ namespace geocone::GEOCONE_DIM
                           const double        size,
                           const SolverReport &report)
   {
-    // The first step climbs from rest: what it needs is far smaller.
+    // The first step starts from rest and needs a far smaller size.
     substep = step == 1 && done == 0. ? size / 8. : size / 2.;
     if (run_output.verbosity >= 2)
       log.print("    cut: " + report.reason);
@@ -625,7 +625,7 @@ namespace geocone::GEOCONE_DIM
       timer.get_summary_data(TimerOutput::total_wall_time);
     const double linear = seconds["factorise"] + seconds["solve"];
     const double steps  = step_loop.wall_time();
-    // Of this program: getrusage() begins with what the calling one had.
+    // Peak of this program; getrusage() includes the parent process.
     Utilities::System::MemoryStats memory;
     Utilities::System::get_memory_stats(memory);
     const double megabytes =

@@ -16,7 +16,7 @@ namespace geocone::GEOCONE_DIM
 {
   namespace
   {
-    /** Memory that this program may still take (bytes). */
+    /** Memory still available to this program (bytes). */
     double
     available_memory()
     {
@@ -89,7 +89,7 @@ namespace geocone::GEOCONE_DIM
     {
       unsigned int degree;
       bool         is_spline;
-      double       nodes, functions, points; ///< the last ones of FEM
+      double       nodes, functions, points; ///< `points` for FEM only
     };
 
     CellCounts
@@ -98,13 +98,13 @@ namespace geocone::GEOCONE_DIM
     {
       std::string element = ParameterFile::value("Discretisation/Element");
       if (element == "automatic")
-        // Whether friction has a memory is not known before the mesh: P3 is the more
-        // expensive one.
+        // Whether friction has a memory is unknown before the mesh exists: P3 is the
+        // more expensive choice.
         element = Space::automatic_element(
           expected.is_simplicial, expected.is_grid, method, false);
       const bool         spline = element[0] == 'B';
       const unsigned int p      = element.back() - '0';
-      // Of a triangle and a tetrahedron, by Euler's formula and what is usual.
+      // For triangles and tetrahedra, by Euler's formula and typical meshes.
       const double of_simplex     = dim == 2 ? (p == 1   ? 0.5
                                                 : p == 2 ? 2.
                                                          : 4.5)
@@ -144,7 +144,7 @@ namespace geocone::GEOCONE_DIM
     e.unknowns                 = dim * nodes;
     e.points = seeding != nullptr ? seeding->expected_number(scene, expected)
                                   : e.cells * of_cell.points;
-    if (seeding != nullptr) // each body of particles has a layer of the mesh
+    if (seeding != nullptr) // each body of particles adds a layer of the mesh
       for (double *number : {&e.cells, &e.unknowns, &nodes})
         *number *= scene.contacts.n_bodies();
     double outputs = seeding != nullptr ? 1. : 0.;
@@ -170,7 +170,7 @@ namespace geocone::GEOCONE_DIM
                                                     : 3.5 * of_cell.functions);
         of_points        = e.points * (1000. + 100. * of_cell.functions);
         of_nodes         = e.unknowns * (1500. + 60. * row);
-        // In three dimensions factors fill in as n^(4/3).
+        // In three dimensions fill-in grows as n^(4/3).
         if (dim == 3)
           of_nodes += 60. * std::pow(e.unknowns, 4. / 3.);
         e.memory = 160e6;

@@ -45,7 +45,7 @@ namespace geocone::GEOCONE_DIM
   double
   SceneSimulation::step_size(const Place &place)
   {
-    if (place.in_stage == 0 || sizes.empty()) // of this stage, or resumed
+    if (place.in_stage == 0 || sizes.empty()) // new stage, or resumed
       sizes = stage_of(place).step_sizes();
     return sizes[place.in_stage];
   }

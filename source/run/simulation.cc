@@ -183,7 +183,7 @@ namespace geocone::GEOCONE_DIM
     checkpoint.read(output().folder(), log, [&](const Archive &archive) {
       StateRow row = archive.read_row("run");
       row(place);
-      // Tables are those of the first rank.
+      // Tables are written by the first rank.
       std::string why_not;
       try
         {

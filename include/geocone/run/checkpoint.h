@@ -16,11 +16,10 @@
 namespace geocone
 {
   /**
-   * Files checkpoint-NNNNNN.h5 in the folder of a run, NNNNNN the steps of the
-   * programme that are done: all state, from which `geocone --resume FOLDER` goes
-   * on. They are written at a cadence, and when a signal stops the run; each is
-   * complete and on the disk, with the tables that it refers to, before an older one
-   * is deleted.
+   * Files checkpoint-NNNNNN.h5 in the folder of a run, NNNNNN the number of completed
+   * steps: the full state, from which `geocone --resume FOLDER` continues. They are
+   * written at a cadence, and when a signal stops the run. Each is complete and on the
+   * disk, with the tables that it refers to, before an older one is deleted.
    */
   class Checkpoint : public dealii::ParameterAcceptor
   {
@@ -30,22 +29,23 @@ namespace geocone
     void
     prepare(const MPI_Comm comm);
 
-    /** Whether one is due after this step. Collective. */
+    /** Whether a checkpoint is due after this step. Collective. */
     bool
     is_due(const unsigned int step);
 
-    /** Writes one, and deletes those of this run that are too many or, since it
-     *  went back to an earlier one, not true any more. Collective.
-     *  @throws StepFailure */
+    /** Writes a checkpoint. Deletes surplus ones, and those that became invalid because
+     *  the run went back to an earlier one. Collective. @throws StepFailure */
     void
     write(const std::string                    &folder,
           const unsigned int                    step,
           const std::function<void(Archive &)> &save);
 
     /**
-     * Reads the last one of a folder that is good; of others it warns. Collective.
-     * @param load tells, on all ranks, why the run cannot go on from it, or nothing
-     * @param parameter what names the folder
+     * Reads the latest valid checkpoint of a folder, with warnings about invalid ones.
+     * Collective.
+     * @param load returns, on all ranks, why the run cannot continue from it, or
+     * nothing
+     * @param parameter that names the folder
      * @throws InputError if there is none
      */
     void

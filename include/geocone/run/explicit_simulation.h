@@ -12,11 +12,8 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /**
-   * A run of the explicit material point method. A step of the loading programme
-   * is what statistics.csv has a line of; the explicit steps within it are the
-   * stepper's own.
-   */
+  /** Run of the explicit material point method. Each step of the loading programme is a
+   *  line of statistics.csv; the stepper subdivides it into explicit steps. */
   class ExplicitSimulation : public SceneSimulation
   {
   public:

@@ -17,9 +17,8 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * How failed steps are cut and grow again. A step of the loading programme is
-   * reached in substeps: a failed one is halved, an easy one lets the next grow
-   * by half, up to the whole step.
+   * Substep sizes. A step of the loading programme is reached in substeps: a failed
+   * substep is halved; after an easy one the next grows by half, up to the full step.
    */
   class StepControl : public dealii::ParameterAcceptor
   {
@@ -34,7 +33,7 @@ namespace geocone::GEOCONE_DIM
     double       accepted_excess = 0.01; ///< see NonsmoothNewton::Hints
   };
 
-  /** The points of another run as a start, beside InitialStress. */
+  /** Initial points taken from another run, besides InitialStress. */
   class StartOfRun : public dealii::ParameterAcceptor
   {
   public:
@@ -43,15 +42,13 @@ namespace geocone::GEOCONE_DIM
     std::string folder; ///< of the other run, or empty
   };
 
-  /**
-   * A run of the finite element method or the implicit material point method. A
-   * step of the loading programme is reached in substeps (StepControl).
-   */
+  /** Run of the finite element method or the implicit material point method. A step of
+   *  the loading programme is reached in substeps (StepControl). */
   class ImplicitSimulation : public SceneSimulation
   {
   public:
-    /** Finds the sizes of a mesh "from the bounds" of a scene, and those bounds, which
-     *  the first rank has; limit analysis, which is no part of this. Collective. */
+    /** Returns the sizes of a mesh "from the bounds" of a scene, and the bounds, known
+     *  to the first rank. Implemented by limit analysis. Collective. */
     using SizesOfScene = std::function<std::pair<CellSizes, LoadBracket>(
       const MeshParameters &, const Scene &, const MPI_Comm, Log &)>;
 
@@ -71,7 +68,7 @@ namespace geocone::GEOCONE_DIM
     void
     prepare_mesh(const RunOptions &options);
 
-    /** Gives friction a memory where the exact law would not be solved. */
+    /** Enables friction with memory where the exact law is unlikely to converge. */
     void
     remember_friction();
 
@@ -98,23 +95,22 @@ namespace geocone::GEOCONE_DIM
     void
     finish(const double t) override;
     void
-    state(StateRow &row) override; ///< but for fields
+    state(StateRow &row) override; ///< except fields
     void
     save(Archive &archive) override;
     void
     load(const Archive &archive) override;
 
-    /** The longest substep of a step h, which friction with memory limits to
-     *  tau/2: its tangent is then nearly elliptic
-     *  (doc/theory/friction_memory.md). */
+    /** Largest substep of a step h. Friction with memory limits it to tau/2, where its
+     *  tangent is nearly elliptic (doc/theory/friction_memory.md). */
     double
     largest_substep(const double h) const;
 
-    /** Below it a step h has failed. */
+    /** Substep size of a step h below which the step has failed. */
     double
     smallest_substep(const double h) const;
 
-    /** From t to t + h, in substeps. @throws StepFailure */
+    /** Solves from t to t + h in substeps. @throws StepFailure */
     void
     solve_step(const unsigned int step, const double t, const double h);
 
@@ -130,8 +126,8 @@ namespace geocone::GEOCONE_DIM
     Json
     cost() const;
 
-    /** How many of them are: where the exact law has no solution nearby, smaller steps
-     *  find none either. */
+    /** Maximum number of them: where the exact law has no solution nearby, smaller
+     *  steps do not help. */
     static constexpr unsigned int most_halved_for_excess = 3;
 
     const SizesOfScene sizes_of_scene;
@@ -141,7 +137,7 @@ namespace geocone::GEOCONE_DIM
     NonsmoothNewton newton{stress_methods()};
     ImplicitFEM     implicit_fem;
     ImplicitMPM     implicit_mpm;
-    TimeStepper    *stepper = nullptr; ///< the one of the method
+    TimeStepper    *stepper = nullptr; ///< of the method
     StepControl     step_control;
     StartOfRun      start_of_run;
     Freezer         freezer;
@@ -152,15 +148,15 @@ namespace geocone::GEOCONE_DIM
     /** @{ */
     Kinematics     kinematics;
     MaterialPoints points;
-    double         substep    = 0.;    ///< to be tried next (s)
+    double         substep    = 0.;    ///< size of the next attempt (s)
     double         last_size  = 0.;    ///< of the present or last step (s)
-    double         done       = 0.;    ///< of the present step (s)
+    double         done       = 0.;    ///< part of the present step (s)
     bool           is_in_step = false; ///< whether the step has begun
-    /** Substeps that were halved in a row for SolverReport::exceeds. */
+    /** Substeps halved in a row because of SolverReport::exceeds. */
     unsigned int   halved_for_excess = 0;
-    ImplicitRecord present;      ///< of the present step, or the last one
-    double         reached = 0.; ///< time of the last substep solved (s)
-    double         raised  = 0.; ///< way of raised loads since a reset (m)
+    ImplicitRecord present;      ///< the present or last step
+    double         reached = 0.; ///< time of the last converged substep (s)
+    double         raised  = 0.; ///< path under load control since a reset (m)
     /** @} */
 
     dealii::TimerOutput timer;

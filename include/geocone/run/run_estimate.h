@@ -14,38 +14,39 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * How large a run will be, from its parameters alone, before anything is built:
-   * to be printed, and to be refused before the machine is filled.
+   * Estimated size of a run, from its parameters alone, before anything is built. It is
+   * printed, and runs that would exhaust the memory are refused.
    *
-   * Nodes per cell: 1/2, 2, 9/2 for P1, P2, P3 (each vertex has six triangles),
-   * p^2 for Q1 to Q3, 1 for splines. Memory, as measured (doc/performance.md):
-   * implicit runs 160 MB, 1.5 kB per unknown and 0.06 kB per entry of the matrix
-   * with its factors, and 1 kB per point and 0.1 kB per node of its cell; explicit
-   * ones 80 MB, 280 bytes per point and 200 per node.
+   * Nodes per cell: 1/2, 2, 9/2 for P1, P2, P3 (each vertex has six triangles), p^2 for
+   * Q1 to Q3, 1 for splines. Memory, as measured (doc/performance.md): implicit runs
+   * 160 MB, 1.5 kB per unknown and 0.06 kB per entry of the matrix with its factors,
+   * and 1 kB per point and 0.1 kB per node of its cell; explicit ones 80 MB, 280 bytes
+   * per point and 200 per node.
    */
   struct RunEstimate
   {
     double      cells = 0., unknowns = 0., points = 0., steps = 0., files = 0.;
     double      memory     = 0.; ///< of all ranks (bytes)
     double      file_bytes = 0.;
-    std::string driver; ///< the parameter that most of the memory comes from
+    std::string driver; ///< parameter that causes most of the memory
 
-    /** One line. */
+    /** One-line summary. */
     std::string
     text() const;
 
     /**
+     * Refuses runs that are too large.
      * @param force allows more memory than there is
-     * @throws InputError, with the driver, where numbers exceed the range of the
-     * integers that count them, or the memory that is available
+     * @throws InputError, with the driver, if numbers exceed the range of the integers
+     * that count them, or the available memory
      */
     void
     check(const bool force) const;
   };
 
   /**
-   * The estimate. The scene and the method must be prepared; the
-   * seeding is here.
+   * Estimates a run. The scene and the method must be prepared; seeding is prepared
+   * here.
    * @param seeding of the particles, or nullptr for FEM
    */
   RunEstimate

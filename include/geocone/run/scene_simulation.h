@@ -15,16 +15,16 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** A run of a scene: its programme is that of the section "Loading". */
+  /** Run of a scene, with the programme of the section "Loading". */
   class SceneSimulation : public Simulation
   {
   protected:
     SceneSimulation(const MPI_Comm comm, const ParameterFile &file, Log &log);
 
-    /** @name What a method does. All collective. */
+    /** @name Implemented by a method. All collective. */
     /** @{ */
 
-    /** As prepare(), where scene and method are prepared. */
+    /** Counterpart of prepare(), called when scene and method are prepared. */
     virtual std::vector<std::string>
     prepare_method(const RunOptions &options) = 0;
 
@@ -33,7 +33,7 @@ namespace geocone::GEOCONE_DIM
     const Stage &
     stage_of(const Place &place) const;
 
-    /** Size of the step that comes next (s). */
+    /** Size of the next step (s). */
     double
     step_size(const Place &place);
 

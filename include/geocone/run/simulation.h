@@ -17,11 +17,8 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /**
-   * A run: the story - stages, steps, fields, summaries, checkpoints, and how it
-   * ends - which is the same for all methods. What a step is, and what is recorded
-   * of it, they say themselves.
-   */
+  /** Sequence of a run: stages, steps, fields, summaries, checkpoints and termination,
+   *  the same for all methods. Derived classes define a step and its records. */
   class Simulation
   {
   public:
@@ -40,13 +37,13 @@ namespace geocone::GEOCONE_DIM
   protected:
     Simulation(const MPI_Comm comm, Log &log);
 
-    /** Where the run is in its programme. */
+    /** Position of the run in its programme. */
     struct Place
     {
       unsigned int stage    = 0;     ///< index of the stage
       bool         is_in    = false; ///< whether the stage has begun
-      unsigned int in_stage = 0;     ///< steps of the stage that are done
-      unsigned int step     = 0;     ///< steps that are done
+      unsigned int in_stage = 0;     ///< completed steps of the stage
+      unsigned int step     = 0;     ///< completed steps
       double       time     = 0.;    ///< (s)
 
       void
@@ -56,23 +53,24 @@ namespace geocone::GEOCONE_DIM
       }
     };
 
-    /** How a step ended. */
+    /** Outcome of a step. */
     enum class Ended
     {
       well,
-      stage, ///< well, and the stage is over
-      run    ///< the run is over, as it was to be: results are those until then
+      stage, ///< well, and the stage is complete
+      run    ///< the run is complete with the results so far
     };
 
-    /** @name What a method does. All collective. */
+    /** @name Implemented by a method. All collective. */
     /** @{ */
 
-    /** Cheap or not, all that can be refused is refused here, and the state at
-     *  t = 0 is made. @return warnings. @throws InputError */
+    /** Checks everything that can be refused, at whatever cost, and sets the state at t
+     *  = 0.
+     *  @return warnings. @throws InputError */
     virtual std::vector<std::string>
     prepare(const RunOptions &options) = 0;
 
-    /** Numbers of steps of the stages, at most. */
+    /** Maximum number of steps of each stage. */
     virtual std::vector<unsigned int>
     programme() const = 0;
 
@@ -80,18 +78,18 @@ namespace geocone::GEOCONE_DIM
     virtual void
     prepare_output(const RunOptions &options) = 0;
 
-    /** One line that says what is run. */
+    /** One-line description of the run. */
     virtual std::string
     headline(const std::string &name) const = 0;
 
-    /** The model as data of a picture; null where there is none to show. */
+    /** The model as data for a plot; null if not available. */
     virtual Json
     model()
     {
       return {};
     }
 
-    /** At the start of a run that is not resumed. */
+    /** Called at the start of a run that is not resumed. */
     virtual void
     record_start()
     {}
@@ -100,22 +98,22 @@ namespace geocone::GEOCONE_DIM
     begin(const Place &place) = 0;
 
     /**
-     * A step of the programme, or what is left of it where it was stopped.
-     * @param[in,out] place its time moves on where the step ends well
+     * Solves a step of the programme, or the remainder of one that was stopped.
+     * @param[in,out] place its time advances if the step succeeds
      * @throws StepFailure, Stopped
      */
     virtual Ended
     advance(Place &place) = 0;
 
-    /** Enters the step in the tables. @param place at its end */
+    /** Adds the step to the tables. @param place at its end */
     virtual void
     record(const Place &place) = 0;
 
-    /** What the line of progress says of the last step. */
+    /** Text about the last step for the progress line. */
     virtual std::string
     progress(const Place &place) const = 0;
 
-    /** After the last step of a stage. */
+    /** Called after the last step of a stage. */
     virtual void
     end(const Place &)
     {}
@@ -131,16 +129,16 @@ namespace geocone::GEOCONE_DIM
     write_fields(const double)
     {}
 
-    /** The topics of the summary, in their order: results, size, cost. */
+    /** Topics of the summary, in their order: results, size, cost. */
     virtual Json
     topics() = 0;
 
-    /** Adds to the results of a run that has come to its end. @p t: the end */
+    /** Adds to the results of a completed run. @p t: final time */
     virtual void
     finish(const double)
     {}
 
-    /** @name The state, for checkpoints: numbers, and what has rows of its own */
+    /** @name State for checkpoints: numbers, and data with rows of their own */
     /** @{ */
     virtual void
     state(StateRow &)
@@ -160,7 +158,7 @@ namespace geocone::GEOCONE_DIM
     dealii::Timer  total, step_loop, output_time;
 
   private:
-    /** All stages, from where the run is. */
+    /** Performs all stages from the present position. */
     void
     follow_programme();
 
@@ -171,21 +169,21 @@ namespace geocone::GEOCONE_DIM
     void
     write_summary(const std::string &status);
 
-    /** Writes what is due after a step, or not. */
+    /** Writes fields, summary and checkpoint if due. */
     void
     write_if_due(const bool is_last);
 
     void
     save_checkpoint();
 
-    /** Goes back to the last good checkpoint. @throws InputError if none is */
+    /** Returns to the latest valid checkpoint. @throws InputError if there is none */
     void
     resume();
 
     Place                     place;
     std::vector<unsigned int> n_in_stage;     ///< steps of each stage
     unsigned int              n_steps    = 0; ///< of all stages
-    unsigned int              first_step = 0; ///< done by an earlier process
+    unsigned int              first_step = 0; ///< of this process
   };
 } // namespace geocone::GEOCONE_DIM
 
