@@ -14,7 +14,7 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    /** z at a state that changes cone by cone, with the multipliers that belong to it. */
+    /** State z that is updated cone by cone, with its multipliers. */
     class Sweep
     {
       auto
@@ -47,7 +47,7 @@ namespace geocone::GEOCONE_DIM
           }
       }
 
-      /** dz_p/ds_p. */
+      /** Derivative dz_p/ds_p. */
       const MandelMatrix &
       block(const unsigned int p) const
       {
@@ -71,7 +71,7 @@ namespace geocone::GEOCONE_DIM
         return result;
       }
 
-      /** A cone's stress has changed by ds. */
+      /** Updates z for a stress increment ds of a cone. */
       void
       change(const unsigned int p, const Mandel &ds)
       {
@@ -94,8 +94,9 @@ namespace geocone::GEOCONE_DIM
       std::vector<MandelMatrix> blocks;
     };
 
-    /** Whether errors that go on to fall as in their last half are above the tolerance at
-     *  the end. Asked after 1000, 2000, 4000... sweeps. */
+    /** Whether errors that continue to decrease as in their last half would still
+     *  exceed the tolerance after max_sweeps. Evaluated after 1000, 2000, 4000...
+     *  sweeps. */
     bool
     is_slow(const std::vector<double> &errors,
             const double               tolerance,
@@ -121,7 +122,7 @@ namespace geocone::GEOCONE_DIM
            report.iterations < max_sweeps)
       {
         if (const int signal = stop_request_of_rank())
-          throw Stopped(signal); // one process holds the whole problem
+          throw Stopped(signal); // one process holds the full problem
         ++report.iterations;
         double error = 0., size = 0.;
         for (unsigned int p = 0; p < problem.n_cones(); ++p)
@@ -134,14 +135,14 @@ namespace geocone::GEOCONE_DIM
               std::max(error, natural_map_norm(cone, old, z, natural_scale(W)));
 
             Mandel s_p = old;
-            if constexpr (dim == 2) // ReducedProblem's cones are of the plane
+            if constexpr (dim == 2) // ReducedProblem's cones are plane
               s_p = solve_one_cone(cone, W, z - W * old, old);
             s.segment<n_mandel>(n_mandel * p) = s_p;
             sweep.change(p, s_p - old);
             size = std::max(size, s_p.norm() + cone.k);
           }
         report.errors.push_back(error > 0. ? error / size : 0.);
-        if (!s.allFinite()) // which no further sweep mends
+        if (!s.allFinite()) // irreversible
           {
             report.errors.back() = std::nan("");
             break;

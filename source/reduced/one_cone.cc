@@ -16,7 +16,7 @@ namespace geocone::GEOCONE_DIM
 {
   namespace
   {
-    /** Natural-map error, relative to the terms in it, of what is a solution. */
+    /** Natural-map error of an accepted solution, relative to the terms in it. */
     constexpr double tolerance = 1e-13;
 
     class OneCone
@@ -29,7 +29,7 @@ namespace geocone::GEOCONE_DIM
         , rho(natural_scale(W))
       {}
 
-      /** Natural-map error over the size of the terms in it. */
+      /** Natural-map error relative to the size of the terms in it. */
       double
       error(const Mandel &s) const
       {
@@ -51,14 +51,14 @@ namespace geocone::GEOCONE_DIM
         return {-cone.k / cone.a, 0., 0.};
       }
 
-      /** f for u = (0, cos x, sin x). */
+      /** Function f for u = (0, cos x, sin x). */
       double
       f(const Mandel &u) const
       {
         return direction(u).dot(moment(u));
       }
 
-      /** Newton's method for f, from and to a tangential unit vector. */
+      /** Newton's method for f, for a tangential unit vector. */
       Mandel
       polished(Mandel u) const
       {
@@ -78,12 +78,12 @@ namespace geocone::GEOCONE_DIM
         return u;
       }
 
-      /** The stress on the surface that belongs to a root of f. */
+      /** Stress on the surface for a root of f. */
       Mandel
       on_surface(const Mandel &u) const
       {
-        // d is normal to v and m: two equations for s_n, of which either may
-        // be degenerate where b < a.
+        // d is normal to v and m: two equations for s_n, either of which may be
+        // degenerate if b < a.
         const Mandel v(0., -u[2], u[1]);
         const Mandel m  = (Mandel::UnitX() + cone.b * u).normalized();
         const Mandel p  = W * (Mandel::UnitX() + cone.a * u);
@@ -94,7 +94,7 @@ namespace geocone::GEOCONE_DIM
         return s_n * Mandel::UnitX() + (cone.a * s_n + cone.k) * u;
       }
 
-      /** Values of u near which f has its real roots. */
+      /** Values of u near the real roots of f. */
       std::vector<Mandel>
       directions() const
       {
@@ -104,8 +104,9 @@ namespace geocone::GEOCONE_DIM
         const auto angle = [](const int j) { return 2. * pi * j / n; };
         for (unsigned int j = 0; j < n; ++j)
           values[j] = f(unit(angle(j)));
-        // With y = x - x_0, t = tan(y/2), f becomes a polynomial of degree 4 in
-        // t, whose first coefficient is the value opposite to x_0: the largest.
+        // With y = x - x_0 and t = tan(y/2), f becomes a polynomial of degree 4 in t,
+        // whose leading coefficient is the value opposite to x_0: the largest is
+        // chosen.
         const unsigned int opposite =
           std::max_element(values.begin(),
                            values.end(),
@@ -133,7 +134,8 @@ namespace geocone::GEOCONE_DIM
           -(2. * A[0] - 6. * A[2]), -(2. * B[1] - 4. * B[2]);
         const Eigen::EigenSolver<Eigen::Matrix4d> roots(companion, false);
         for (const auto &t : roots.eigenvalues())
-          // Near a double root rounding moves a pair by its square root.
+          // Near a double root, rounding shifts a pair of roots by the square root of
+          // its size.
           if (std::abs(t.imag()) < 1e-4 * (1. + std::abs(t.real())))
             result.push_back(
               unit(angle(opposite) - pi + 2. * std::atan(t.real())));
@@ -209,7 +211,7 @@ namespace geocone::GEOCONE_DIM
   {
     const OneCone problem(cone, W, q);
     const double  tangential = FlowCone::tangential_norm(guess);
-    // The radius as computed is a difference: at the apex it may be rounding.
+    // The computed radius is a difference: at the apex it may be rounding error.
     const double outside = tangential - cone.a * guess[0] - cone.k +
                            1e-12 * (cone.a * std::abs(guess[0]) + cone.k);
     const bool on_surface = outside >= 0.;

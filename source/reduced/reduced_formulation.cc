@@ -25,7 +25,7 @@ namespace geocone::GEOCONE_DIM
     newton.max_iterations = sweeps.max_sweeps = max_iterations;
     sweeps.stops_if_slow                      = true;
     work.record(work.evaluate(), 0., 0., 0.);
-    // Below 1e-15 there is only rounding.
+    // Below 1e-15 there is only rounding error.
     for (double accuracy = tolerance; accuracy > 0.9e-15; accuracy /= 10.)
       {
         newton.tolerance = sweeps.tolerance = accuracy;

@@ -16,17 +16,17 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    /** Of a restart: where so many do not lead on, more do not either. */
+    /** Maximum of a restart: further sweeps rarely help. */
     constexpr unsigned int most_sweeps = 3200;
 
-    /** F_p, and with dz = W ds its differential dF_p = A ds_p + B dz_p. */
+    /** Map F_p and, with dz = W ds, its differential dF_p = A ds_p + B dz_p. */
     struct PointMap
     {
       Mandel       F;
       MandelMatrix A, B;
     };
 
-    /** D = diag(K, 2G, 2G) of the return map, rho I for the natural map. */
+    /** Map with D = diag(K, 2G, 2G) for the return map, rho I for the natural map. */
     PointMap
     point_map(const ReducedNewton::Map map,
               const FlowCone          &cone,
@@ -35,7 +35,7 @@ namespace geocone::GEOCONE_DIM
               const Mandel            &z)
     {
       PointMap     result;
-      MandelMatrix slope; // of P_C or R
+      MandelMatrix slope; // derivative of P_C or R
       if (map == ReducedNewton::Map::natural_map)
         {
           const double rho = D[0];
@@ -59,7 +59,7 @@ namespace geocone::GEOCONE_DIM
       return result;
     }
 
-    /** The unknowns are s and below them lambda. */
+    /** System of the unknowns s, followed by lambda. */
     class System
     {
     public:
@@ -83,14 +83,14 @@ namespace geocone::GEOCONE_DIM
             D[p].setConstant(10. * natural_scale(problem.diagonal_block(p)));
       }
 
-      /** D is that of the elasticity. */
+      /** Whether D is that of the elasticity. */
       bool
       is_elastic() const
       {
         return elastic;
       }
 
-      /** dz - S ds for a step: h V B times the change of the velocity. */
+      /** Strain dz - S ds of a step: h V B times the change of the velocity. */
       VectorXd
       strain(const VectorXd &step) const
       {
@@ -101,7 +101,7 @@ namespace geocone::GEOCONE_DIM
         return dz;
       }
 
-      /** F.x at the last evaluate(). */
+      /** Product F.x at the last evaluate(). */
       double
       dot(const VectorXd &x) const
       {
@@ -111,7 +111,7 @@ namespace geocone::GEOCONE_DIM
         return sum;
       }
 
-      /** |F|^2; keeps what the Jacobian needs. */
+      /** Returns |F|^2 and stores the data of the Jacobian. */
       double
       evaluate(const VectorXd &s, const VectorXd &lambda)
       {
@@ -129,7 +129,7 @@ namespace geocone::GEOCONE_DIM
         return sum;
       }
 
-      /** The Newton step at the last evaluate(); not finite if J is singular. */
+      /** Newton step at the last evaluate(); not finite if J is singular. */
       VectorXd
       step() const
       {
@@ -156,7 +156,7 @@ namespace geocone::GEOCONE_DIM
     private:
       using Entries = std::vector<Eigen::Triplet<double>>;
 
-      /** Not finite if the matrix is singular. */
+      /** Solution; not finite if the matrix is singular. */
       static VectorXd
       solved(const Entries &entries, const VectorXd &rhs)
       {
@@ -169,8 +169,8 @@ namespace geocone::GEOCONE_DIM
       }
 
       /**
-       * The same step with few unknowns: with E = A + B S and u = diag(m)
-       * (G'ds - H'dlambda),
+       * The same step with fewer unknowns: with E = A + B S and u = diag(m) (G'ds -
+       * H'dlambda),
        *   E ds + B G u = -F,   (diag(1/m) + G'E^-1 B G) u + H'dlambda = -G'E^-1 F,
        *   H u = 0.
        */
@@ -224,7 +224,9 @@ namespace geocone::GEOCONE_DIM
         return step;
       }
 
-      /** J = [A + B W, -B C; -C', L], the lower rows scaled to be of size one. */
+      /**
+       * Jacobian J = [A + B W, -B C; -C', L], with the lower rows scaled to order one.
+       */
       template <typename Add>
       void
       assemble(const Add &add) const
@@ -290,8 +292,7 @@ namespace geocone::GEOCONE_DIM
         ++report.iterations;
         const VectorXd step = system.step();
         const VectorXd s0 = s, lambda0 = lambda;
-        // The constraints are linear and lambda fulfils them: so they stay
-        // fulfilled along the step.
+        // lambda fulfils the linear constraints, which remain fulfilled along the step.
         const auto move = [&](const double length) {
           s      = s0 + length * step.head(s.size());
           lambda = lambda0 + length * step.tail(lambda.size());

@@ -72,7 +72,7 @@ namespace geocone::GEOCONE_DIM
   Reduction::Reduction(const IncrementalProblem &problem)
     : incremental(problem)
   {
-    // There may be none at the start, when check() sees the problem.
+    // At the start, when check() is called, there may be none.
     if (!problem.ghost.stencils().empty())
       throw StepFailure(
         "the formulation has no ghost stiffness, which functions "

@@ -10,8 +10,8 @@ namespace geocone::GEOCONE_DIM
 {
   namespace
   {
-    /** Moves v to the velocities of stresses that Gauss-Seidel sweeps give, from the
-     *  stress at t_n. @return these stresses (Pa) */
+    /** Sets v to the velocities that correspond to the stresses after Gauss-Seidel
+     *  sweeps, started from the stress at t_n. @return these stresses (Pa) */
     std::vector<Mandel>
     gauss_seidel_iterate(const unsigned int n_sweeps, const StepWorkspace &work)
     {

@@ -10,25 +10,25 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Nonsmooth Gauss-Seidel method for a ReducedProblem: cone after cone is
-   * solved exactly (solve_one_cone) with the others as they are and the multipliers,
-   * if any, as they follow from all stresses; a sweep goes over all of them. For
-   * associated flow it minimises the convex function of eq (63) block by block
-   * and converges from anywhere; otherwise it mostly does.
+   * Nonsmooth Gauss-Seidel method for a ReducedProblem. In each sweep, the cones are
+   * solved exactly one after another (solve_one_cone) with the others fixed;
+   * multipliers, if any, follow from all stresses. For associated flow it minimises the
+   * convex function of eq (63) block by block and converges from any start; otherwise
+   * it mostly converges.
    */
   struct GaussSeidel
   {
     double       tolerance  = 1e-8;   ///< on natural_map_error()
-    unsigned int max_sweeps = 100000; ///< before it is given up
+    unsigned int max_sweeps = 100000; ///< maximum
 
-    /** Give up where at the rate of the last half of the sweeps the tolerance is not met
+    /** Stop if, at the rate of the last half of the sweeps, the tolerance cannot be met
      *  within max_sweeps. */
     bool stops_if_slow = false;
 
     /**
      * @param[in,out] s in: the start (Pa, 3n); out: the solution
-     * @return errors of sweeps are those of the cones as the sweep met them,
-     * which cost nothing; the first and the last are those of the whole state
+     * @return errors during sweeps are those of each cone when visited, at no extra
+     * cost; the first and the last one are those of the full state
      */
     ReducedReport
     solve(const ReducedProblem &problem, Eigen::VectorXd &s) const;

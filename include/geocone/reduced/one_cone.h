@@ -8,23 +8,24 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Stresses (Pa) in the columns; at most one inside, the apex, four more. */
+  /** Stresses (Pa) as columns: at most one inside, the apex, four more. */
   using OneConeSolutions = Eigen::
     Matrix<double, n_mandel, Eigen::Dynamic, Eigen::ColMajor, n_mandel, 6>;
 
   /**
    * All solutions s of the problem of one cone,
-   *   z = W s + q,   (s, z) fulfils the law of FlowCone,
-   * up to rounding. They are of three kinds:
+   *   z = W s + q, (s, z) fulfils the law of FlowCone,
+   * within rounding. They are of three kinds:
    *  - inside: z = 0;
    *  - apex: s = (-k/a, 0), b |z_t| <= z_n;
    *  - surface: s = s_n e_n + (a s_n + k) u and z = g d, d = b e_n - u, g >= 0,
-   *    with a tangential unit vector u = (0, cos x, sin x). The three equations
+   *    with a tangential unit vector u = (0, cos x, sin x). Eliminating s_n and g from
+   *    the three equations
    *      s_n W (e_n + a u) + k W u + q = g d
-   *    for s_n, g and x leave, without s_n and g and divided by a,
+   *    and dividing by a yields
    *      f(x) = det(d, W (e_n + a u), q) + k det(d, W e_n, W u) = 0,
    *    a trigonometric polynomial of degree 2: up to four angles.
-   * There always is a solution, and for b = a only one.
+   * A solution always exists, and is unique for b = a.
    *
    * @param W symmetric positive definite 3 x 3 matrix, in cone axes
    */
@@ -34,10 +35,10 @@ namespace geocone::GEOCONE_DIM
                      const Mandel       &q);
 
   /**
-   * One of one_cone_solutions(): where there is one of the same kind as the
-   * guess (and, on the surface, Newton's method for f leads there from the angle
-   * of the guess), that one; otherwise the nearest to the guess. The first is
-   * many times faster.
+   * Selects one of one_cone_solutions(): the one of the same kind as the guess if it
+   * exists (on the surface: if Newton's method for f, started from the guess's angle,
+   * converges to it), otherwise the one nearest to the guess. The former is many times
+   * faster.
    */
   Mandel
   solve_one_cone(const FlowCone     &cone,

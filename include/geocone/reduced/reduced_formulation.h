@@ -9,10 +9,10 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Solves a step for its stresses alone (Reduction), and then evaluates R(v) of
-   * the return map at the velocities that belong to them, by which it is judged.
-   * The error of the reduced problem that R(v) needs depends on the step size:
-   * while R(v) is too large it is divided by ten.
+   * Solves a step for its stresses alone (Reduction). The result is judged by R(v) of
+   * the return map at the corresponding velocities. The error of the reduced problem
+   * that this requires depends on the step size: it is divided by ten while R(v) is too
+   * large.
    */
   struct ReducedFormulation
   {
@@ -28,7 +28,7 @@ namespace geocone::GEOCONE_DIM
     double       absolute_tolerance = 1e-12; ///< on |R_free| (N/m)
     unsigned int max_iterations     = 60;    ///< or sweeps
 
-    /** From the stress at t_n. @throws InputError as Reduction does */
+    /** Solves from the stress at t_n. @throws InputError like Reduction */
     void
     solve(const StepWorkspace &work) const;
   };

@@ -15,21 +15,20 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * An incremental problem of which only the stresses are left (Guillet et al.
-   * 2025, eqs 61, 74), as data: find s, lambda such that
-   *   z = W s - C lambda + q,   0 = -C' s + L lambda + d,
-   * and (s_p, z_p) fulfils the law of cone p (FlowCone), in cone axes, for each
-   * of the n cones. With M, B, S, H of eq (71) and a time step h,
-   *   W = S + h^2 B M^-1 B',  q = -q_sigma - h B M^-1 q_v,
-   *   C = h B M^-1 H',  L = H M^-1 H',  d = H M^-1 q_v - q_BC.
-   * Without constraints C, L and d are empty. s is a stress (Pa); z may be a
-   * strain increment or, with the volumes of the points in W and q, a multiple
-   * of it.
+   * Data of an incremental problem reduced to its stresses (Guillet et al. 2025, eqs
+   * 61, 74): find s, lambda such that
+   *   z = W s - C lambda + q, 0 = -C' s + L lambda + d,
+   * and (s_p, z_p) fulfils the law of cone p (FlowCone), in cone axes, for each of the
+   * n cones. With M, B, S, H of eq (71) and a time step h,
+   *   W = S + h^2 B M^-1 B', q = -q_sigma - h B M^-1 q_v,
+   *   C = h B M^-1 H', L = H M^-1 H', d = H M^-1 q_v - q_BC.
+   * Without constraints C, L and d are empty. s is a stress (Pa); z may be a strain
+   * increment or, with the volumes of the points in W and q, a multiple of it.
    *
-   * W is given as a matrix, or where the mass is lumped by its factors,
-   *   W = S + G diag(m) G',  C = G diag(m) H',  L = H diag(m) H',
-   * which couple two points only where they share a node: the matrix would have a
-   * hundred times as many entries.
+   * W is given as a matrix or, for a lumped mass, by its factors,
+   *   W = S + G diag(m) G', C = G diag(m) H', L = H diag(m) H',
+   * which couple two points only if they share a node: the matrix would have a hundred
+   * times as many entries.
    */
   struct ReducedProblem
   {
@@ -38,7 +37,7 @@ namespace geocone::GEOCONE_DIM
     std::vector<FlowCone> cones; ///< n
     Matrix                W; ///< 3n x 3n, symmetric positive definite, or empty
     Eigen::VectorXd       q; ///< 3n
-    Eigen::VectorXd       S; ///< 3n, diagonal part of W, or empty: unknown
+    Eigen::VectorXd       S; ///< 3n, diagonal part of W; empty if unknown
     Matrix                G; ///< 3n x f, or empty
     Matrix                H; ///< m x f, or empty
     Eigen::VectorXd       m; ///< f, positive
@@ -65,7 +64,7 @@ namespace geocone::GEOCONE_DIM
       return m.size() > 0;
     }
 
-    /** diag(m) G's, where W has factors. */
+    /** diag(m) G's, if W has factors. */
     Eigen::VectorXd
     nodal(const Eigen::VectorXd &s) const;
 
@@ -81,36 +80,38 @@ namespace geocone::GEOCONE_DIM
     Eigen::VectorXd
     z(const Eigen::VectorXd &s, const Eigen::VectorXd &lambda) const;
 
-    /** lambda that fulfils the constraints for a given s: L^-1 (C' s - d). */
+    /**
+     * Multipliers lambda that fulfil the constraints for a given s: L^-1 (C' s - d).
+     */
     Eigen::VectorXd
     multipliers(const Eigen::VectorXd &s) const;
 
     /**
-     * The same problem without lambda (eqs 74, 75): W - C L^-1 C' and
-     * q + C L^-1 d, with W as a matrix. It is dense where C is.
+     * Equivalent problem without lambda (eqs 74, 75): W - C L^-1 C' and q + C L^-1 d,
+     * with W as a matrix, dense where C is.
      * @throws RunError if L is not positive definite (redundant constraints)
      */
     ReducedProblem
     projected() const;
 
     /**
-     * Error of a state, whatever solver it comes from (eq 59):
+     * Error of a state, independent of the solver (eq 59):
      *   max_p |s_p - P_C(s_p - rho_p Psi(z_p))| / (max_p |s_p| + max_p k_p),
-     * with rho_p = 3/trace(W_pp) and lambda = multipliers(s). Without unit;
-     * infinite for s = 0 without cohesion, unless that is the solution.
+     * with rho_p = 3/trace(W_pp) and lambda = multipliers(s). Dimensionless; infinite
+     * for s = 0 without cohesion, unless that is the solution.
      */
     double
     natural_map_error(const Eigen::VectorXd &s) const;
   };
 
-  /** rho = 3/trace(W_pp): the scale of s/z in the natural map of one cone. */
+  /** Scale rho = 3/trace(W_pp) of s/z in the natural map of one cone. */
   inline double
   natural_scale(const MandelMatrix &W)
   {
     return 3. / W.trace();
   }
 
-  /** |s - P_C(s - rho Psi(z))| of one cone (Pa). */
+  /** Norm |s - P_C(s - rho Psi(z))| of one cone (Pa). */
   inline double
   natural_map_norm(const FlowCone &cone,
                    const Mandel   &s,

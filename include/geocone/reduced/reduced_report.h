@@ -8,7 +8,7 @@
 
 namespace geocone
 {
-  /** What the solution of a ReducedProblem came to. */
+  /** Outcome of the solution of a ReducedProblem. */
   struct ReducedReport
   {
     bool                converged  = false;

@@ -10,27 +10,27 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * A step of an IncrementalProblem as a ReducedProblem for its stresses (paper,
-   * eqs 61, 74), and the way back. With v* = vL + h M^-1 F on the free dofs and
-   * the prescribed velocities elsewhere, and each point's law multiplied by its
+   * Reduction of an IncrementalProblem to a ReducedProblem for its stresses (paper, eqs
+   * 61, 74), and the recovery of the velocity. With v* = vL + h M^-1 F on the free dofs
+   * and the prescribed velocities elsewhere, and each point's law multiplied by its
    * volume so that W is symmetric,
-   *   W = V S + h^2 V B M^-1 B' V,   q = -V S s_n - h V B v*,
-   *   C = h^2 V B M^-1 H',  L = h^2 H M^-1 H',  d = h (H v* - q_H),
-   * where B, M and H are those of the free dofs: W is in m^2/Pa. Its factors are
-   * G = V B in cone axes and m = h^2/M.
+   *   W = V S + h^2 V B M^-1 B' V, q = -V S s_n - h V B v*,
+   *   C = h^2 V B M^-1 H', L = h^2 H M^-1 H', d = h (H v* - q_H),
+   * where B, M and H are those of the free dofs: W is in m^2/Pa. Its factors are G = V
+   * B in cone axes and m = h^2/M.
    */
   class Reduction
   {
   public:
-    /** Points of a dense W: 650 MB. */
+    /** Largest number of points with a dense W: 650 MB. */
     static constexpr unsigned int most_projected = 3000;
 
     /**
-     * Whether there is such a problem: not on several ranks, without inertia, for
-     * a consistent mass, and for materials without a cone. Collective.
-     * @param parameter what asks for it, and its value
-     * @param projected whether its multipliers are to be eliminated, which
-     * makes W a dense matrix
+     * Checks that the problem can be reduced. Excluded are several ranks, problems
+     * without inertia, a consistent mass, and materials without a cone. Collective.
+     * @param parameter that requests the reduction, and its value
+     * @param projected whether the multipliers are to be eliminated, which makes W a
+     * dense matrix
      * @throws InputError
      */
     static void
@@ -39,7 +39,7 @@ namespace geocone::GEOCONE_DIM
           const std::string        &value,
           const bool                projected);
 
-    /** @param problem one that check() has passed */
+    /** @param problem accepted by check() */
     explicit Reduction(const IncrementalProblem &problem);
 
     const ReducedProblem &
@@ -48,14 +48,12 @@ namespace geocone::GEOCONE_DIM
       return reduced;
     }
 
-    /** The stress at t_n in cone axes (Pa). */
+    /** Stress at t_n in cone axes (Pa). */
     Eigen::VectorXd
     stress_at_start() const;
 
-    /**
-     * v = v* - h M^-1 (B'V s - H' lambda) on the free dofs, lambda from s, and
-     * the prescribed velocities.
-     */
+    /** Velocity v = v* - h M^-1 (B'V s - H' lambda) on the free dofs, with lambda from
+     *  s, and the prescribed velocities elsewhere. */
     void
     recover_velocity(const Eigen::VectorXd &s, Vector &v) const;
 

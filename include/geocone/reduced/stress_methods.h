@@ -8,11 +8,11 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** The name of a formulation, and of a first iterate. */
+  /** Name of the formulation, and of the first iterate. */
   constexpr const char *gauss_seidel = "Gauss-Seidel";
 
-  /** Reduced formulations, by Newton's method and by Gauss-Seidel, and first iterates
-   *  of sweeps. */
+  /** Reduced formulations by Newton's method and Gauss-Seidel, and first iterates by
+   *  Gauss-Seidel sweeps. */
   StressMethods
   stress_methods();
 } // namespace geocone::GEOCONE_DIM
