@@ -26,11 +26,11 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    /** Beyond a million cones, or some gigabytes, a text has no meaning. */
+    /** Limits beyond which a text file is certainly invalid. */
     constexpr double         most_cones           = 1e6;
     constexpr std::uintmax_t largest_problem_file = 1ULL << 32;
 
-    /** The numbers of a text file one after the other. */
+    /** Numbers of a text file, one after the other. */
     class Numbers
     {
     public:
@@ -66,11 +66,11 @@ namespace geocone::GEOCONE_DIM
         return place == text.c_str() + text.size();
       }
 
-      /** @throws InputError unless there may be so many numbers more */
+      /** @throws InputError if fewer than n numbers can follow */
       void
       check_room(const std::size_t n, const std::string &what) const
       {
-        // Each has a character, and one that ends it.
+        // Each has at least one character and a separator.
         const std::size_t left = text.c_str() + text.size() - place;
         if (n > (left + 1) / 2)
           fail("ends within " + what);
@@ -91,7 +91,7 @@ namespace geocone::GEOCONE_DIM
         return x;
       }
 
-      /** A number that counts something: 0, 1, ..., @p most. */
+      /** Reads a number that counts something: 0, 1, ..., @p most. */
       std::size_t
       count(const double most, const std::string &what)
       {
@@ -102,7 +102,7 @@ namespace geocone::GEOCONE_DIM
         return static_cast<std::size_t>(x);
       }
 
-      /** A number that may only have the value given. */
+      /** Reads a number that must have the given value. */
       void
       expect(const double value, const std::string &what)
       {
@@ -112,7 +112,7 @@ namespace geocone::GEOCONE_DIM
                shown(value));
       }
 
-      /** How many words are left. @param[out] last the last one */
+      /** Number of remaining words. @param[out] last the last one */
       std::size_t
       left(std::string &last) const
       {
@@ -126,7 +126,7 @@ namespace geocone::GEOCONE_DIM
         return n;
       }
 
-      /** Whether the text goes on so; if it does, goes behind it. */
+      /** Whether a given text follows; if so, skips it. */
       bool
       follows(const std::string &wanted)
       {
@@ -176,7 +176,7 @@ namespace geocone::GEOCONE_DIM
         place += std::strspn(place, " \t\r\n");
       }
 
-      /** What stands here, for messages. */
+      /** Present word, for messages. */
       std::string
       word() const
       {
@@ -205,7 +205,7 @@ namespace geocone::GEOCONE_DIM
       return entries;
     }
 
-    /** A matrix as the library CSparse prints it: triplets, columns or rows. */
+    /** Reads a matrix as printed by the library CSparse: triplets, columns or rows. */
     Triplets
     read_sparse(Numbers &in, const unsigned int size)
     {
@@ -257,7 +257,7 @@ namespace geocone::GEOCONE_DIM
           in.expect(": locations");
           in.expect(entries.size(), "the first entry of the " + line);
           in.expect("to");
-          // The last one, which is before the first one where there is none.
+          // The last index, or the one before the first if the line is empty.
           const double last = in.next("the last entry of the " + line);
           if (!(last >= entries.size() - 1. && last < double(n)))
             in.fail("has more entries in a " + line + " than there are");
@@ -274,7 +274,7 @@ namespace geocone::GEOCONE_DIM
         }
       return entries;
     }
-    /** A matrix of blocks, each by columns. */
+    /** Reads a matrix of blocks, each stored by columns. */
     Triplets
     read_blocks(Numbers &in, const unsigned int size, const unsigned int n)
     {
@@ -318,7 +318,7 @@ namespace geocone::GEOCONE_DIM
       return entries;
     }
 
-    /** A problem of contact, from W and q of n cones with d components. */
+    /** Contact problem from W and q of n cones with d components. */
     ReducedProblem
     contact_problem(const Triplets                                 &entries,
                     const VectorXd                                 &q,
@@ -360,7 +360,7 @@ namespace geocone::GEOCONE_DIM
     struct SiconosHead
     {
       unsigned int d, n_cones;
-      bool         has_model; ///< as new files have
+      bool         has_model; ///< in newer files
       double       storage;   ///< of the matrix: dense, blocks or sparse
     };
 
@@ -377,9 +377,9 @@ namespace geocone::GEOCONE_DIM
         in.fail("has " + Numbers::shown(n) + " cones");
       const unsigned int size = d * static_cast<unsigned int>(n);
 
-      // Old files, and those of contact, begin with the storage, new ones with the
-      // model; the number of rows, which comes next in the former, is more than any
-      // storage, or 2 and comes once more.
+      // Older files, and those of contact, start with the storage, newer ones with the
+      // model. The number of rows follows the storage and is larger than any storage
+      // type, or is 2 and repeated.
       bool   has_model = false;
       double model = 1., storage = in.next("the type of the model");
       double n_rows = in.next("the storage of the matrix");
@@ -424,7 +424,7 @@ namespace geocone::GEOCONE_DIM
                                    ? read_blocks(in, size, n_cones)
                                    : read_sparse(in, size);
     const VectorXd     q       = in.vector(size, "the vector q");
-    // One number more for each cone, but for a flag, and no model: contact.
+    // One number per cone apart from a flag, and no model: contact.
     std::string        last;
     const std::size_t  left = in.left(last);
     const unsigned int flag = last == "0" || last == "1";
@@ -478,14 +478,14 @@ namespace geocone::GEOCONE_DIM
       }
     catch (const RunError &)
       {
-        // Who reads it as something else says what is wrong.
+        // The reader of another format reports the error.
       }
     return false;
   }
 
   namespace
   {
-    /** One number of an array of one. */
+    /** Element of an array of length one. */
     int
     one_integer(const Hdf5File &file, const std::string &name)
     {
@@ -493,7 +493,9 @@ namespace geocone::GEOCONE_DIM
       return values.size() == 1 ? values[0] : -3;
     }
 
-    /** A sparse matrix of FCLib: triplets, columns (nz = -1) or rows (nz = -2). */
+    /**
+     * Reads a sparse matrix of FCLib: triplets, columns (nz = -1) or rows (nz = -2).
+     */
     Eigen::SparseMatrix<double>
     read_fclib_matrix(const Hdf5File                                 &file,
                       const std::string                              &name,

@@ -22,14 +22,13 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    /** The points; where they were frozen without a memory that their law has
-     *  now, each remembers the stress that the step begins with. */
+    /** Points with an initial memory: if their law has a memory that was not frozen, it
+     *  is the stress at the start of the step. */
     MaterialPoints
     remembering(const MaterialPoints &frozen, const Materials &materials)
     {
       MaterialPoints points = frozen;
-      if (frozen.n_history() >
-          1) // the memory of such a law would not be the last
+      if (frozen.n_history() > 1) // such a law's memory is not the last entry
         return points;
       points.history.width = 2;
       points.history.assign(2 * points.material.size(), 0.);
@@ -51,10 +50,10 @@ namespace geocone::GEOCONE_DIM
       return remembered ? points : frozen;
     }
 
-    /** A frozen problem that can be solved, on one rank. */
+    /** Frozen problem that can be solved, on one rank. */
     struct ThawedProblem
     {
-      /** @param materials as read from the section that was frozen */
+      /** @param materials as read from the frozen section */
       ThawedProblem(const FrozenProblem &frozen, const Materials &materials)
         : points(remembering(frozen.points, materials))
       {
@@ -135,7 +134,7 @@ namespace geocone::GEOCONE_DIM
       const MaterialPoints                points;
       Unknowns                            unknowns;
       Vector                              mass, force;
-      Vector                              start; ///< where the solver began
+      Vector                              start; ///< initial guess
       std::unique_ptr<IncrementalProblem> problem;
     };
 
@@ -195,7 +194,7 @@ namespace geocone::GEOCONE_DIM
       return outcome;
     }
 
-    /** Whatever a file holds; in three dimensions there are no reduced problems. */
+    /** Replays any problem; reduced problems exist in the plane only. */
     template <unsigned int dimension>
     Outcome
     replay_problem(const std::string              &file_name,
@@ -208,7 +207,7 @@ namespace geocone::GEOCONE_DIM
       return replay_incremental(file_name, overrides, folder);
     }
 
-    /** Names of the components of a Mandel vector, as a line of a table. */
+    /** Names of the components of a Mandel vector, as a table header. */
     std::string
     names_of_components()
     {

@@ -15,7 +15,7 @@ namespace geocone::GEOCONE_DIM
 {
   namespace
   {
-    /** Whether it is a problem file of Siconos. */
+    /** Whether a file is a problem file of Siconos. */
     bool
     is_text(const std::string &file_name)
     {
@@ -23,9 +23,9 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * Solves a reduced problem that is given as such: by Gauss-Seidel if that is
-     * the formulation that @p newton is asked for, by Newton's method with the natural
-     * map or, for all other formulations, with the return map.
+     * Solves a given reduced problem: by Gauss-Seidel if @p newton requests that
+     * formulation, otherwise by Newton's method with the natural map if requested, else
+     * with the return map.
      * @param[in,out] s stresses in cone axes (Pa)
      */
     ReducedReport

@@ -11,36 +11,36 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Reads a problem in the text format of Siconos: dimension, number n of cones, type of
-   * the model (only of plasticity: 1; absent in older files), storage of the matrix, its
-   * rows and columns, the matrix W, q, and the coefficients of the cones. The matrix is
-   * dense (storage 0: its numbers of rows and columns, and its rows), of blocks (storage
-   * 1) or sparse (storage 2: 1, 2 or 3 for triplets, columns or rows, and what CSparse
-   * prints of such a matrix).
+   * Reads a problem in the text format of Siconos: dimension, number n of cones, type
+   * of the model (plasticity only: 1; absent in older files), storage of the matrix,
+   * its numbers of rows and columns, the matrix W, q, and the coefficients of the
+   * cones. The matrix is dense (storage 0: its numbers of rows and columns, and its
+   * rows), of blocks (storage 1) or sparse (storage 2: 1, 2 or 3 for triplets, columns
+   * or rows, and the matrix as printed by CSparse).
    *  - Plasticity, dimension 3: for each cone an aperture eta = a, then for each a
    *    coefficient theta. The change of variable of the file is z + theta |z_t| n, so
-   *    that theta = a - b. There is no cohesion: stresses are measured from the apex.
-   *    Siconos' type 2, von Mises in plane stress, is no cone.
-   *  - Contact with friction, dimension 2 or 3: for each cone mu = a, b = 0, and perhaps
-   *    a flag. s are impulses, z relative velocities, n before t. In two dimensions the
-   *    third direction is one in which nothing moves.
-   * @throws InputError naming the file if it is missing, cut, has something that
-   * is not a number, or describes anything else than the above
+   *    that theta = a - b. There is no cohesion: stresses are relative to the apex.
+   *    Siconos' type 2, von Mises in plane stress, is not a cone.
+   *  - Frictional contact, dimension 2 or 3: for each cone mu = a, b = 0, and
+   *    optionally a flag. s are impulses, z relative velocities, n before t. In two
+   *    dimensions there is no motion in the third direction.
+   * @throws InputError naming the file if it is missing, truncated, contains
+   * non-numbers, or describes another problem
    */
   ReducedProblem
   read_siconos(const std::string &file_name);
 
-  /** Whether a file is one of HDF5 that holds a problem of FCLib (Acary et al. 2014). */
+  /** Whether a file is an HDF5 file of FCLib (Acary et al. 2014). */
   bool
   is_fclib(const std::string &file_name);
 
   /**
-   * Reads a problem of contact with friction of FCLib, dimension 2 or 3: a local one,
+   * Reads a problem of frictional contact of FCLib, dimension 2 or 3: a local one,
    *   u = W r + q,
-   * or a global one, M v = H r + f, u = H' v + w, of which W = H' M^-1 H and
-   * q = H' M^-1 f + w are taken. mu = a, b = 0.
-   * @throws RunError or InputError naming the file and what is wrong in it, or that it
-   * has bilateral constraints or rolling friction
+   * or a global one, M v = H r + f, u = H' v + w, reduced to W = H' M^-1 H and q = H'
+   * M^-1 f + w. mu = a, b = 0.
+   * @throws RunError or InputError naming the file and the error in it, also for
+   * bilateral constraints and rolling friction
    */
   ReducedProblem
   read_fclib(const std::string &file_name);

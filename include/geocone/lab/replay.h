@@ -20,14 +20,13 @@ namespace geocone::GEOCONE_DIM
 {
   /**
    * Solves a frozen problem again, without its scene, on one rank: an incremental
-   * problem in HDF5 (FrozenProblem), or a reduced problem in the text format of
-   * Siconos (ReducedProblem).
+   * problem in HDF5 (FrozenProblem), or a reduced problem in the text format of Siconos
+   * (ReducedProblem).
    *
-   * @param overrides parameters of the sections Newton, Linear solver, Time
-   * stepping (friction), Materials and Output ('If folder exists', as of runs), as
-   * on the command line
-   * @param folder where summary.json, stress.csv and the parameters go, or empty:
-   * nowhere
+   * @param overrides parameters of the sections Newton, Linear solver, Time stepping
+   * (friction), Materials and Output ('If folder exists', as for runs), as on the
+   * command line
+   * @param folder for summary.json, stress.csv and the parameters; empty: no output
    * @return whether the problem was solved
    * @throws InputError, RunError
    */
@@ -37,9 +36,9 @@ namespace geocone::GEOCONE_DIM
          const std::string              &folder,
          Log                            &log);
 
-  // Parts of it that replays of incremental and of reduced problems share.
+  // Common parts of replays of incremental and of reduced problems.
 
-  /** Where the results go. */
+  /** Folder of the results. */
   class ResultFolder : public dealii::ParameterAcceptor
   {
   public:
@@ -51,7 +50,7 @@ namespace geocone::GEOCONE_DIM
         *this, "If folder exists", ". What to do if it is not empty.");
     }
 
-    /** Makes it, if there is to be one. @throws InputError */
+    /** Makes the folder, if requested. @throws InputError */
     void
     make()
     {
@@ -59,13 +58,13 @@ namespace geocone::GEOCONE_DIM
         path = make_run_folder(MPI_COMM_SELF, path, true, if_exists);
     }
 
-    std::string path; ///< empty: nowhere
+    std::string path; ///< empty: no output
 
   private:
     Choice<IfExists> if_exists = if_exists_choice();
   };
 
-  /** What read() makes of a file; also what this lacks is said with a remedy. */
+  /** Calls read() for a file; its errors get a remedy if they have none. */
   template <typename Read>
   auto
   read_with_remedy(const Read &read, const std::string &remedy)
@@ -83,19 +82,19 @@ namespace geocone::GEOCONE_DIM
       }
   }
 
-  /** What is left of a replay: numbers to compare, and stresses (Pa). */
+  /** Result of a replay: numbers to compare, and stresses (Pa). */
   struct Outcome
   {
     nlohmann::json      summary;
     std::vector<Mandel> stress;
   };
 
-  /** Whether a file holds a reduced problem: of Siconos or of FCLib. Those are of plane
+  /** Whether a file contains a reduced problem, of Siconos or FCLib, which are of plane
    *  scenes. */
   bool
   is_reduced_problem(const std::string &file_name);
 
-  /** Solves one. */
+  /** Solves a reduced problem. */
   Outcome
   replay_reduced(const std::string              &file_name,
                  const std::vector<std::string> &overrides,
