@@ -25,8 +25,8 @@ namespace geocone
 {
   namespace
   {
-    /** The program that draws, beside this one where it was built or installed;
-     *  empty: it is not there. */
+    /** Path of the plotting program, next to this one in the build or installation;
+     *  empty if not there. */
     std::string
     plot_program()
     {
@@ -40,7 +40,7 @@ namespace geocone
       return "";
     }
 
-    /** Whether no mpirun (or its like) started this program. */
+    /** Whether this program was started without mpirun (or similar). */
     bool
     is_started_alone()
     {
@@ -50,7 +50,7 @@ namespace geocone
       return true;
     }
 
-    /** Keeps hwloc, which MPI starts, from asking X servers for graphics cards, unless
+    /** Keeps hwloc, started by MPI, from querying X servers for graphics cards, unless
      *  the user has asked for that. */
     void
     leave_displays_alone()
@@ -63,8 +63,7 @@ namespace geocone
                1);
     }
 
-    /** Starts the program that draws with the folder as its argument, without a shell,
-     *  and waits for it. */
+    /** Runs the plotting program with the folder as its argument, without a shell. */
     void
     draw(const Drawing &drawing)
     {
@@ -74,7 +73,7 @@ namespace geocone
       std::string plot = plot_program();
       if (plot.empty())
         return fail("scripts/plot is not beside the program");
-      // An absolute name cannot be taken for an option.
+      // An absolute name cannot be mistaken for an option.
       std::string folder = std::filesystem::absolute(drawing.folder).string();
       std::string only_model  = "--model";
       char *const arguments[] = {plot.data(),
@@ -210,7 +209,7 @@ namespace geocone
 
   namespace
   {
-    /** What the exception that is being handled says. */
+    /** Message of the present exception. */
     std::string
     text_of_present_error()
     {
@@ -229,7 +228,7 @@ namespace geocone
         }
     }
 
-    /** Whether all ranks have found it together. */
+    /** Whether all ranks have thrown the present exception together. */
     bool
     present_error_is_of_all_ranks()
     {
@@ -261,7 +260,7 @@ namespace geocone
   int
   run_program(char **argv, const std::function<int(Drawing &)> &run)
   {
-    // MPI would end without a word of its own.
+    // MPI would end without a message.
     if (std::error_code error; std::filesystem::current_path(error).empty())
       {
         say_error("the folder in which the program is called cannot be read (" +
@@ -270,20 +269,20 @@ namespace geocone
                   "one");
         return 1;
       }
-    // PETSc and Kokkos, which deal.II may start, would take our options for theirs.
+    // PETSc and Kokkos, which deal.II may start, would interpret our options as theirs.
     int     n_arguments_for_libraries = 1;
     Drawing drawing;
     int     status = 1;
     leave_displays_alone();
     if (is_started_alone())
       {
-        // Open MPI would start a daemon, which it needs only to start further
-        // processes, and make a folder that all such runs share: one that ends
-        // may remove it while another is making its own in it, and that fails.
+        // Open MPI would start a daemon, only needed to start further processes, and
+        // make a folder shared by all such runs. A run that ends may remove it while
+        // another makes its own in it, which then fails.
         setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
         setenv("OMPI_MCA_orte_create_session_dirs", "0", 0);
-        // One process has nobody to talk to, and the libraries of networks take four
-        // tenths of the time in which it starts.
+        // A single process needs no communication, and initialising network libraries
+        // takes 40 % of the startup time.
         setenv("OMPI_MCA_pml", "ob1", 0);
         setenv("OMPI_MCA_btl", "self", 0);
       }

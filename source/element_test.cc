@@ -1,8 +1,8 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-// The former name of 'Discretisation/Method = point': calls geocone, which is beside
-// this program, with that method and all arguments.
+// Former name of 'Discretisation/Method = point': calls geocone, in the same folder,
+// with that method and all arguments.
 
 #include <algorithm>
 #include <cerrno>
@@ -23,13 +23,13 @@ main(int argc, char **argv)
     "geocone";
   std::vector<std::string> arguments(argv + 1, argv + argc);
   arguments.insert(arguments.begin(), program);
-  // A run that goes on has the method among its own parameters.
+  // A resumed run has the method among its own parameters.
   if (std::count(arguments.begin(), arguments.end(), "--resume") == 0)
     {
       arguments.push_back("--set");
       arguments.push_back("Discretisation/Method = point");
     }
-  // What it shows of the materials are the parameters of the law of soils.
+  // Only the parameters of the law of soils are shown for materials.
   for (const std::string &argument : arguments)
     if (argument == "--help" || argument == "-h" || argument == "--defaults")
       {

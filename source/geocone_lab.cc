@@ -12,7 +12,7 @@
 
 #include <iostream>
 
-// In three dimensions, beside that of the plane (lab/replay.h).
+// Three-dimensional counterpart of lab/replay.h.
 namespace geocone::dim3
 {
   bool
@@ -43,7 +43,7 @@ namespace
     "The exit code is 0 if the problem is solved, and 1 otherwise;\n"
     "130, 143 and 129 after Ctrl-C, SIGTERM and SIGHUP.\n";
 
-  /** Dimension of a problem; errors in the file are reported by the plane's replay. */
+  /** Dimension of a problem; errors in the file are reported by the plane replay. */
   int
   dimension_of(const std::string &file_name)
   {

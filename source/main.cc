@@ -11,7 +11,7 @@
 
 #include <iostream>
 
-// The program for scenes in three dimensions, beside that of the plane (program.h).
+// Three-dimensional counterpart of program.h.
 namespace geocone::dim3
 {
   int
@@ -24,7 +24,7 @@ namespace
 {
   using namespace geocone;
 
-  /** Dimension of a scene by its parameter file, or by that of the run that goes on.
+  /** Dimension of a scene by its parameter file, or by that of the run to be resumed.
    *  Errors in these are reported by the program of plane scenes. */
   unsigned int
   dimension_of(const std::string &file, const CommandLine &call)
@@ -43,7 +43,7 @@ namespace
       }
   }
 
-  /** Checks each of the files, and prints which are right. @return the exit code */
+  /** Checks each of the files and prints the valid ones. @return the exit code */
   int
   check_files(const CommandLine &call)
   {
@@ -76,7 +76,7 @@ main(int argc, char **argv)
   select_blas_kernels();
   use_one_thread();
   const Watcher watcher;
-  CommandLine   call; // whose errors are those of the program of plane scenes
+  CommandLine   call; // the program of plane scenes reports errors
   try
     {
       call = parse_command_line(argc, argv, "geocone");

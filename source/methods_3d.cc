@@ -1,7 +1,7 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-// Those of three dimensions, in place of methods.cc.
+// Methods of three-dimensional scenes, instead of methods.cc.
 #include <geocone/base/exceptions.h>
 #include <geocone/methods.h>
 #include <geocone/run/explicit_simulation.h>
@@ -26,8 +26,7 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    /** Refuses what only plane scenes have. @param allowed the first one is the
-     *  default */
+    /** Refuses features of plane scenes. @param allowed the first one is the default */
     void
     check(const ParameterFile            &file,
           const std::string              &parameter,

@@ -68,8 +68,8 @@ namespace geocone::GEOCONE_DIM
       "and\n"
       "1 otherwise; 130, 143 and 129 after Ctrl-C, SIGTERM and SIGHUP.\n";
 
-    /** All parameters with an example of each kind of named section.
-   *  @param overrides e.g. another law of the material 'soil' */
+    /** Prints all parameters with an example of each kind of named section.
+     *  @param overrides e.g. another law of the material 'soil' */
     void
     print_defaults(std::ostream &out, const std::vector<std::string> &overrides)
     {
@@ -86,7 +86,7 @@ namespace geocone::GEOCONE_DIM
       ParameterFile::print(out, true);
     }
 
-    /** @throws InputError if --resume is given with what would change the run */
+    /** @throws InputError if --resume is combined with options that change the run */
     void
     check_resume(const CommandLine &call)
     {
@@ -98,7 +98,9 @@ namespace geocone::GEOCONE_DIM
           "'geocone FILE.prm'");
     }
 
-    /** @throws InputError if there is a file of that name: it may be someone's work */
+    /**
+     * @throws InputError if a file of that name exists: it may contain a user's work
+     */
     void
     write_defaults(const CommandLine &call)
     {
@@ -123,13 +125,13 @@ namespace geocone::GEOCONE_DIM
     void
     print_help(const std::vector<std::string> &overrides)
     {
-      // Of lists that are empty by default a name, to show what one of it has.
+      // Lists that are empty by default get an example name.
       std::vector<std::string> with_names = {
         "Absorbing boundaries/Names = base",
         "Obstacles/Names = wall",
         "Contacts/Names = joint"};
       with_names.insert(with_names.end(), overrides.begin(), overrides.end());
-      // In one piece, for the reader of a pipe may have seen enough of it.
+      // In one piece, since the reader of a pipe may close it early.
       std::ostringstream text;
       print_defaults(text, with_names);
       std::cout
@@ -143,10 +145,10 @@ namespace geocone::GEOCONE_DIM
            "is solved:\n\n"
         << text_of_plans() << std::flush;
       if (!std::cout)
-        std::_Exit(0); // or else libraries complain of the closed pipe
+        std::_Exit(0); // else libraries report the closed pipe
     }
 
-    /** Runs a scene, or goes on with it. @return whether its expectations hold */
+    /** Runs or resumes a scene. @return whether its expectations hold */
     bool
     run_scene(const CommandLine &call, Drawing &drawing)
     {
@@ -181,7 +183,7 @@ namespace geocone::GEOCONE_DIM
         }
       catch (const StepFailure &)
         {
-          draw_later(); // what led there is to be seen
+          draw_later(); // shows the cause
           end_if_alone();
           throw;
         }
@@ -224,7 +226,7 @@ namespace geocone::GEOCONE_DIM
   void
   check_file(const std::string &file, const CommandLine &call)
   {
-    dealii::ParameterAcceptor::clear(); // of the file before
+    dealii::ParameterAcceptor::clear(); // of an earlier file
     CommandLine one = call;
     one.file        = file;
     one.quiet       = true;

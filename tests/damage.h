@@ -1,8 +1,8 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-// Damaged files, the same on every machine: what a reader may do with them is to
-// read them, or to refuse them by InputError or RunError.
+// Damaged files, the same on every machine: a reader must either read them or refuse
+// them by InputError or RunError.
 
 #ifndef tests_damage_h
 #define tests_damage_h
@@ -29,7 +29,7 @@ namespace damage
     return std::string(std::istreambuf_iterator<char>(in), {});
   }
 
-  /** One to four places of a file changed, or a part of it cut off or doubled. */
+  /** Changes one to four places of a file, or cuts off or duplicates a part of it. */
   inline std::string
   damaged(std::string bytes, std::mt19937 &engine)
   {
@@ -92,7 +92,7 @@ namespace damage
     return bytes;
   }
 
-  /** Reads so many damaged copies of a file and prints the verdict. */
+  /** Reads this many damaged copies of a file and prints the outcome. */
   inline void
   check(const std::string           &what,
         const std::string           &original,

@@ -4,17 +4,15 @@
 #ifndef tests_test_h
 #define tests_test_h
 
-/**
- * A test that the program knows by its folder and file, e.g. mechanics/transfer-01.
- * The files are compiled several at once: each has a namespace of its own.
- */
+/** A test, registered under its folder and file, e.g. mechanics/transfer-01. Several
+ *  files are compiled at once: each has a namespace of its own. */
 class RegisteredTest
 {
 public:
   /** @param file __FILE__ */
   RegisteredTest(const char *file, void (*test)());
 
-  /** Arguments are those that follow the name of the test, after the program's. */
+  /** Arguments are those after the program's and the test's name. */
   RegisteredTest(const char *file, void (*test)(int argc, char **argv));
 };
 

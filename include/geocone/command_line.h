@@ -14,7 +14,7 @@
 
 namespace geocone
 {
-  /** What the programs are called with. */
+  /** Command line of a program. */
   struct CommandLine
   {
     std::string                file;
@@ -35,7 +35,7 @@ namespace geocone
   /**
    * Reads FILE, --output, --set, --quiet, --dry-run, --picture, --check FILE...,
    * --force, --run-gmsh-script, --resume, --defaults, --help and --version.
-   * @param lacking those of these options that the program does not have
+   * @param lacking options among these that the program does not support
    * @throws InputError on anything else
    */
   CommandLine
@@ -48,34 +48,32 @@ namespace geocone
   void
   print_version(const std::string &program);
 
-  /** The run of a parameter file that was called for. */
+  /** Options of the run requested by a command line. */
   RunOptions
   run_options(const CommandLine &call, const ParameterFile &file);
 
-  /** What a run leaves to be drawn. */
+  /** Request to draw the results of a run. */
   struct Drawing
   {
-    std::string folder; ///< of the run; empty: nothing
+    std::string folder; ///< of the run; empty: no drawing
     bool        quiet      = false;
-    bool        only_model = false; ///< of a dry run
+    bool        only_model = false; ///< for a dry run
   };
 
   /**
-   * The frame of a program: starts and ends MPI, watches for signals, prints what
-   * @p run throws, and draws at the end, after that of MPI, which does not like its
-   * processes to be copied.
-   * @param argv its first entry is the program; libraries see no other
-   * @param run gives the exit code
-   * @return the exit code of the program: what @p run gives; 1 after an error;
-   * 128 + its number after a signal
+   * Frame of a program: starts and ends MPI, handles signals, prints exceptions of @p
+   * run, and draws at the end. Drawing follows the end of MPI, whose processes must not
+   * be forked.
+   * @param argv its first entry is the program; libraries receive no other
+   * @param run returns the exit code
+   * @return the exit code of the program: that of @p run; 1 after an error; 128 + its
+   * number after a signal
    */
   int
   run_program(char **argv, const std::function<int(Drawing &)> &run);
 
-  /**
-   * Ends all ranks if the exception that is being handled is this rank's own. To
-   * be called before what is distributed is destroyed, which waits for all ranks.
-   */
+  /** Ends all ranks if the present exception occurred on this rank only. Must be called
+   *  before distributed objects are destroyed, which waits for all ranks. */
   void
   end_if_alone();
 } // namespace geocone

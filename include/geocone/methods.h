@@ -13,15 +13,16 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** The runs of all methods that there are in this dimension, so that a file may hold
-   *  the parameters of all. */
+  /** Runs of all methods available in this dimension, so that a file may contain the
+   *  parameters of all of them. */
   class Methods
   {
   public:
     Methods(const ParameterFile &file, Log &log);
     ~Methods();
 
-    /** That of the parameter file, which has been parsed. @throws InputError */
+    /** The method selected by the parameter file, which has been parsed. @throws
+     *  InputError */
     Simulation &
     chosen();
 

@@ -11,14 +11,15 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** All that the program does with its arguments, for scenes of one dimension: that of
-   *  the build. @return its exit code */
+  /** Performs everything that the program's arguments request, for scenes of the
+   *  build's dimension.
+   *  @return the exit code */
   int
   run_geocone(int argc, char **argv);
 
   /**
    * Checks a parameter file of this dimension as --dry-run does.
-   * @param call with what other options
+   * @param call its other options
    * @throws InputError if it is wrong
    */
   void
