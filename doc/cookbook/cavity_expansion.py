@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # Copyright (C) 2026 by the geocone authors
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Draws doc/cookbook/round_cavity.png: the pressure in a cavity that is widened in clay,
-exact and of runs of prm/axisymmetric/cavity_expansion.prm, _cylinder.prm, and of the
-latter by finite elements (small strains); and tells errors:
+"""Draws doc/cookbook/round_cavity.png: the pressure in an expanding cavity in clay, exact and by
+runs of prm/axisymmetric/cavity_expansion.prm, _cylinder.prm, and of the latter by finite elements
+(small strains). Prints the errors:
 
     cavity_expansion.py [SPHERE CYLINDER FEM]     # folders; without them: exact values only
 

@@ -2,8 +2,8 @@
 # Copyright (C) 2026 by the geocone authors
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Draws doc/cookbook/contact_cases.png of runs of prm/contact/incline.prm, hertz.prm, cattaneo.prm
-and trapdoor.prm, in this order, beside the exact solutions that
-are told in these files, and prints how far the computed values are from them:
+and trapdoor.prm, in this order, with the exact solutions documented in these files, and
+prints the errors of the computed values:
 
     contact_cases.py INCLINE HERTZ CATTANEO TRAPDOOR
 

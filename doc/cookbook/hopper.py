@@ -2,22 +2,23 @@
 # Copyright (C) 2026 by the geocone authors
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Draws doc/cookbook/contact_hopper.png of runs of prm/contact/hopper.prm with smooth and with
-rough walls, and prints how much sand has left, how hard the wall is pressed and which stress
-there is at the outlet, beside theory:
+rough walls, and prints the discharge, the force on the wall and the stress at the outlet, with
+theory:
 
     hopper.py RUN [RUN ...]     # without runs: theory only
 
-Hour-glass theory is documented in the parameter file. Two things are added here, without any fit.
+Hour-glass theory is documented in the parameter file. Two extensions are added here,
+without fitted parameters.
 
 The jet. Below the outlet the sand, half as wide as w(s), falls as a jet with free sides, which
-still converges: u w = u0 w0. What slows its way inwards is a pressure across it,
-P_x = rho u (u w')' (w^2 - x^2)/(2 w), and where it is pressed from its sides P_y = P_x/k. With means
+still converges: u w = u0 w0. Its convergence is stopped by a pressure across it,
+P_x = rho u (u w')' (w^2 - x^2)/(2 w), and under lateral compression P_y = P_x/k. With means
 over its width, z = ln(w/w0), lengths over w0 and F = u0^2/(g w0), momentum along the jet is
 
     z''' + z' z" = 3 k (1/F + z' exp(-2 z)),   z(0) = 0, z'(0) = -a, free fall far below,
 
-and the outlet bears p(r0) = rho u0^2 z"(0)/(3 k), nothing where u0^2 <= g r0: the sand there
-does not come together faster than it falls.
+and the pressure at the outlet is p(r0) = rho u0^2 z"(0)/(3 k), zero where u0^2 <= g r0: the sand
+there does not converge faster than it falls.
 
 The turn of principal stresses at a rough wall, to the first order in the angle a (Brennen and
 Pearce 1978): shear stress is mu P_t theta/a, so that each place of the cross-section has its own

@@ -2,12 +2,12 @@
 # Copyright (C) 2026 by the geocone authors
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Draws doc/cookbook/three_cases.png of runs of prm/three/sphere.prm, thick_cylinder.prm and
-square_footing.prm, in this order, beside the exact stresses that are told in these files, and
-prints how far the computed ones are from them:
+square_footing.prm, in this order, with the exact stresses documented in these files, and
+prints the errors of the computed ones:
 
     three_cases.py SPHERE CYLINDER SQUARE
 
-Stresses are those of integration points, of every place in the body."""
+Stresses are those of all integration points of the body."""
 
 import pathlib
 import sys
