@@ -78,7 +78,8 @@ namespace geocone
       std::string only_model  = "--model";
       char *const arguments[] = {plot.data(),
                                  folder.data(),
-                                 drawing.only_model ? only_model.data() : nullptr,
+                                 drawing.only_model ? only_model.data()
+                                                    : nullptr,
                                  nullptr};
       posix_spawn_file_actions_t actions;
       posix_spawn_file_actions_init(&actions);
@@ -171,8 +172,9 @@ namespace geocone
                        "  remedy:  see " +
                        program + " --help");
     if (call.picture && (!call.dry_run || checks))
-      throw InputError("--picture goes with --dry-run: a run draws its model "
-                       "always\n  remedy:  geocone --dry-run FILE.prm --picture");
+      throw InputError(
+        "--picture goes with --dry-run: a run draws its model "
+        "always\n  remedy:  geocone --dry-run FILE.prm --picture");
     return call;
   }
 
@@ -223,7 +225,8 @@ namespace geocone
         }
       catch (...)
         {
-          return "of a kind that is not known\n  remedy:  tell the authors, "
+          return "of a kind that is not known\n  remedy:  report it to the "
+                 "authors, "
                  "with the parameter file";
         }
     }

@@ -254,9 +254,9 @@ namespace geocone::GEOCONE_DIM
     // support.
     if (!(p >= -node.tension) && !(holds && node.is_closed))
       return result;
-    const double mu = rubs ? node.friction : 0.;
+    const double mu = with_friction ? node.friction : 0.;
     const double bound =
-      rubs ? mu * std::max(p, -node.tension) + node.adhesion : 0.;
+      with_friction ? mu * std::max(p, -node.tension) + node.adhesion : 0.;
     const Force u_T = u - (u * n) * n, r_T = at.r - (at.r * n) * n,
                 pull  = r_T - rho * u_T;
     const double size = pull.norm();
@@ -382,12 +382,12 @@ namespace geocone::GEOCONE_DIM
   Contact::replace(Vector       &residual,
                    const Vector &v,
                    const Vector &scale,
-                   const bool    rubs_now,
+                   const bool    has_friction,
                    const bool    holds_now)
   {
-    rubs    = rubs_now;
-    holds   = holds_now;
-    relaxed = false;
+    with_friction = has_friction;
+    holds         = holds_now;
+    relaxed       = false;
     touch.assign(list.size(), Touch());
     rho_Q.assign(list.size(), Matrix());
     for (Vector &row : row_A)

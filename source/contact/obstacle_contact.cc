@@ -146,7 +146,8 @@ namespace geocone::GEOCONE_DIM
             list[o]->nearest(place(node), displacement[o], {}).distance);
         least[o] = Utilities::MPI::min(least[o], comm);
         if (least[o] < -closed_gap * size)
-          list[o]->refuse_overlap(format("it is entered by %.3g m", -least[o]));
+          list[o]->refuse_overlap(
+            format("it is penetrated by %.3g m", -least[o]));
       }
   }
 
@@ -237,15 +238,17 @@ namespace geocone::GEOCONE_DIM
   bool
   ObstacleContact::has_bonds() const
   {
-    const auto  bears = [](const auto &one) { return one->law.tension > 0.; };
+    const auto is_bonded = [](const auto &one) {
+      return one->law.tension > 0.;
+    };
     const auto &obstacles = scene.obstacles.list;
     const auto &contacts  = scene.contacts.list;
-    return std::any_of(obstacles.begin(), obstacles.end(), bears) ||
-           std::any_of(contacts.begin(), contacts.end(), bears);
+    return std::any_of(obstacles.begin(), obstacles.end(), is_bonded) ||
+           std::any_of(contacts.begin(), contacts.end(), is_bonded);
   }
 
   void
-  ObstacleContact::bear(const InterfaceLaw &law, ContactNode &node) const
+  ObstacleContact::apply_law(const InterfaceLaw &law, ContactNode &node) const
   {
     node.friction = law.friction;
     node.adhesion = law.adhesion * node.length;
@@ -276,7 +279,7 @@ namespace geocone::GEOCONE_DIM
         const InterfaceLaw &law =
           scene.contacts.list[contact.obstacle - scene.obstacles.list.size()]
             ->law;
-        bear(law, contact);
+        apply_law(law, contact);
         rebound(u_n, law, contact);
         near[contact.node] = {contact, at.gap, reach(h, u_n)};
       }
@@ -373,7 +376,7 @@ namespace geocone::GEOCONE_DIM
             contact.least     = -gap / h;
             contact.is_closed = gap <= closed_gap * size;
             contact.length = mesh_is_body ? sides->facing(node, at.normal) : 0.;
-            bear(list[o]->law, contact);
+            apply_law(list[o]->law, contact);
             const double u_n = (v - V) * at.normal;
             rebound(u_n, list[o]->law, contact);
             near.push_back({contact, gap, reach(h, u_n)});
@@ -473,7 +476,7 @@ namespace geocone::GEOCONE_DIM
         if (!nodes[i].rebounds)
           most[1] = std::max(
             most[1], -h * (relative * nodes[i].normal - nodes[i].least));
-        if (!contact.bears(i))
+        if (!contact.carries_load(i))
           continue;
         const Tensor<1, dim> r = force(contact, i);
         // Vertices of quadratic tetrahedra have no tributary area.
@@ -525,7 +528,7 @@ namespace geocone::GEOCONE_DIM
     const auto           &nodes = contact.nodes();
     for (unsigned int i = 0; i < nodes.size(); ++i)
       {
-        if (nodes[i].node >= space.n_owned_nodes() || !contact.bears(i))
+        if (nodes[i].node >= space.n_owned_nodes() || !contact.carries_load(i))
           continue;
         const Tensor<1, dim> r     = force(contact, i);
         const unsigned int   o     = nodes[i].obstacle;

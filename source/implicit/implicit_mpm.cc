@@ -455,7 +455,7 @@ namespace geocone::GEOCONE_DIM
     // come to rest without ObstacleContact::settle, unlike in fixed meshes.
     trial       = {};
     trial.share = constraints->multipliers.light_share(v, lumped_mass, *space);
-    const std::string why_not = objection(trial.share);
+    const std::string why_not = rejection(trial.share);
     return why_not.empty() ? transfer(points, v_end, v, step.h) : why_not;
   }
 

@@ -190,7 +190,7 @@ namespace geocone::GEOCONE_DIM
   }
 
   std::string
-  ImplicitMPM::objection(const Multipliers::LightShare &share) const
+  ImplicitMPM::rejection(const Multipliers::LightShare &share) const
   {
     // Sound steps have up to 0.02, spurious velocities 1.6 and more.
     if (!(share.largest > 0.3))

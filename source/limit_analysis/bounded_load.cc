@@ -119,7 +119,7 @@ namespace geocone::GEOCONE_DIM
               throw InputError(
                 obstacle.parameter("Velocity x"),
                 dealii::Patterns::Tools::to_string(V),
-                "a motion to which the body can give way",
+                "a motion that the body can yield to",
                 format("the body is held at (%g, %g), where the obstacle "
                        "touches it: let it slide there; a rough side can be an "
                        "obstacle, too, with 'Friction coefficient' = tan(phi)",
@@ -160,7 +160,7 @@ namespace geocone::GEOCONE_DIM
                        "strength reduction",
                        "limit load where a velocity is prescribed that is not "
                        "zero",
-                       "reduce the strength of a body that bears its weight "
+                       "reduce the strength of a body that carries its weight "
                        "and tractions");
     if (std::all_of(flow_cones.begin(),
                     flow_cones.end(),
@@ -228,11 +228,12 @@ namespace geocone::GEOCONE_DIM
         const std::string parameter =
           "Materials/" + scene.materials.name(m) + "/Type";
         if (!cone)
-          throw InputError(parameter,
-                           ParameterFile::value(parameter),
-                           "Mohr-Coulomb | Tresca where loads are bounded",
-                           "bounds are those of laws of the plane; what cannot "
-                           "yield bears any load: leave it out of the domain");
+          throw InputError(
+            parameter,
+            ParameterFile::value(parameter),
+            "Mohr-Coulomb | Tresca where loads are bounded",
+            "bounds are those of laws of the plane; what cannot "
+            "yield carries any load: leave it out of the domain");
         if (scene.materials[m].hardens())
           throw InputError(parameter,
                            "a law that hardens",

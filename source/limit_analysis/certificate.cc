@@ -268,13 +268,13 @@ namespace geocone::GEOCONE_DIM
     for (Vector3d &one : result.s)
       one *= theta;
     if (!std::isfinite(result.load + result.error))
-      result.objection = "it is not a number";
+      result.rejection = "it is not a number";
     else if (!(result.error < rounding))
-      result.objection =
+      result.rejection =
         format("its stresses miss equilibrium by %.1e of the largest one",
                result.error);
     else if (!is_scaled && result.violation > rounding_strength)
-      result.objection =
+      result.rejection =
         format("its stresses exceed the strength by %.1e of the largest one, "
                "and a dead "
                "load or soil without cohesion leaves nothing to scale",
@@ -331,11 +331,11 @@ namespace geocone::GEOCONE_DIM
     result.q = solution.q;
     if (!solution.q.allFinite())
       {
-        result.objection = "it is not a number";
+        result.rejection = "it is not a number";
         return result;
       }
     if (problem.has_incompressible() && !make_incompressible(problem, result.q))
-      result.objection = "incompressible velocities were not found";
+      result.rejection = "incompressible velocities were not found";
     // Cut-offs dissipate by the whole rates, dissipation().
     result.q.tail(problem.n_dofs() - problem.first_cut_dof).setZero();
 
@@ -351,7 +351,7 @@ namespace geocone::GEOCONE_DIM
       }
 
     double scale = 1.; // of the prescribed velocities
-    if (result.violation > 0. && result.objection.empty())
+    if (result.violation > 0. && result.rejection.empty())
       scale = repair_rates(bound, problem, result.violation, result.q);
     const auto repaired = problem.B.rates(result.q);
     double     left = 0., power = -problem.dead.dot(result.q);
@@ -365,16 +365,16 @@ namespace geocone::GEOCONE_DIM
     const double work =
       problem.has_factor() ? problem.live.dot(result.q) : scale;
     result.load = power / work;
-    if (!result.objection.empty())
+    if (!result.rejection.empty())
       return result;
     if (!std::isfinite(result.load) || !(work > 0.))
-      result.objection = "its velocities do no work";
+      result.rejection = "its velocities do no work";
     else if (!(result.error < rounding))
-      result.objection =
+      result.rejection =
         format("its normal rates are %.1e of the largest one where phi = 0",
                result.error);
     else if (left > 0.)
-      result.objection =
+      result.rejection =
         format("its strain rates miss the cone by %.1e of the largest one, and "
                "no field that obeys the boundary conditions is known to repair "
                "them",

@@ -520,11 +520,11 @@ namespace geocone::GEOCONE_DIM
       const VectorXd s_n_before = s_n;
       polish();
       // The latest stresses, while none are admissible.
-      const double bears = admissible_load();
-      if (bears > most_admissible ||
+      const double carried = admissible_load();
+      if (carried > most_admissible ||
           (most_admissible == no_load && std::isfinite(load)))
         {
-          most_admissible = bears;
+          most_admissible = carried;
           kept            = stresses();
           kept_load       = load;
         }

@@ -339,7 +339,7 @@ namespace geocone::GEOCONE_DIM
                     side.solution.reason);
         if (!side.bound.certified)
           log.print(format("  the %s bound is not certified: ", name) +
-                    side.bound.objection);
+                    side.bound.rejection);
       }
     const BoundLevel level =
       level_of(bounds, triangles->cells.size(), bounded_load.value_of_unit());
@@ -529,8 +529,8 @@ namespace geocone::GEOCONE_DIM
     if (!gap)
       log.warn(std::string("not certified: ") +
                (best.lower
-                  ? "the upper bound: " + bounds.upper.bound.objection
-                  : "the lower bound: " + bounds.lower.bound.objection));
+                  ? "the upper bound: " + bounds.upper.bound.rejection
+                  : "the lower bound: " + bounds.lower.bound.rejection));
     else if (!(*gap < gap_tolerance))
       log.warn(format("the gap is %.3g %%, more than 'Analysis/Gap tolerance'; "
                       "raise 'Analysis/Maximum cells' or 'Maximum levels'",

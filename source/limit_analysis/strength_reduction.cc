@@ -23,14 +23,14 @@ namespace geocone::GEOCONE_DIM
       if (factor > most)
         throw StepFailure(
           format("no reduction of the strength makes the body fail (tried: "
-                 "%g)\n  remedy:  check that it can fail: level ground bears "
+                 "%g)\n  remedy:  check that it can fail: level ground carries "
                  "its own weight with any strength, and a side of the mesh "
                  "that is too near may confine it",
                  most));
       if (!(factor > least))
         throw StepFailure(
-          "no strength bears the loads, a thousand times of the given one "
-          "neither\n  remedy:  check the loads, the supports and the units");
+          "no strength carries the loads, not even a thousand times the given "
+          "one\n  remedy:  check the loads, the supports and the units");
       return factor;
     }
 
@@ -142,8 +142,8 @@ namespace geocone::GEOCONE_DIM
             format("neither bound of the loads is certified where the strength "
                    "is divided by %g: the upper one: ",
                    factor) +
-            upper.bound.objection +
-            "; the lower one: " + lower.bound.objection +
+            upper.bound.rejection +
+            "; the lower one: " + lower.bound.rejection +
             "\n  remedy:  check that the body can fail by its loads, its "
             "supports and strengths, or take other cells");
         // The midpoint is between 1/5 and 5 times its distance from there.

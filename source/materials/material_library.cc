@@ -100,7 +100,7 @@ namespace geocone::GEOCONE_DIM
                      type,
                      known,
                      "choose one of these laws, or add one as "
-                     "CONTRIBUTING.md tells");
+                     "CONTRIBUTING.md explains");
   }
 
   ParameterFile::OfOthers

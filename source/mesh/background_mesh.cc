@@ -206,7 +206,7 @@ namespace geocone::GEOCONE_DIM
       throw InputError("Mesh/Triangulation",
                        storage.word(),
                        "automatic | shared where there are contacts: each rank "
-                       "looks for what touches",
+                       "searches for contacts",
                        "set Mesh/Triangulation = automatic");
     if (storage == Storage::distributed && simplicial)
       throw InputError("Mesh/Triangulation",

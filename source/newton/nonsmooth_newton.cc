@@ -230,7 +230,7 @@ namespace geocone::GEOCONE_DIM
     newton.elastic_first        = elastic_first && next.elastic_first;
     newton.exact_contact        = next.contact == ContactLaw::exact;
     newton.law.contact_holds    = next.contact == ContactLaw::bilateral;
-    newton.law.obstacles_rub    = next.contact != ContactLaw::without_friction;
+    newton.law.contact_friction = next.contact != ContactLaw::without_friction;
     std::optional<NaturalMap> map;
     if (next.natural_map)
       newton.law.natural_map =

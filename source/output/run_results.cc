@@ -47,11 +47,11 @@ namespace geocone::GEOCONE_DIM
     const double            end = records.empty() ? 0. : records.back().time;
     if (!failure)
       {
-        const bool   whole = end >= (1. - 1e-9) * loading.duration();
-        const double borne = loading.strength_factor(end);
+        const bool   whole     = end >= (1. - 1e-9) * loading.duration();
+        const double sustained = loading.strength_factor(end);
         return {{"factor", Json()},
                 {"displacement_growth", Json()},
-                {"lower", whole || borne != 1. ? Json(borne) : Json()},
+                {"lower", whole || sustained != 1. ? Json(sustained) : Json()},
                 {"upper", Json()},
                 {"criterion",
                  whole ? "equilibrium is found for all factors of the stages"

@@ -75,7 +75,7 @@ namespace geocone::GEOCONE_DIM
 
     /** Error in the text of a section Materials; empty if there is none. */
     std::string
-    objection_to_materials(const std::string &text)
+    rejection_of_materials(const std::string &text)
     {
       std::istringstream       in(text);
       std::vector<std::string> sections;
@@ -297,8 +297,8 @@ namespace geocone::GEOCONE_DIM
                    std::vector<unsigned int>{dim},
                  format("its dimension is not %u", dim));
       frozen.materials            = in.file.read_text("materials");
-      const std::string objection = objection_to_materials(frozen.materials);
-      in.check(objection.empty(), objection);
+      const std::string rejection = rejection_of_materials(frozen.materials);
+      in.check(rejection.empty(), rejection);
       const auto step = in.doubles("step");
       in.check(step.size() == 2 && step[0] > 0., "the step must be > 0 s");
       in.check(step[1] >= 0. && step[1] <= 1.,

@@ -94,7 +94,7 @@ namespace geocone::GEOCONE_DIM
     if (contact_term)
       {
         contact_term->replace(
-          dst, v, scale(), law.obstacles_rub, law.contact_holds);
+          dst, v, scale(), law.contact_friction, law.contact_holds);
         // Forces required by obstacles on a body at rest are part of the
         // reference.
         const Contact::Sums sums_of_contact = contact_term->sums();

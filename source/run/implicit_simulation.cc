@@ -352,7 +352,7 @@ namespace geocone::GEOCONE_DIM
           {
             if (scene.loading.reduces_strength() &&
                 scene.loading.strength_factor(place.time) >= 1.)
-              log.warn("a body that does not bear its loads has a factor of "
+              log.warn("a body that does not carry its loads has a factor of "
                        "safety below 1: let the stages begin with a 'Strength "
                        "factor' below 1, e.g. 0.5, and rise from there");
             throw;

@@ -225,7 +225,7 @@ namespace geocone::GEOCONE_DIM
         "none or a number (N/m) on undrained soil, whose strength is that of "
         "the stress before the load",
         "without dilatancy s_u = c cos(phi) + p sin(phi), p the mean effective "
-        "pressure in the plane; a strip bears (2 + pi) s_u times its width");
+        "pressure in the plane; a strip carries (2 + pi) s_u times its width");
     // Weight increases the bearing capacity of frictional soil only.
     if (phi > 0. && materials.law(index).density() > 0. && gravity.acts())
       throw InputError(

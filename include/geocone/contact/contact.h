@@ -183,14 +183,14 @@ namespace geocone::GEOCONE_DIM
      * Replaces the forces r in the rows of contact nodes by F, and stores both.
      * @param[in,out] residual in owned rows
      * @param scale the diagonal of the elastic Jacobian (kg/(m s))
-     * @param rubs whether friction is included
+     * @param with_friction whether friction is included
      * @param holds whether initially closed contacts are bilateral. Collective.
      */
     void
     replace(Vector       &residual,
             const Vector &v,
             const Vector &scale,
-            const bool    rubs,
+            const bool    with_friction,
             const bool    holds);
 
     /** Applies A and B of the last replace() to the rows of the Jacobian.
@@ -299,7 +299,7 @@ namespace geocone::GEOCONE_DIM
     /** Whether there is a force, including tension in initially closed
      *  contacts. */
     bool
-    bears(const unsigned int i) const
+    carries_load(const unsigned int i) const
     {
       return touch[i].state != State::open || list[i].tension > 0.;
     }
@@ -400,11 +400,11 @@ namespace geocone::GEOCONE_DIM
     std::vector<Matrix>      rho_Q; ///< of owned nodes
     std::array<Vector, dim>  row_A; ///< A by component of F, at the node's dofs
     ObstacleMotions          obstacles;
-    bool                     has_pairs  = false; ///< of bodies, on any rank
-    double                   body_error = 0.;    ///< of their equilibrium (N/m)
-    bool                     rubs       = true;  ///< in the last replace()
-    bool                     holds      = false; ///< in the last replace()
-    bool                     relaxed    = false; ///< since the last replace()
+    bool                     has_pairs     = false; ///< of bodies, on any rank
+    double                   body_error    = 0.; ///< of their equilibrium (N/m)
+    bool                     with_friction = true;  ///< in the last replace()
+    bool                     holds         = false; ///< in the last replace()
+    bool                     relaxed = false; ///< since the last replace()
   };
 } // namespace geocone::GEOCONE_DIM
 

@@ -295,7 +295,7 @@ namespace geocone::GEOCONE_DIM
 
     /** Sets the strength of the interface at a node, by its other data. */
     void
-    bear(const InterfaceLaw &law, ContactNode &node) const;
+    apply_law(const InterfaceLaw &law, ContactNode &node) const;
 
     /** Contact force on a node, without the part carried by supports. */
     static dealii::Tensor<1, dim>

@@ -179,7 +179,7 @@ namespace geocone::GEOCONE_DIM
 
     /** Reason for rejection of a solved step, or empty. */
     std::string
-    objection(const Multipliers::LightShare &share) const;
+    rejection(const Multipliers::LightShare &share) const;
 
     bool
     has_force() const override

@@ -21,7 +21,7 @@ namespace geocone::GEOCONE_DIM
   {
     double      load      = 0.;
     bool        certified = false;
-    std::string objection; ///< reason for rejection, if not certified
+    std::string rejection; ///< reason for rejection, if not certified
 
     /** Largest violation before the repair: of the strength, relative to the largest
      *  stress, or of admissible flow, relative to the largest strain rate. */

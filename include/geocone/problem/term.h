@@ -25,7 +25,7 @@ namespace geocone::GEOCONE_DIM
 
     /** Whether contact has friction; a step without friction is an initial
      *  guess for one with friction. */
-    bool obstacles_rub = true;
+    bool contact_friction = true;
 
     /** Whether initially active contacts are bilateral, as an initial guess for
      *  a step with separation. */
