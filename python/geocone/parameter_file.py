@@ -1,7 +1,7 @@
 # Copyright (C) 2026 by the geocone authors
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Parameter files: what they say, and how settings are written. What geocone would
-refuse is left to it, but for files that are read without end."""
+"""Parameter files: their values, and how settings are written. Errors are left to geocone,
+but for files that are read without end."""
 
 import itertools
 import os

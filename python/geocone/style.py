@@ -10,8 +10,9 @@ import textwrap
 
 import matplotlib
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.collections import EllipseCollection, PolyCollection
+from matplotlib.collections import EllipseCollection, PolyCollection, TriMesh
 from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
@@ -30,7 +31,9 @@ RATES.set_extremes(under="#ececec", bad="#ececec")
 STRAINS, RATIOS = matplotlib.colormaps["viridis"], matplotlib.colormaps["cividis"]
 for colors in STRAINS, RATIOS:
     colors.set_extremes(under="#d4d4d4", bad="#d4d4d4")  # hardly deformed
-SHOWN = 1e-4  # a rate below this part of the greatest one is drawn as none
+SHOWN = 1e-3  # a rate below this part of level() is drawn as none: it is elastic noise
+EXCEEDED = 0.02  # part of the area whose values are beyond the end of the colours
+MOST_PATHS = 3000  # that a vector file has of one collection
 BESIDE = {"loc": "upper left", "bbox_to_anchor": (1., 1.02)}  # a legend's place
 
 matplotlib.rcdefaults()  # not what a file in the folder of the call may say, e.g. to run TeX
@@ -79,13 +82,48 @@ def subplots(*shape, figsize, **options):
     return figure, figure.subplots(*shape, **options)
 
 
+def level(values, areas, part=EXCEEDED):
+    """Value that a part of the area exceeds, where colours end: a few extreme places, as the
+    edge of a footing or a node without mass, do not set the scale."""
+    order = np.argsort(values)
+    below = np.cumsum(areas[order])
+    return values[order][min(np.searchsorted(below, (1. - part) * below[-1]), len(order) - 1)]
+
+
+def areas_of(corners):
+    """Areas of triangles or quadrilaterals, given their corners (n, 3 or 4, dimension)."""
+    sides = corners[:, 1:] - corners[:, :1]
+    sides = np.pad(sides, ((0, 0), (0, 0), (0, 3 - sides.shape[2])))
+    return 0.5 * np.linalg.norm(np.cross(sides[:, :-1], sides[:, 1:]).sum(axis=1), axis=1)
+
+
+def sizes_of(field):
+    """Areas of the cells of a field in the plane or their volumes in space (of hexahedra as
+    if they were parallelepipeds), or areas or volumes of its points."""
+    if field.cells.shape[1] > 2:
+        corners = field.points[field.cells]
+        if corners.shape[2] == 2:
+            return areas_of(corners)
+        edges = [1, 3, 4] if corners.shape[1] == 8 else [1, 2, 3]
+        return np.abs(np.linalg.det(corners[:, edges] - corners[:, :1]))
+    of_points = field.data.get("area", field.data.get("volume"))  # area: of an axisymmetric body
+    return np.ones(len(field.points)) if of_points is None else of_points[:, 0]
+
+
+def columns_of(n, ratio):
+    """Columns of n panels, each so many times as wide as high: a figure not much wider or
+    higher than a page, without empty places as far as possible."""
+    def badness(columns):
+        rows = -(-n // columns)
+        return abs(np.log(ratio * columns / rows / 1.5)) + 4. * (rows * columns - n) / n
+    return min(range(1, n + 1), key=badness)
+
+
 def panels(n, view):
-    """A figure with n equal axes that show the view, (low, high) corners, side by side
-    if it is high."""
+    """A figure with n equal axes that show the view, (low, high) corners."""
     width, height = view[1] - view[0]
     ratio = width / height
-    columns = (1 if ratio > 1. else n) if n < 3 else (1 if ratio > 2.5 else
-                                                      2 if ratio > 0.4 else n)
+    columns = columns_of(n, ratio)
     shape = np.array([-(-n // columns), columns])
     # Of many panels only the outer ones have labels.
     w = min((4.5 if shape.min() > 1 else 6.) * min(1., max(0.4, ratio)), 8. * ratio)
@@ -193,7 +231,7 @@ def disks(axes, field, values):
     its size is that of the point, as far as is known."""
     points = field.points
     if "volume" in field.data:
-        area = field.data.get("area", field.data["volume"])  # of a round body
+        area = field.data.get("area", field.data["volume"])  # of an axisymmetric body
         size = 1.2 * np.sqrt(area[:, 0])
         # Points that fly may have grown without limit.
         size = np.minimum(size, np.quantile(size, 0.98))
@@ -238,12 +276,22 @@ def annotate(figure, run):
                     fontsize=8, color="#606060", va="top")
 
 
+def rasterize(figure):
+    """Makes fields of many cells images in vector files, which would be huge otherwise."""
+    for axes in figure.findobj(Axes):
+        for collection in axes.collections:
+            paths = max(len(collection.get_paths()), len(collection.get_offsets()))
+            if isinstance(collection, TriMesh) or paths > MOST_PATHS:
+                collection.set_rasterized(True)
+
+
 def write_figure(figure, paths, cropped):
-    """Writes a figure into files. What has equal axes or a foot is cropped, which
+    """Writes a figure into files. One with equal axes or a foot is cropped, which
     draws it twice."""
     if not cropped:
         figure.get_layout_engine().execute(figure)
         figure.set_layout_engine("none")
+    rasterize(figure)
     for path in paths:
         try:
             with matplotlib.rc_context({"savefig.bbox": "tight" if cropped else None}):
@@ -275,7 +323,7 @@ def save(figure, run, *paths, cropped=False):
         error = b""
         try:
             write_figure(figure, paths, cropped)
-        except Exception as problem:  # told by the parent
+        except Exception as problem:  # reported by the parent
             error = str(problem).encode("utf-8", "replace")
         os.write(sink, error)
         os._exit(0 if not error else 1)

@@ -7,9 +7,8 @@ For each run folder, as far as the files for them exist:
   load_displacement.png, .svg      statistics.csv, the reference and the plateau
   newton.png                       newton.csv: the residuals of all steps
   energy.png                       statistics.csv: where the energy goes
-  plastic_strain_rate.png          the last cells-*.vtu, with the displacement
-                                   (or the velocity) of the mesh
-  plastic_strain_rate_points.png   the last points-*.vtu
+  plastic_strain_rate.png          the last cells-*.vtu, or points-*.vtu if they move, with
+                                   the displacement (or the velocity)
   excess_pore_pressure.png         the last cells-*.vtu or points-*.vtu of undrained soil
   plastic_strain.png               points-*.vtu at several times, if they move;
                                    shear_stress.png of an elastic body instead
@@ -55,8 +54,7 @@ def pictures_of(run, times=None):
     return {**curve, **undrained,
             "newton.png": newton.draw_run,
             "energy.png": energy.draw_implicit,
-            "plastic_strain_rate.png": rates.draw_cells,
-            "plastic_strain_rate_points.png": rates.draw_points,
+            "plastic_strain_rate.png": rates.draw_run,
             "plastic_strain.png": lambda run, path: points.draw_strains(run, path, times)}
 
 
@@ -166,7 +164,7 @@ def main(arguments, prog="plot"):
     except (PlotError, ReadError, Skipped, OSError) as problem:
         try:
             finish()
-        except PlotError:  # the first problem is told
+        except PlotError:  # the first problem is reported
             pass
         print(f"error: {problem}", file=sys.stderr)
         return 1

@@ -15,7 +15,7 @@ import numpy as np
 from matplotlib.colors import Normalize
 
 from geocone.plots.energy import draw_explicit
-from geocone.plots.point_values import states_at, strain_or_shear, values_of
+from geocone.plots.point_values import level_of, states_at, strain_or_shear, values_of
 from geocone.plots.points import draw_panels, look_at
 from geocone.reader import Missing, ReadError
 from geocone.style import BESIDE, COLORS, RATIOS, Skipped, plain, save, subplots
@@ -103,7 +103,7 @@ def snapshots_of(run, times):
 
 
 def look_of(fields, values):
-    """How the points of a body that moves are looked at."""
+    """The look of the points of a body that moves."""
     return look_at(fields, values, lambda size: 0.1 * np.max(size))
 
 
@@ -121,7 +121,7 @@ def draw_ratio(run, path, names, label, least, times=None):
     values = values_of(fields, *names)
     if values is None or not np.any(np.isfinite(np.concatenate(values))):
         raise Skipped(f"its points have no {names[0]}")
-    most = np.nanquantile(np.concatenate(values), 0.995)
+    most = level_of(fields, values)
     draw_panels(run, path, fields, look_of(fields, values), values,
                 Normalize(least, max(1., most) if most > least + 1e-3 else least + 1.),
                 label, RATIOS, extend="max" if most > 1. else "neither")
@@ -135,7 +135,7 @@ def pictures(run, times=None):
         if taken_away_at(run) is not None:
             found["slide.png"] = draw_slide
         known = set(snapshots_of(run, times)[0].data)
-    except (ReadError, Skipped):  # told where points.png is drawn
+    except (ReadError, Skipped):  # reported where points.png is drawn
         known = set()
     for name, (names, label, least) in SOILS.items():
         if known & set(names):

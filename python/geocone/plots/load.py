@@ -7,6 +7,7 @@ from collections import namedtuple
 import numpy as np
 from matplotlib.ticker import MaxNLocator
 
+from geocone.plots.answer import heading
 from geocone.style import BESIDE, COLORS, ORANGE, Skipped, plain, save, subplots, unit_for
 
 # mm, N/m or N, of the summary, s, of a limit analysis
@@ -14,7 +15,7 @@ Curve = namedtuple("Curve", "displacement load limit time marks", defaults=((),)
 
 
 def marks_of(run):
-    """What a limit analysis of the scene proves of the load, and what it estimates: name,
+    """Bounds of the load that a limit analysis of the scene proves, and its estimates: name,
     and one load or two between which it is."""
     if run.value("bounds/unit") != run.per_metre("N"):
         return []
@@ -38,13 +39,18 @@ def curve_of(run):
                  marks_of(run))
 
 
+def is_at_rest(curve):
+    """Whether the loaded part does not move: its load is drawn against time."""
+    return not curve.displacement.any()
+
+
 def number(value, unit):
     """A load in a unit, which does not follow it."""
     return f"{value / unit[1]:.{0 if abs(value / unit[1]) >= 999.5 else 2}f}"
 
 
 def load_text(name, value, unit, error=None):
-    """A load, and its error, as the legend tells them."""
+    """A load, and its error, as the legend gives them."""
     if value is None:
         return f"{name}: not reached"
     return (f"{name}: {number(value, unit)} {unit[0]}" +
@@ -81,7 +87,7 @@ def draw_lines(axes, names, curves, unit):
 
 
 def draw_marks(axes, marks, unit):
-    """Draws what a limit analysis tells: a line, or a band of two loads."""
+    """Draws the results of a limit analysis: a line, or a band of two loads."""
     for (name, loads), color in zip(marks, ("#009E73", "#CC79A7")):
         if len(loads) == 1:
             axes.axhline(loads[0] / unit[1], color=color, linestyle="-.", zorder=1.7,
@@ -98,7 +104,7 @@ def draw_curves(names, curves, title, run, *paths):
     they end close."""
     curves = list(curves)
     along = "displacement (mm)"
-    if not any(curve.displacement.any() for curve in curves):  # what is pushed is at rest
+    if all(is_at_rest(curve) for curve in curves):
         along = "time (s)"
         curves = [curve._replace(displacement=curve.time) for curve in curves]
     single, ends = len(curves) == 1, [curve.limit[key] for curve in curves
@@ -136,4 +142,4 @@ def draw_run(run, path):
     """Draws the curve of a run, also as .svg."""
     size = run.summary["size"]
     draw_curves([plain(f"load, {size['cells']} {size['element']} cells")],
-                [curve_of(run)], plain(run.name), run, path, path.with_suffix(".svg"))
+                [curve_of(run)], heading(run), run, path, path.with_suffix(".svg"))

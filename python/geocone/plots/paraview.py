@@ -1,8 +1,8 @@
 # Copyright (C) 2026 by the geocone authors
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """paraview_state.py: a script that opens the fields of a run in ParaView and shows what
-the pictures show. What it opens, which arrays, and in which range of colours is found
-here, of the last state; ParaView needs nothing of this package."""
+the pictures show. Files, arrays and ranges of colours are found here, of the last
+state; ParaView needs nothing of this package."""
 
 import os
 import pprint
@@ -35,7 +35,7 @@ VIEWS = {
 
 
 def series_of(run):
-    """The series that tells most of a run: points only if they move.
+    """The main series of a run: points only if they move.
     @throw Missing if there are no fields"""
     for series in ("bounds", "points", "cells"):
         try:
@@ -65,7 +65,7 @@ def range_of(values, part, vector):
 
 
 def view_of(series, field, choices):
-    """What a view shows of a series; None if all of it is zero or not there."""
+    """Description of the view of a series; None if all of it is zero or not there."""
     for array, title, part in choices:
         if array not in field.data or not np.any(field.data[array]):
             continue

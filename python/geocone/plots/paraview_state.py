@@ -11,7 +11,7 @@ import sys
 from paraview import simple
 
 # name; from  the folder of the run, as seen from here; folder  the same, where ParaView
-# does not tell where this file is; towards  the eye, in three dimensions; wide;
+# does not give the place of this file; towards  the eye, in three dimensions; wide;
 # views, each with:
 #   series   which is opened        array   that colours, of vectors the magnitude
 #   title    of its colours         range   of its colours; log: by the logarithm
@@ -70,7 +70,7 @@ def show(look, source, view):
 
 
 def last_time(source):
-    """The last time of a reader, which tells a single one as a number."""
+    """The last time of a reader, which gives a single one as a number."""
     times = source.TimestepValues
     return times if isinstance(times, float) else times[-1]
 

@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.colors import LogNorm, Normalize
 
 from geocone.reader import nearest
-from geocone.style import Skipped
+from geocone.style import Skipped, level, sizes_of
 
 STRAIN = "cumulative_plastic_strain"
 SHEAR = "largest shear stress in the plane (Pa)"
@@ -34,20 +34,33 @@ def shear_stress(fields):
     return [np.hypot((xx - yy) / 2., xy) for xx, yy, xy in zip(*parts)]
 
 
+def per_cell(field, values):
+    """Values of the cells of a field, all of whose corners have the cell's value, or of its
+    points where these are its cells."""
+    return values[field.cells[:, 0]]
+
+
+def level_of(fields, values):
+    """Positive value at which colours end (style.level) for some states together; the
+    smallest number if nothing is positive."""
+    all_values = np.concatenate([per_cell(*pair) for pair in zip(fields, values)])
+    sizes = np.concatenate([sizes_of(field) for field in fields])
+    positive = all_values > 0.
+    return (level(all_values[positive], sizes[positive]) if np.any(positive) else
+            np.finfo(float).tiny)
+
+
 def strain_or_shear(fields):
-    """Quantity shown at the points: plastic strain, on a scale of its logarithm, or the
-    shear stress of an elastic body.
+    """Quantity shown at the points: plastic strain, on a logarithmic scale, or the shear
+    stress of an elastic body.
 
     @return values, a list over the fields; their name; their scale; its open ends"""
     values = values_of(fields, STRAIN)
     if values is not None and np.any(np.concatenate(values) > 0.):
-        everything = np.concatenate(values)
-        most = np.quantile(everything[everything > 0.], 0.99)
-        return (values, "cumulative plastic strain (-)", LogNorm(1e-3 * most, most),
-                "both")
+        most = level_of(fields, values)
+        return values, "cumulative plastic strain (-)", LogNorm(1e-3 * most, most), "both"
     values = shear_stress(fields)
-    most = np.quantile(np.concatenate(values), 0.995)
-    return values, SHEAR, Normalize(0., max(most, np.finfo(float).tiny)), "max"
+    return values, SHEAR, Normalize(0., level_of(fields, values)), "max"
 
 
 def view_of(fields, reach):

@@ -7,16 +7,18 @@ import numpy as np
 from matplotlib.colors import Normalize
 from matplotlib.ticker import MaxNLocator
 
-from geocone.plots.point_values import (SHEAR, STRAIN, shear_stress, states_at,
+from geocone.plots import overlay
+from geocone.plots.answer import heading, moment
+from geocone.plots.point_values import (SHEAR, STRAIN, level_of, shear_stress, states_at,
                                         values_of, view_of)
 from geocone.plots.solid import SolidLook
-from geocone.style import STRAINS, Skipped, disks, draw_obstacles, panels, plain, save
+from geocone.style import STRAINS, Skipped, disks, panels, save
 
 
 class Look:
-    """How the points of some fields are looked at: in the plane as disks.
+    """Drawing of the points of some fields: in the plane as disks.
 
-    box  that of the picture; words  that tell from where it is seen"""
+    box  that of the picture; words  that say from where it is seen"""
 
     words = ""
 
@@ -31,6 +33,10 @@ class Look:
         """Further settings of the axes."""
         if np.ptp(self.box, axis=0)[0] > 5. * np.ptp(self.box, axis=0)[1]:  # flat
             axes.yaxis.set_major_locator(MaxNLocator(2))
+
+    def surroundings(self, axes, run, field):
+        """Outlines, obstacles and water at the time of a field. @return what is drawn"""
+        return overlay.draw_scene(axes, run, field)
 
 
 def look_at(fields, values, reach):
@@ -48,15 +54,11 @@ def draw_panels(run, path, fields, look, values, norm, label, colors=STRAINS,
         drawn = look.collection(ax, field, value)
         drawn.set(cmap=colors, norm=norm)
         ax.add_collection(drawn)
-        draw_obstacles(ax, run, field.time)
-        ax.set_title(f"t = {field.time:.4g} s")
+        look.surroundings(ax, run, field)
+        ax.set_title(moment(run, field.time))
         look.finish(ax)
         ax.label_outer()
-    title = f"{plain(run.name)}: {label.rsplit(' (', 1)[0]}{look.words}"
-    if len(fields) == 1:
-        axes[0].set_title(f"{title}, {axes[0].get_title()}")
-    else:
-        figure.suptitle(title, fontsize=13)
+    figure.suptitle(heading(run, label.rsplit(" (", 1)[0] + look.words), fontsize=13)
     if figure.get_figheight() < 5.:
         label = label.replace(" stress", "\nstress").replace(" strain", "\nstrain")
     figure.colorbar(drawn, ax=list(axes), label=label, aspect=40, pad=0.02,
@@ -78,6 +80,5 @@ def draw_strains(run, path, times=None):
         # Nothing yields in an elastic body: its stress is shown.
         values, label = shear_stress(fields), SHEAR
         path = path.with_name("shear_stress.png")
-    norm = Normalize(0., max(np.max(np.concatenate(values)), np.finfo(float).tiny))
     draw_panels(run, path, fields, look_at(fields, values, lambda size: size / 2.),
-                values, norm, label)
+                values, Normalize(0., level_of(fields, values)), label, extend="max")

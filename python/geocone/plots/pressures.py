@@ -1,12 +1,15 @@
 # Copyright (C) 2026 by the geocone authors
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""excess_pore_pressure.png: what the fluid in the pores of undrained soil bears."""
+"""excess_pore_pressure.png: the part of the load that the pore fluid of undrained soil carries."""
 
 import numpy as np
 
+from geocone.plots import overlay
+from geocone.plots.answer import heading, moment
+from geocone.plots.point_values import level_of
 from geocone.plots.rates import cells_of
 from geocone.reader import Missing
-from geocone.style import add_bar, disks, in_plane, panels, plain, save
+from geocone.style import add_bar, disks, in_plane, panels, save
 
 NAME = "excess_pore_pressure"
 
@@ -26,14 +29,13 @@ def draw_run(run, path):
     field, = run.states(series)
     in_plane(field)
     pressure = field.data[NAME][:, 0] / 1e3
-    # Singular at the edges of what presses: colours are for all but the extremes.
-    low, high = np.percentile(pressure, [0.5, 99.5])
+    most = level_of([field], [np.abs(pressure)])
     points = field.points
     figure, (axes,) = panels(1, (points.min(axis=0), points.max(axis=0)))
     drawn = disks(axes, field, pressure) if series == "points" else cells_of(field, pressure)
-    most = max(abs(low), abs(high)) or 1.
     drawn.set(cmap="RdBu_r", clim=(-most, most))
     axes.add_collection(drawn)
     add_bar(axes, drawn, "excess pore pressure (kPa)", extend="both")
-    axes.set_title(f"{plain(run.name)}: excess pore pressure, t = {field.time:.4g} s")
+    overlay.draw_scene(axes, run, field)
+    axes.set_title(heading(run, f"excess pore pressure, {moment(run, field.time)}"))
     save(figure, run, path, cropped=True)

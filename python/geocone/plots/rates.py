@@ -1,34 +1,44 @@
 # Copyright (C) 2026 by the geocone authors
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""plastic_strain_rate.png and plastic_strain_rate_points.png: where the soil flows."""
+"""plastic_strain_rate.png: where the soil yields, and how it moves."""
 
 import numpy as np
 from matplotlib.collections import PolyCollection
 from matplotlib.colors import LogNorm
+from matplotlib.ticker import LogFormatterMathtext, LogLocator
 
-from geocone.style import (RATES, SHOWN, Skipped, add_bar, disks, draw_obstacles, draw_water,
-                           in_plane, panels, plain, save, with_obstacles)
+from geocone.plots import overlay
+from geocone.plots.answer import heading, is_strength_reduction, moment
+from geocone.plots.point_values import per_cell
+from geocone.style import (RATES, SHOWN, STRAINS, Skipped, add_bar, disks, level, panels, save,
+                           sizes_of, with_obstacles)
 
-ZONE = 1e-3  # the view is where the rate is more than this part of the greatest one
 
-
-def rates_of(run, series):
-    """The last field of a series, its plastic strain rates and its title."""
-    field, = run.states(series)
+def rates_of(run):
+    """The last cells, or points if they move, and their plastic strain rates."""
+    field, = run.states("points")
+    if "displacement" not in field.data:
+        field, = run.states("cells")
     rates = field.data["plastic_strain_rate"][:, 0]
     if not np.any(rates > 0.):
-        raise Skipped(f"nothing flows at t = {field.time:.4g} s")
-    return field, rates, (f"{plain(run.name)}: plastic strain rate of {series}, "
-                          f"t = {field.time:.4g} s")
+        raise Skipped(f"nothing yields at t = {field.time:.4g} s")
+    return field, rates
 
 
-def view_of(run):
-    """The box (low, high) of the flow with a margin, within the domain."""
-    field, rates, _ = rates_of(run, "cells")
-    points, flowing = field.points, field.points[rates > ZONE * rates.max()]
+def most_of(field, rates):
+    """Rate at which colours end: the one above which a tenth of all flow takes place. Zones of
+    flow may be small parts of the area, and singular cells are smaller."""
+    values = per_cell(field, rates)
+    return level(values, values * sizes_of(field), 0.1)
+
+
+def view_of(field, rates, most):
+    """The box (low, high) of the flow with a margin, at most a little beyond the domain."""
+    points, flowing = field.points, field.points[rates > SHOWN * most]
     margin = np.max([0.1 * np.ptp(flowing, axis=0), 0.02 * np.ptp(points, axis=0)])
-    return (np.maximum(flowing.min(axis=0) - margin, points.min(axis=0)),
-            np.minimum(flowing.max(axis=0) + margin, points.max(axis=0)))
+    beyond = 0.06 * np.ptp(flowing, axis=0).max()  # where a deformed mesh may be
+    return (np.maximum(flowing.min(axis=0) - margin, points.min(axis=0) - beyond),
+            np.minimum(flowing.max(axis=0) + margin, points.max(axis=0) + beyond))
 
 
 def cells_of(field, values):
@@ -37,61 +47,85 @@ def cells_of(field, values):
                           edgecolors="face", linewidths=0.5)
 
 
-def add_rates(axes, collection, most, shown=SHOWN):
+def add_rates(axes, collection, most, shown=SHOWN, label="plastic strain rate (1/s)"):
     """Adds a collection of rates in their colours, and the colour bar."""
     collection.set(cmap=RATES, norm=LogNorm(shown * most, most))
     axes.add_collection(collection)
-    add_bar(axes, collection, "plastic strain rate (1/s)", extend="min")
+    add_bar(axes, collection, label, extend="both")
 
 
-def motion_of(run, data):
-    """How far or how fast the nodes of a field move.
-
-    @return name and unit, the magnitudes, and the greatest that is shown"""
-    # The mesh of points that move has no displacement.
-    name, unit, factor = (("displacement", "mm", 1e3) if "displacement" in data else
-                          ("velocity", "m/s", 1.))
-    size = factor * np.linalg.norm(data[name], axis=1)
-    most = np.inf
+def motion_of(field):
+    """Displacements of the nodes or points of a field, or else velocities: name, unit,
+    vectors."""
+    name = "displacement" if "displacement" in field.data else "velocity"
+    vectors = field.data[name][:, :field.points.shape[1]]
     if name == "velocity":
-        # Nodes with hardly any mass may be much faster than all particles.
-        particles, = run.states("points")
-        most = np.linalg.norm(particles.data[name], axis=1).max()
-    return name, unit, size, most
+        return name, "m/s", vectors
+    return (name, "m", vectors) if np.abs(vectors).max() > 1. else (name, "mm", 1e3 * vectors)
 
 
-def draw_cells(run, path):
-    """Draws the rate in each cell, and the displacement."""
-    field, rates, title = rates_of(run, "cells")
-    points, cells, data, _ = field
-    if points.shape[1] == 3:
+def draw_run(run, path):
+    """Draws the rate in each cell, its smooth contours, and the motion; of points that move
+    rate and motion."""
+    field, rates = rates_of(run)
+    unit = "1/s"
+    if is_strength_reduction(run):  # its time is not physical
+        rates, unit = rates / most_of(field, rates), "relative"
+    most = most_of(field, rates)
+    if field.points.shape[1] == 3:
         from geocone.plots import solid
-        solid.draw_cells(run, path, field, rates, motion_of(run, data), title)
+        solid.draw_rates(run, path, field, rates, motion_of(field), most, unit)
         return
-    view = view_of(run)
-    figure, (first, second) = panels(2, with_obstacles(run, view))
-    add_rates(first, cells_of(field, rates), rates.max())
-    first.set_title(title)
-    name, unit, size, most = motion_of(run, data)
-    inside = np.all((points >= view[0]) & (points <= view[1]), axis=1)
-    triangles = np.concatenate([cells[:, [0, i, i + 1]]
-                                for i in range(1, cells.shape[1] - 1)])
-    drawn = second.tripcolor(*points.T, triangles, size, shading="gouraud",
-                             vmin=0., vmax=min(most, size[inside].max()))
-    second.set_title(f"magnitude of the {name}")
-    add_bar(second, drawn, f"{name} ({unit})")
-    for axes in (first, second):
-        draw_obstacles(axes, run)
-        draw_water(axes, run)
+    view = view_of(field, rates, most)
+    moving = field.cells.shape[1] < 3
+    figure, axes_of = panels(2 if moving else 3, with_obstacles(run, view))
+    first, last = axes_of[0], axes_of[-1]
+    add_rates(first, disks(first, field, rates) if moving else cells_of(field, rates), most,
+              label=unit)
+    first.set_title(f"plastic strain rate{' of the cells' * (not moving)}, "
+                    f"{moment(run, field.time)}")
+    overlay.draw_scene(first, run, field)
+    if not moving:
+        second = axes_of[1]
+        add_bar(second, overlay.draw_contours(second, field, rates, LogNorm(SHOWN * most, most),
+                                              RATES), unit, ticks=LogLocator(),
+                format=LogFormatterMathtext())
+        second.set_title("smooth contours (nodal recovery)")
+        overlay.draw_scene(second, run, field)
+    draw_motion(last, run, field, view)
+    figure.suptitle(heading(run), fontsize=13)
     save(figure, run, path, cropped=True)
 
 
-def draw_points(run, path):
-    """Draws the rate of each material point."""
-    field, rates, title = rates_of(run, "points")
-    in_plane(field)
-    figure, (axes,) = panels(1, with_obstacles(run, view_of(run)))
-    add_rates(axes, disks(axes, field, rates), rates.max())
-    draw_obstacles(axes, run)
+def draw_motion(axes, run, field, view):
+    """Draws how far or how fast the body moves: the deformed mesh or the points, with
+    arrows."""
+    name, unit, vectors = motion_of(field)
+    size = np.linalg.norm(vectors, axis=1)
+    inside = np.all((field.points >= view[0]) & (field.points <= view[1]), axis=1)
+    seen = per_cell(field, inside)
+    most = max(level(size[field.cells[seen]].mean(axis=1), sizes_of(field)[seen]),
+               np.finfo(float).tiny)
+    title = f"magnitude of the {name}"
+    if field.cells.shape[1] < 3:
+        drawn = disks(axes, field, size)
+        drawn.set(cmap=STRAINS, clim=(0., most))
+        axes.add_collection(drawn)
+        places = field.points
+    else:
+        places = field.points
+        if name == "displacement" and run.method != "MPM":
+            metre = {"m": 1., "mm": 1e3}[unit]
+            factor = overlay.magnification(most / metre, view)
+            # Single nodes at singular edges would reach across the picture.
+            places = places + factor * vectors / metre * (
+                most / np.maximum(size, most))[:, None]
+            title += f", deformed mesh ({factor:g} times)"
+        drawn = axes.tripcolor(*places.T, overlay.triangles_of(field.cells), size,
+                               shading="gouraud", cmap=STRAINS, vmin=0., vmax=most)
+        if run.method != "MPM":
+            overlay.draw_mesh(axes, field, places)
+    overlay.draw_arrows(axes, places, vectors, most)
+    overlay.draw_scene(axes, run, field, places)
     axes.set_title(title)
-    save(figure, run, path, cropped=True)
+    add_bar(axes, drawn, unit, extend="max")

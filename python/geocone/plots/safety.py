@@ -4,11 +4,12 @@
 
 import numpy as np
 
-from geocone.style import COLORS, Skipped, plain, save, subplots
+from geocone.plots.answer import heading
+from geocone.style import COLORS, Skipped, save, subplots
 
 
 def draw_run(run, path):
-    """Draws displacements against the strength factor, and the factor of safety."""
+    """Draws displacements against the reduction of strength, and the factor of safety."""
     table = run.statistics
     if "strength factor (-)" not in table:
         raise Skipped("no stage reduces the strength")
@@ -31,7 +32,7 @@ def draw_run(run, path):
                      linewidth=1.5,
                      label=f"no equilibrium beyond {safety['lower']:.4f} to "
                            f"{safety['upper']:.4f}")
-    axes.set(title=plain(run.name), xlabel="c and tan(phi) divided by (-)",
+    axes.set(title=heading(run), xlabel="factor F by which c and tan(phi) are divided (-)",
              ylabel="displacement (mm)")
     axes.legend()
     save(figure, run, path)

@@ -10,10 +10,12 @@ from matplotlib.collections import EllipseCollection, PolyCollection
 from matplotlib.colors import LogNorm, Normalize
 from matplotlib.patheffects import withStroke
 
+from geocone.plots.answer import heading, moment
 from geocone.plots.point_values import STRAIN, values_of, view_of
-from geocone.style import RATES, SHOWN, STEPS, add_bar, panels, save
+from geocone.style import (RATES, SHOWN, STEPS, add_bar, areas_of, level, panels, save,
+                           sizes_of)
 
-# Corners of the faces of cells, in VTK's order; triangles tell one corner twice.
+# Corners of the faces of cells, in VTK's order; triangles have one corner twice.
 FACES = {4: [(0, 1, 2, 2), (0, 1, 3, 3), (1, 2, 3, 3), (0, 2, 3, 3)],
          8: [(0, 1, 2, 3), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6),
              (3, 0, 4, 7)]}
@@ -36,7 +38,7 @@ def outer_faces(points, cells, vertices):
     @return the points of the corners (n, 4), and the outward unit normals (n, 3)"""
     corners = cells[:, FACES[cells.shape[1]]]  # cell, face, corner
     flat = corners.reshape(-1, 4)
-    own = flat[:, :3] if cells.shape[1] == 4 else flat  # the fourth is told twice
+    own = flat[:, :3] if cells.shape[1] == 4 else flat  # the fourth is the third
     _, first, number = np.unique(np.sort(vertices[own], axis=1), axis=0,
                                  return_index=True, return_counts=True)
     outer = first[number == 1]
@@ -138,34 +140,55 @@ def add_directions(axes, view, box):
               ha="center", va="bottom", zorder=5, path_effects=ON_DARK)
 
 
-def draw_cells(run, path, field, rates, motion, title):
-    """Draws the rate of each cell that is seen, and the motion of its faces.
+def draw_rates(run, path, field, rates, motion, most, label):
+    """Draws the rate of each cell or ball that is seen, and its motion.
 
-    @param motion what rates.motion_of() says"""
-    points = field.points
-    view, faces, normals, opened = chosen_view(points, field.cells, rates)
-    name, unit, size, most = motion
-    size = size[faces].mean(axis=1)
-    # What is seen is where something moves, with a margin.
-    moving = np.concatenate([rates[faces[:, 0]] > 1e-3 * rates.max(),
-                             size > 0.02 * size.max()]).reshape(2, -1).any(axis=0)
-    shown, body = (view.seen(points)[f.ravel()] for f in (faces[moving], faces))
-    margin = 0.15 * np.ptp(shown, axis=0).max()
-    box = (np.maximum(shown.min(axis=0) - margin, body.min(axis=0)),
-           np.minimum(shown.max(axis=0) + margin, body.max(axis=0)))
-    box = (box[0] - 0.02 * np.ptp(box), box[1] + 0.02 * np.ptp(box))
-    figure, (first, second) = panels(2, box)
-    add_faces(first, view, points, faces, normals, rates[faces[:, 0]], RATES,
-              LogNorm(SHOWN * rates.max(), rates.max()), "plastic strain rate (1/s)",
-              extend="min")
-    add_faces(second, view, points, faces, normals, size, STEPS,
-              Normalize(0., max(min(most, size.max()), np.finfo(float).tiny)),
-              f"{name} ({unit})")
-    first.set_title(f"{title}\nseen from {view.name()}{', cut open' * opened}")
-    second.set_title(f"magnitude of the {name}")
-    for axes in (first, second):
-        add_directions(axes, view, box)
+    @param motion name, unit and vectors; most  the rate at which colours end
+    @param label unit of the rate"""
+    name, unit, vectors = motion
+    size = np.linalg.norm(vectors, axis=1)
+    if field.cells.shape[1] < 4:
+        look = SolidLook([field], [rates], lambda box: box / 2.)
+        figure, axes_of, view, opened = *panels(2, look.box), look.view, False
+        farthest = level(size, sizes_of(field))
+        for axes, values, colors, norm, words in (
+                (axes_of[0], rates, RATES, LogNorm(SHOWN * most, most), label),
+                (axes_of[1], size, STEPS, norm_of(farthest), unit)):
+            drawn = look.collection(axes, field, values)
+            drawn.set(cmap=colors, norm=norm)
+            axes.add_collection(drawn)
+            look.finish(axes)
+            add_bar(axes, drawn, words, extend="max")
+    else:
+        points = field.points
+        view, faces, normals, opened = chosen_view(points, field.cells, rates)
+        size = size[faces].mean(axis=1)
+        # The picture shows where something moves, with a margin.
+        moving = np.concatenate([rates[faces[:, 0]] > SHOWN * most,
+                                 size > 0.02 * size.max()]).reshape(2, -1).any(axis=0)
+        shown, body = (view.seen(points)[f.ravel()] for f in (faces[moving], faces))
+        margin = 0.15 * np.ptp(shown, axis=0).max()
+        box = (np.maximum(shown.min(axis=0) - margin, body.min(axis=0)),
+               np.minimum(shown.max(axis=0) + margin, body.max(axis=0)))
+        box = (box[0] - 0.02 * np.ptp(box), box[1] + 0.02 * np.ptp(box))
+        figure, axes_of = panels(2, box)
+        farthest = level(size, areas_of(points[faces]))
+        for axes, values, colors, norm, words in (
+                (axes_of[0], rates[faces[:, 0]], RATES, LogNorm(SHOWN * most, most), label),
+                (axes_of[1], size, STEPS, norm_of(farthest), unit)):
+            add_faces(axes, view, points, faces, normals, values, colors, norm, words,
+                      extend="max")
+            add_directions(axes, view, box)
+    axes_of[0].set_title(f"plastic strain rate, {moment(run, field.time)}\n"
+                         f"seen from {view.name()}{', cut open' * opened}")
+    axes_of[1].set_title(f"magnitude of the {name}")
+    figure.suptitle(heading(run), fontsize=13)
     save(figure, run, path, cropped=True)
+
+
+def norm_of(most):
+    """A scale from zero to a value, which may be zero."""
+    return Normalize(0., max(most, np.finfo(float).tiny))
 
 
 def seen_values(view, field, values):
@@ -180,7 +203,7 @@ def seen_values(view, field, values):
 
 
 class SolidLook:
-    """How points in space are looked at (points.Look): as balls, the nearest in front,
+    """Drawing of points in space (as points.Look): as balls, the nearest in front,
     from the corner of the horizon from which most of the greatest plastic strains are
     seen at the end, or without them of the greatest values."""
 
@@ -212,3 +235,7 @@ class SolidLook:
     def finish(self, axes):
         """Further settings of the axes."""
         add_directions(axes, self.view, self.box)
+
+    def surroundings(self, _axes, _run, _field):
+        """Nothing yet: outlines in space would hide the points."""
+        return []

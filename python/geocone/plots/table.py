@@ -9,7 +9,7 @@ WORDS = ("run", "method", "element", "reference")  # columns of texts
 
 
 def cell_size(run):
-    """The size of the run's cells as its parameters tell it (m)."""
+    """The size of the run's cells as its parameters give it (m)."""
     values = run.parameters
     try:
         if values["Geometry/Shape"] == "file":

@@ -62,7 +62,7 @@ def picture(_, options):
 @takes("columns", columns=list_of(list_of(LINE, 2, 2), 1))
 def columns(rows, options):
     """The table of some keys: options 'columns' = [[title, key], ...], where the key
-    may end with ' %' for relative numbers. Failed runs tell their reason."""
+    may end with ' %' for relative numbers. Failed runs give their reason."""
     wanted = options["columns"]
     lines = []
     for row in rows:

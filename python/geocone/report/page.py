@@ -93,8 +93,8 @@ def table_data(shown, rows):
             "source": shown.get("caption", "")}
 
 
-def told(what, shown, problem):
-    """Why something cannot be shown, in a line; also on the screen."""
+def failure_line(what, shown, problem):
+    """The reason why something cannot be shown, in a line; also on the screen."""
     text = " ".join((str(problem) if isinstance(problem, (
         ValueError, PlotError, ReadError, Skipped)) else repr(problem)).split())
     print(f"error: the {what} {shown['kind']} cannot be shown: {text}", file=sys.stderr)
@@ -112,12 +112,12 @@ def section_data(study, number, section, rows, folder):
         try:
             data["figures"].append(figure_data(shown, rows, picture))
         except Exception as problem:  # of one figure: the others are still shown
-            data["problems"].append(told("figure", shown, problem))
+            data["problems"].append(failure_line("figure", shown, problem))
     for i, shown in enumerate(section.get("table", [])):
         try:
             table = table_data(shown, rows)
         except Exception as problem:
-            data["problems"].append(told("table", shown, problem))
+            data["problems"].append(failure_line("table", shown, problem))
             continue
         data["tables"].append(table)
         write_whole(folder / f"{study.name}-{number}-{i + 1}.md",

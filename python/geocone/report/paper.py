@@ -5,8 +5,8 @@
 Each function takes the rows of runs and the table of the figure in the study file,
 whose further keys are options:
   where   {axis = value or a list of them}: only runs that have it
-  color, style   names of the axes that colours and line styles tell
-The others are told where they are used; tables have none. Runs that have failed are
+  color, style   names of the axes that colours and line styles stand for
+The others are described where they are used; tables have none. Runs that have failed are
 left out, and the picture says so.
 """
 
@@ -59,7 +59,7 @@ def empty(text):
 
 
 def looks(rows, options):
-    """Colour and line style of each run, told by two of its axes."""
+    """Colour and line style of each run, given by two of its axes."""
     def order(axis):
         values = list(dict.fromkeys(row["axes"].get(axis) for row in rows))
         return [values.index(row["axes"].get(axis)) for row in rows]
@@ -265,7 +265,7 @@ def velocities(rows, options):
 
 
 def frozen_problem(folder, number):
-    """What the problem of a step says: arrays by name."""
+    """The problem of a step: arrays by name."""
     try:
         import h5py  # only this figure needs it
     except ImportError as problem:
@@ -480,7 +480,7 @@ def energies(rows, options):
 
 
 def table_of(head, rows, cells):
-    """Head and lines of a table: a run and its cells; a failed run tells so."""
+    """Head and lines of a table: a run and its cells; a failed run is named as such."""
     lines = []
     for row in rows:
         name = f"{row['group']}: {row['label']}" if row["label"] else row["group"]

@@ -43,7 +43,7 @@ def fit(a, values):
 
 @takes()
 def laws(rows, _):
-    """What the first group has found beside the laws of experiments, in logarithms."""
+    """Results of the first group beside the laws of experiments, in logarithms."""
     group = rows[0]["group"]
     a, measured = measures([row for row in rows if row["group"] == group])
     figure, both = subplots(1, 2, figsize=(9.5, 4.2))

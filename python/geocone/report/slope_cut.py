@@ -362,7 +362,7 @@ def draw_design(axes, designs, factors, name, options):
 
 @takes("points", "toe", points=VALUE, toe=NUMBER)
 def effects(rows, options):
-    """What each constant does to run-out and time of failure, ranked: one at a time, and
+    """Effects of each constant on run-out and time of failure, ranked: one at a time, and
     main effects of the design."""
     single, designs = compared(rows, options)
     figure, grid = subplots(len(RESPONSES), 2, figsize=(11., 9.))

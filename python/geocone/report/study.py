@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Computes studies and writes their report.
 
-A study is a file that names parameter files and what varies (studies/*.toml tell
+A study is a file that names parameter files and what varies (studies/*.toml show
 how they are written; doc/studies.md explains them). Each run is an ordinary run of
-geocone in a folder of its own. What is there already and unchanged (the parameters,
-the files they include, the program) is used again, so an interrupted study goes on
+geocone in a folder of its own. Results that are there and unchanged (the parameters,
+the files they include, the program) are used again, so an interrupted study goes on
 where it was. Without a file the studies speed, paper and validation are computed.
 
 Leaves in the output folder:
@@ -32,7 +32,7 @@ from geocone.report.schema import StudyError, require
 from geocone.report.study_file import read_study
 from geocone.runner import ROOT, find_program, options_of
 
-ALL = ("speed", "paper", "validation")  # what one report tells without being asked
+ALL = ("speed", "paper", "validation")  # studies of the report without arguments
 
 
 def main(arguments, prog):

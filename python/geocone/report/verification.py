@@ -104,7 +104,7 @@ SOME = list_of(words(*COLUMNS))
 
 
 def cells(row, rows, columns):
-    """The cells of a run; of one that has failed only the first one tells."""
+    """The cells of a run; of one that has failed only the first one says so."""
     if row["status"] != "finished":
         return ["failed", *["-"] * (len(columns) - 1)]
     return [COLUMNS[column](row, rows) for column in columns]
