@@ -58,6 +58,72 @@ def short_answer(run):
     return ""
 
 
+def answer_of(run):
+    """The number for which the run was made, in a line; empty if there is no single one."""
+    def number(key):
+        return number_in(run, key)
+
+    known = number("reference/expected")
+    error = number("reference/relative_error")
+    beside = ("" if known is None or error is None else
+              f"; reference {known:.6g} ({100. * error:+.2f} %)")
+    quantity = run.value("reference/quantity")
+    if number("safety/factor") is not None:
+        lower, upper = number("safety/lower"), number("safety/upper")
+        between = ("" if lower is None or upper is None else
+                   f" (certified: {bracket_text(lower, upper, 5)})"
+                   if run.method == "strength reduction" else
+                   f" (on this mesh: equilibrium at {lower:.5g}, none at {upper:.5g})")
+        return (f"Factor of safety: {number('safety/factor'):.5g}{between}" +
+                beside * (quantity == "safety/factor"))
+    if number("bounds/lower") is not None and number("bounds/upper") is not None:
+        unit = run.value("bounds/unit")
+        ends = bracket_text(number("bounds/lower"), number("bounds/upper"), 6)
+        return (f"Between {ends.replace(' to ', ' and ')}" +
+                f" {unit}" * (unit not in (None, "-")) +
+                beside * (quantity == "bounds/middle"))
+    if number("limit_load/value") is not None:
+        return (f"Limit load: {number('limit_load/value'):.6g} "
+                f"{run.value('limit_load/unit')}".removesuffix("-").rstrip() +
+                beside * (quantity == "limit_load/value"))
+    return ""
+
+
+LOADS = {"velocity": "of the loaded boundary", "weight": "by which the weight may be multiplied",
+         "tractions": "by which the tractions may be multiplied",
+         "weight and tractions": "by which weight and tractions may be multiplied"}
+
+
+def meaning_of(run):
+    """Sentences that say what the answer, and what its bracket, is of."""
+    associated = ([] if "non_associated" not in run.summary else [
+        "The soil dilates less than its friction: only the upper end is certified for it."])
+    loads = number_in(run, "bounds/lower"), number_in(run, "bounds/upper")
+    proof = ("A stress field in equilibrium proves the lower end, a mechanism the upper one; "
+             "neither depends on how fine the mesh is.")
+    if is_strength_reduction(run):
+        factor = "The factor of safety F divides the strength, c and tan φ, of the soils at failure."
+        if run.method == "strength reduction":
+            return [factor, proof, *associated]
+        sentences = [factor, "It was found by steps on this mesh, and is no bound."]
+        if None not in loads:
+            sentences.append(
+                f"Another factor: at full strength all loads may be multiplied by "
+                f"{bracket_text(*loads, 4)}{certainty_of(run)}; this is no bracket of F.")
+        return sentences
+    if run.method == "limit load" and None not in loads:
+        which = LOADS.get(run.value("load/factor_of"), "")
+        kind = "factor" if run.value("bounds/unit") == "-" else "limit load"
+        return [f"Bracket of the {kind} {which} at full strength.", proof, *associated]
+    if number_in(run, "limit_load/value") is None:
+        return []
+    sentences = ["Mean of the plateau of the load, by steps on this mesh; it is no bound."]
+    if None not in loads and run.value("bounds/unit") == run.value("limit_load/unit"):
+        sentences.append(f"Bounds of the same load: {bracket_text(*loads, 5)} "
+                         f"{run.value('bounds/unit')}{certainty_of(run)}.")
+    return sentences
+
+
 def unit_of(unit, size):
     """Name and value of the unit of a number up to a size; no name of factors."""
     return ("", 1.) if unit in (None, "-", "") else unit_for(size, unit)

@@ -1,7 +1,7 @@
 # Copyright (C) 2026 by the geocone authors
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""report.html: one page for a run, which holds its numbers, pictures and parameters,
-and needs nothing else to be looked at."""
+"""report.html: one page for a run, which begins with its answer and its scene, holds
+pictures, numbers and parameters, and needs nothing else to be looked at or printed."""
 
 import base64
 import io
@@ -14,10 +14,12 @@ import numpy as np
 from PIL import Image
 
 from geocone.files import write_listed
-from geocone.plots import points, rates
+from geocone.plots import load, points, rates
+from geocone.plots.answer import answer_of, meaning_of, moment
 from geocone.plots.point_values import strain_or_shear
+from geocone.plots.scene_tables import tables_of
 from geocone.reader import Missing, ReadError
-from geocone.style import STRAINS, PlotError, Skipped, draw_obstacles, draw_water
+from geocone.style import STRAINS, PlotError, Skipped
 
 TEMPLATE = Path(__file__).with_name("run.html")
 MOST_FRAMES = 16
@@ -32,25 +34,26 @@ TOPICS = {"safety": "Factor of safety", "bounds": "Bounds", "limit_load": "Load"
           "newton": "Newton's method", "quality": "Quality of the solution",
           "state": "State", "start": "At the start", "final": "At the end",
           "extremes": "Least and most", "size": "Size", "cost": "Cost"}
-# Captions of pictures, in the order in which a reader wants to see them: the answer, how the
-# body moves and flows, and last what tells about the computation.
+# Topics and numbers that are folded away: they describe the computation.
+COMPUTATION = ("newton", "quality", "size", "cost", "state", "energy", "friction_memory")
+OF_BOUNDS = ("unit", "lower", "upper", "middle", "gap", "certified")  # those that are results
+# Captions of pictures, in the order in which a reader wants to see them.
 CAPTIONS = {
-    "model.png": "The model",
     "load_displacement.png": "Load against displacement",
     "safety.png": "Displacement while the strength is reduced",
-    "mechanism.png": "Where the bounds differ, and the mechanisms of both",
-    "bounds.png": "Both bounds and their gap",
-    "plastic_strain_rate.png": "Where the soil flows at the end",
-    "plastic_strain_rate_points.png": "The same, of the material points",
+    "mechanism.png": "Mechanisms of both bounds, and where these differ",
+    "plastic_strain_rate.png": "Where the soil yields at the end, and how it moves",
     "excess_pore_pressure.png": "Excess pore pressure at the end",
     "plastic_strain.png": "Plastic strain of the material points",
     "shear_stress.png": "Largest shear stress of the material points",
-    "points.png": "The material points at some times", "runout.png": "How far it runs",
+    "points.png": "The material points at some times", "runout.png": "Reach of the body",
     "slide.png": "The slide", "structure.png": "Structure of the soil",
     "loading.png": "Loading ratio of the soil",
     "stress_strain.png": "Stress against strain", "stress_path.png": "Stress path",
-    "compression.png": "Compression", "ratios.png": "Ratios of the soil's memory",
-    "energy.png": "Energies", "newton.png": "Newton's method: residuals"}
+    "compression.png": "Compression", "ratios.png": "Ratios of the soil's memory"}
+# Pictures of the computation, which are folded away too.
+OF_COMPUTATION = {"bounds.png": "Both bounds and their gap", "energy.png": "Energies",
+                  "newton.png": "Newton's method: residuals"}
 # The unit at the end of a name of the summary, as in "angular_N_m_s_per_m".
 UNIT = re.compile(r"_((?:(?:MB|Pa|kg|J|N|m|m2|m3|s)_)*(?:MB|Pa|kg|J|N|m|m2|m3|s)"
                   r"(?:_per_(?:m|s))?)(_least|_most)?$")
@@ -84,46 +87,24 @@ def title_of(topic, run):
     return TOPICS.get(topic, topic.replace("_", " ").capitalize())
 
 
-def answer_of(run):
-    """The number for which the run was made, in a line; empty if there is no single one."""
-    def number(key):
-        value = run.value(key)
-        return None if isinstance(value, (str, bool)) else value
-
-    known = number("reference/expected")
-    error = number("reference/relative_error")
-    beside = ("" if known is None or error is None else
-              f"; reference {known:.6g} ({100. * error:+.2f} %)")
-    quantity = run.value("reference/quantity")
-    if number("safety/factor") is not None:
-        lower, upper = number("safety/lower"), number("safety/upper")
-        between = ("" if lower is None or upper is None else
-                   f" (certified: {lower:.5g} to {upper:.5g})"
-                   if run.method == "strength reduction" else
-                   f" (on this mesh: equilibrium at {lower:.5g}, none at {upper:.5g})")
-        return (f"Factor of safety: {number('safety/factor'):.5g}{between}" +
-                beside * (quantity == "safety/factor"))
-    if number("bounds/lower") is not None and number("bounds/upper") is not None:
-        unit = run.value("bounds/unit")
-        return (f"Between {number('bounds/lower'):.6g} and {number('bounds/upper'):.6g}" +
-                f" {unit}" * (unit not in (None, "-")) +
-                beside * (quantity == "bounds/middle"))
-    if number("limit_load/value") is not None:
-        return (f"Limit load: {number('limit_load/value'):.6g} "
-                f"{run.value('limit_load/unit')}".removesuffix("-").rstrip() +
-                beside * (quantity == "limit_load/value"))
-    return ""
+def is_result(topic, name):
+    """Whether a number of the summary is a result, not one of the computation."""
+    return topic not in COMPUTATION and (topic != "bounds" or name in OF_BOUNDS)
 
 
-def numbers_of(run):
-    """The topics of the summary: title, and rows of name, value and whether it is long."""
+def numbers_of(run, results=True):
+    """The topics of the summary, of results or of the computation: title, and rows of name,
+    value, the exact value with its path, and whether it is long."""
     known = {key: run.summary[key] for key in TOPICS if key in run.summary}
     others = {key: value for key, value in run.summary.items()
-              if key not in TOPICS and isinstance(value, dict) and key != "run"}
-    return [(title_of(key, run),
-             [(name_of(name), text_of(value), len(text_of(value)) > LONG)
-              for name, value in topic.items() if not isinstance(value, (dict, list))])
-            for key, topic in {**known, **others}.items() if isinstance(topic, dict)]
+              if key not in TOPICS and key not in ("run", "stages")}
+    found = [(title_of(key, run),
+              [(name_of(name), text_of(value), f"{key}/{name} = {value}",
+                len(text_of(value)) > LONG)
+               for name, value in topic.items() if not isinstance(value, (dict, list))
+               and is_result(key, name) == results])
+             for key, topic in {**known, **others}.items() if isinstance(topic, dict)]
+    return [(title, rows) for title, rows in found if rows]
 
 
 def is_wide(png):
@@ -149,9 +130,8 @@ def frame_of(run, field, look, values, norm):
     drawn = look.collection(axes, field, values)
     drawn.set(cmap=STRAINS, norm=norm)
     axes.add_collection(drawn)
-    draw_obstacles(axes, run, field.time)
-    draw_water(axes, run, field.time)
-    axes.set_title(f"t = {field.time:.4g} s")
+    look.surroundings(axes, run, field)
+    axes.set_title(moment(run, field.time))
     figure.colorbar(drawn, ax=axes, shrink=0.8)
     stream = io.BytesIO()
     with matplotlib.rc_context({"savefig.bbox": None}):
@@ -160,7 +140,7 @@ def frame_of(run, field, look, values, norm):
 
 
 class CellsLook(points.Look):
-    """How the cells of some fields in the plane are looked at."""
+    """Drawing of the cells of some fields in the plane."""
 
     def collection(self, axes, field, values):
         """The cells of a field, in the colours of their values."""
@@ -186,9 +166,44 @@ def frames_of(run):
                 points.look_at(fields, values, lambda size: 0.5 * size))
     except (Missing, Skipped):
         return [], ""
-    return [{"time": f"{field.time:.4g} s",
+    return [{"time": moment(run, field.time),
              "data": as_data(frame_of(run, field, look, value, norm))}
             for field, value in zip(fields, values)], label
+
+
+def caption_of(run, name):
+    """The caption of a picture."""
+    if name == "load_displacement.png" and load.is_at_rest(load.curve_of(run)):
+        return "Load against time"
+    return CAPTIONS.get(name) or OF_COMPUTATION.get(name) or Path(name).stem.replace("_", " ")
+
+
+class Pictures:
+    """The pictures in a folder as a page holds them, as long as there is room.
+
+    left_out  names of those for which there was none"""
+
+    def __init__(self, run, folder, room):
+        self.run, self.folder, self.room, self.left_out = run, folder, room, []
+
+    def take(self, names):
+        """The pictures of some names that are there: data, caption, whether they are wide."""
+        taken = []
+        for name in names:
+            path = self.folder / name
+            if name == "plastic_strain.png" and not path.is_file():
+                path = path.with_name("shear_stress.png")  # of an elastic body
+            if not path.is_file():
+                continue
+            content = path.read_bytes()
+            data = as_data(content)
+            if len(data) > self.room:
+                self.left_out.append(path.name)
+                continue
+            self.room -= len(data)
+            taken.append({"data": data, "wide": is_wide(content),
+                          "caption": caption_of(self.run, path.name)})
+        return taken
 
 
 def write_page(run, folder, names):
@@ -201,23 +216,12 @@ def write_page(run, folder, names):
     except ImportError as error:
         raise PlotError(f"report.html needs python3-jinja2: {error}")
     frames, shown = frames_of(run)
-    size, pictures = sum(len(frame["data"]) for frame in frames), []
-    left_out = []
-    order = list(CAPTIONS)
-    for name in sorted(names, key=lambda name: order.index(name) if name in order else len(order)):
-        path = folder / name
-        if name == "plastic_strain.png" and not path.is_file():
-            path = path.with_name("shear_stress.png")  # of an elastic body
-        if not path.is_file():
-            continue
-        content = path.read_bytes()
-        data = as_data(content)
-        if size + len(data) > MOST_BYTES:
-            left_out.append(path.name)
-            continue
-        size += len(data)
-        pictures.append({"data": data, "wide": is_wide(content),
-                         "caption": CAPTIONS.get(path.name, path.stem.replace("_", " "))})
+    pictures = Pictures(run, folder, MOST_BYTES - sum(len(frame["data"]) for frame in frames))
+    model = pictures.take(["model.png"])
+    results = pictures.take([*(name for name in CAPTIONS if name in names),
+                             *(name for name in names if name not in CAPTIONS and
+                               name not in OF_COMPUTATION and name != "model.png")])
+    computation = pictures.take([name for name in OF_COMPUTATION if name in names])
     try:
         parameters = (run.folder / "parameters.prm").read_text(errors="replace")
     except OSError:
@@ -228,8 +232,10 @@ def write_page(run, folder, names):
     try:
         page = environment.from_string(TEMPLATE.read_text()).render(
             run=run, status=text_of(run.status), answer=answer_of(run),
-            numbers=numbers_of(run), pictures=pictures, left_out=left_out,
-            frames=frames, shown=shown, parameters=parameters)
+            meaning=meaning_of(run), started=str(run.value("run/started") or ""),
+            model=model, tables=tables_of(run), results=results, numbers=numbers_of(run),
+            computation=computation, of_computation=numbers_of(run, False),
+            left_out=pictures.left_out, frames=frames, shown=shown, parameters=parameters)
     except jinja2.TemplateError as problem:
         raise ReadError(f"the page of '{run.folder}' cannot be made: {problem}")
     path = folder / "report.html"
