@@ -16,12 +16,17 @@ def number_in(run, key):
     return None if isinstance(value, (str, bool)) else value
 
 
+def digits_of(value, digits=4):
+    """A number with so many significant digits, zeros at its end included."""
+    return f"{value:#.{digits}g}".rstrip(".")
+
+
 def bracket_text(lower, upper, digits, factor=1.):
     """Both ends of a bracket, rounded outwards, so that the text is a bracket too."""
     low, high = (Context(prec=digits, rounding=rounding).create_decimal(
         Decimal(repr(float(value))) / Decimal(factor))
                  for value, rounding in ((lower, ROUND_FLOOR), (upper, ROUND_CEILING)))
-    return f"{float(low):.{digits}g} to {float(high):.{digits}g}"
+    return f"{digits_of(float(low), digits)} to {digits_of(float(high), digits)}"
 
 
 def is_strength_reduction(run):
@@ -45,7 +50,7 @@ def short_answer(run):
         if run.method == "strength reduction":
             return (f"F = {bracket_text(run.value('safety/lower'), run.value('safety/upper'), 4)}"
                     + certainty_of(run))
-        return f"F = {run.value('safety/factor'):.4g}"
+        return f"F = {digits_of(run.value('safety/factor'))}"
     if run.method == "limit load" and lower is not None and upper is not None:
         name, factor = unit_of(run.value("bounds/unit"), max(abs(lower), abs(upper)))
         return (("load " if name else "load factor ") + bracket_text(lower, upper, 4, factor)
@@ -54,7 +59,7 @@ def short_answer(run):
     if value is not None:
         name, factor = unit_of(run.value("limit_load/unit"), abs(value))
         return (("limit load " if name else "limit load factor ") +
-                f"{value / factor:.4g} {name}".rstrip())
+                f"{digits_of(value / factor)} {name}".rstrip())
     return ""
 
 
@@ -143,7 +148,7 @@ def moment(run, time):
         row = int(np.argmin(np.abs(table["time (s)"] - time)))
         for name, symbol in (("strength factor (-)", "F"), ("load factor (-)", "load factor")):
             if name in table and np.isfinite(table[name][row]):
-                return f"{symbol} = {table[name][row]:.4g}"
+                return f"{symbol} = {digits_of(table[name][row])}"
     except (Missing, KeyError, IndexError):
         pass
     return f"t = {time:.4g} s"

@@ -10,7 +10,7 @@ from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from geocone.plots import overlay
 from geocone.plots.answer import heading
-from geocone.style import (BLUE, COLORS, GREY, RATES, STRAINS, add_bar, level, panels, save,
+from geocone.style import (BLUE, COLORS, GREY, RATES, STRAINS, Skipped, add_bar, level, panels, save,
                            sizes_of, subplots, unit_for)
 
 FEWEST = 3  # meshes, from which on a trend can be seen
@@ -27,6 +27,8 @@ def draw_bounds(run, path):
     and time."""
     table = run.table("bounds")
     cells = table["triangles (-)"]
+    if len(cells) < 2:
+        raise Skipped("there is one mesh only")
     trend = len(cells) >= FEWEST
     figure, axes_of = subplots(1, 3 if trend else 1, figsize=(15. if trend else 6.5, 4.4),
                                squeeze=False)

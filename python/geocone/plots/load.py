@@ -2,13 +2,16 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """load_displacement.png and .svg: curves, their plateaus and references."""
 
+import contextlib
 from collections import namedtuple
 
 import numpy as np
+from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
 
 from geocone.plots.answer import heading
-from geocone.style import BESIDE, COLORS, ORANGE, Skipped, plain, save, subplots, unit_for
+from geocone.reader import Missing
+from geocone.style import BESIDE, COLORS, GREY, ORANGE, Skipped, plain, save, subplots, unit_for
 
 # mm, N/m or N, of the summary, s, of a limit analysis
 Curve = namedtuple("Curve", "displacement load limit time marks", defaults=((),))
@@ -32,11 +35,26 @@ def curve_of(run):
     """The load-displacement curve of a run."""
     if "limit_load" not in run.summary:
         raise Skipped(f"no load is observed in '{run.folder}'")
-    # The curve starts from rest, before the first step.
-    return Curve(np.insert(1e3 * run.statistics["displacement (m)"], 0, 0.),
-                 np.insert(run.statistics[f"load ({run.per_metre('N')})"], 0, 0.),
-                 run.summary["limit_load"], np.insert(run.statistics["time (s)"], 0, 0.),
+    time = np.insert(run.statistics["time (s)"], 0, 0.)
+    displacement = np.insert(1e3 * run.statistics["displacement (m)"], 0, 0.)
+    load = np.insert(run.statistics[f"load ({run.per_metre('N')})"], 0, 0.)
+    # From rest, before the first step or where displacements are counted anew.
+    first = np.flatnonzero(time <= reset_of(run) * (1. + 1e-9))[-1]
+    displacement[first] = 0.
+    return Curve(displacement[first:], load[first:], run.summary["limit_load"], time[first:],
                  marks_of(run))
+
+
+def reset_of(run):
+    """Beginning (s) of the last stage that sets displacements to zero, or 0."""
+    begin = reset = 0.
+    with contextlib.suppress(Missing, ValueError):
+        for stage in run.parameters.get("Loading/Stages", "").split(","):
+            section = f"Loading/{stage.strip()}/"
+            if run.parameters.get(section + "Reset displacement") == "true":
+                reset = begin
+            begin += float(run.parameters.get(section + "Duration", 1.))
+    return reset
 
 
 def is_at_rest(curve):
@@ -53,7 +71,7 @@ def load_text(name, value, unit, error=None):
     """A load, and its error, as the legend gives them."""
     if value is None:
         return f"{name}: not reached"
-    return (f"{name}: {number(value, unit)} {unit[0]}" +
+    return (f"{name}: {number(value, unit)} {unit[0].removesuffix('-')}".rstrip() +
             ("" if error is None else f" ({100. * error:+.2f} %)"))
 
 
@@ -114,13 +132,13 @@ def draw_curves(names, curves, title, run, *paths):
     unit = unit_for(size, {curve.limit.get("unit", "N/m") for curve in curves}.pop())
     figure, axes = subplots(figsize=(7. if single else 9.5, 4.6))
     draw_lines(axes, names, curves, unit)
-    if single:
+    if all(curve.marks == curves[0].marks for curve in curves):
         draw_marks(axes, curves[0].marks, unit)
     origin, = axes.plot(0., 0., " ")  # the axes begin there
     origin.sticky_edges.x.append(0.)
     origin.sticky_edges.y.append(0.)
     axes.margins(x=0.03, y=0.07)
-    axes.set(title=title, xlabel=along, ylabel=f"load ({unit[0]})")
+    axes.set(title=title, xlabel=along, ylabel=f"load{' factor' * (unit[0] == '-')} ({unit[0]})")
     place = "best"
     if None not in ends and 0. < np.ptp(ends) < 0.12 * size:
         place = "lower right" if loads.mean() > 0. else "upper right"
@@ -131,10 +149,12 @@ def draw_curves(names, curves, title, run, *paths):
                                              (max(ends) + margin) / unit[1]))
         zoom.tick_params(labelsize=9)
         zoom.yaxis.set_major_locator(MaxNLocator(4))
-    if single:
-        axes.legend(loc=place)
-    else:
-        axes.legend(**BESIDE, title="limit load")
+    handles = axes.get_legend_handles_labels()[0]
+    if any(curve.limit["value"] is not None for curve in curves):
+        handles.append(Patch(color=ORANGE if single else GREY, alpha=0.35, linewidth=0.,
+                             label="least to greatest load of the plateau"))
+    axes.legend(handles=handles, **({"loc": place} if single else
+                                    {**BESIDE, "title": "limit load"}))
     save(figure, run, *paths)
 
 

@@ -73,8 +73,7 @@ class Model:
         parts = [value["Type"]] if value["Type"] else []
         for key, symbol in (("Cohesion", "c"), ("Undrained strength", "$s_u$")):
             if number(key) is not None:
-                unit, size = unit_for(number(key), "Pa")
-                parts.append(f"{symbol} = {number(key) / size:g} {unit}")
+                parts.append(f"{symbol} = {number(key) / 1e3:g} kPa")
         for key, symbol in (("Friction angle", "φ"), ("Dilatancy angle", "ψ")):
             if number(key) is not None:
                 parts.append(f"{symbol} = {number(key):g}°")

@@ -39,7 +39,7 @@ COMPUTATION = ("newton", "quality", "size", "cost", "state", "energy", "friction
 OF_BOUNDS = ("unit", "lower", "upper", "middle", "gap", "certified")  # those that are results
 # Captions of pictures, in the order in which a reader wants to see them.
 CAPTIONS = {
-    "load_displacement.png": "Load against displacement",
+    "model.png": "The model", "load_displacement.png": "Load against displacement",
     "safety.png": "Displacement while the strength is reduced",
     "mechanism.png": "Mechanisms of both bounds, and where these differ",
     "plastic_strain_rate.png": "Where the soil yields at the end, and how it moves",
@@ -87,6 +87,14 @@ def title_of(topic, run):
     return TOPICS.get(topic, topic.replace("_", " ").capitalize())
 
 
+def is_shown(topic, name, value, results):
+    """Whether a number of the summary is among the results, or else among those of the
+    computation. Results that there are not are left out, but for the main ones."""
+    if isinstance(value, (dict, list)) or is_result(topic, name) != results:
+        return False
+    return value is not None or not results or name in ("value", "factor")
+
+
 def is_result(topic, name):
     """Whether a number of the summary is a result, not one of the computation."""
     return topic not in COMPUTATION and (topic != "bounds" or name in OF_BOUNDS)
@@ -101,8 +109,7 @@ def numbers_of(run, results=True):
     found = [(title_of(key, run),
               [(name_of(name), text_of(value), f"{key}/{name} = {value}",
                 len(text_of(value)) > LONG)
-               for name, value in topic.items() if not isinstance(value, (dict, list))
-               and is_result(key, name) == results])
+               for name, value in topic.items() if is_shown(key, name, value, results)])
              for key, topic in {**known, **others}.items() if isinstance(topic, dict)]
     return [(title, rows) for title, rows in found if rows]
 
@@ -218,9 +225,9 @@ def write_page(run, folder, names):
     frames, shown = frames_of(run)
     pictures = Pictures(run, folder, MOST_BYTES - sum(len(frame["data"]) for frame in frames))
     model = pictures.take(["model.png"])
-    results = pictures.take([*(name for name in CAPTIONS if name in names),
-                             *(name for name in names if name not in CAPTIONS and
-                               name not in OF_COMPUTATION and name != "model.png")])
+    results = pictures.take([
+        *(name for name in CAPTIONS if name in names and name != "model.png"),
+        *(name for name in names if name not in CAPTIONS and name not in OF_COMPUTATION)])
     computation = pictures.take([name for name in OF_COMPUTATION if name in names])
     try:
         parameters = (run.folder / "parameters.prm").read_text(errors="replace")
