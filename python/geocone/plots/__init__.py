@@ -17,7 +17,9 @@ six times), slide.png where points are taken away, structure.png and loading.png
 with such ratios; of an element test
 stress_strain.png, stress_path.png, compression.png and ratios.png.
 Of each run also report.html, a page with all of it, and, of fields, paraview_state.py,
-which opens them in ParaView.
+which opens them in ParaView. With --format svg or pdf only pictures are drawn, as vectors.
+Films show all times at which fields were written; for 50 pictures or more let a stage write
+them so often by 'Loading/STAGE/Output every'.
 """
 
 import argparse
@@ -58,16 +60,18 @@ def pictures_of(run, times=None):
             "plastic_strain.png": lambda run, path: points.draw_strains(run, path, times)}
 
 
-def draw_run(run, folder, times=None):
-    """Draws all pictures of a run into a folder."""
+def draw_run(run, folder, times=None, kind="png"):
+    """Draws all pictures of a run into a folder, and the page of those that are png."""
     from geocone.plots import model
     folder.mkdir(parents=True, exist_ok=True)
     try:
         pictures = {"model.png": model.draw_run, **pictures_of(run, times)}
         for name, draw in pictures.items():
             with contextlib.suppress(Missing, Skipped):  # e.g. nothing flows
-                draw(run, folder / name)
+                draw(run, (folder / name).with_suffix(f".{kind}"))
         finish()  # the page holds the pictures
+        if kind != "png":
+            return
         from geocone.plots import page
         print(page.write_page(run, folder, pictures))
         write_state(run, folder)
@@ -77,13 +81,13 @@ def draw_run(run, folder, times=None):
         raise PlotError(f"what is in '{run.folder}' cannot be drawn: {problem!r}")
 
 
-def draw_models(folders, output):
+def draw_models(folders, output, kind="png"):
     """Draws the models of runs, or of checks, each into its folder or into one in another."""
     from geocone.plots import model
     for folder in folders:
         below = output / folder.resolve().name if output else folder
         below.mkdir(parents=True, exist_ok=True)
-        model.draw(folder, below / "model.png")
+        model.draw(folder, below / f"model.{kind}")
     finish()
 
 
@@ -120,6 +124,11 @@ def main(arguments, prog="plot"):
                         const="points_film.png",
                         help="only draw points_film.png, the same film as an animated "
                         "PNG, in all its colours")
+    parser.add_argument("--mp4", dest="films", action="append_const", const="points.mp4",
+                        help="only draw points.mp4, the same film, by the program ffmpeg")
+    parser.add_argument("--format", choices=("png", "svg", "pdf"), default="png",
+                        help="of the pictures; report.html, which holds them, comes with png "
+                        "only")
     parser.add_argument("--paraview", action="store_true",
                         help="only write paraview_state.py, which opens the fields in "
                         "ParaView")
@@ -132,7 +141,7 @@ def main(arguments, prog="plot"):
         stream.reconfigure(errors="backslashreplace")
     try:
         if call.model:
-            draw_models(map(Path, call.folders), call.output)
+            draw_models(map(Path, call.folders), call.output, call.format)
             return 0
         runs = [Run(folder) for folder in call.folders]
         names = [run.folder.resolve().name for run in runs]
@@ -159,7 +168,7 @@ def main(arguments, prog="plot"):
                 (below or run.folder).mkdir(parents=True, exist_ok=True)
                 print(paraview.write_state(run, below or run.folder))
                 continue
-            draw_run(run, below or run.folder, call.times)
+            draw_run(run, below or run.folder, call.times, call.format)
         finish()
     except (PlotError, ReadError, Skipped, OSError) as problem:
         try:

@@ -1,26 +1,48 @@
 # Copyright (C) 2026 by the geocone authors
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""points.gif, or points_film.png: the points of a run at all times at which fields were
-written, coloured by their plastic strain or, of an elastic body, by the largest shear
-stress in the plane."""
+"""Films: the points of a run at all times at which fields were written, coloured by their
+plastic strain or, of an elastic body, by the largest shear stress in the plane. points.gif,
+points_film.png (an animated PNG), or points.mp4, which the program ffmpeg writes."""
 
 import io
+import shutil
+import subprocess
 
 import numpy as np
 from PIL import Image
 
 from geocone.files import write_listed
+from geocone.plots.answer import moment
 from geocone.plots.point_values import strain_or_shear
 from geocone.plots.points import look_at
-from geocone.style import STRAINS, Skipped, draw_obstacles, panels, plain
+from geocone.style import STRAINS, PlotError, Skipped, panels, plain
 
 SECONDS = 8.  # that a film takes
 MOST = 200  # pictures
 
 
+def mp4_of(frames, seconds):
+    """The content of an MP4 file of some pictures.
+    @throw PlotError without ffmpeg, or if it fails"""
+    program = shutil.which("ffmpeg")
+    if program is None:
+        raise PlotError("a film as .mp4 needs the program ffmpeg; Debian has it in ffmpeg; "
+                        "--animation and --apng need nothing")
+    width, height = (size // 2 * 2 for size in frames[0].size)  # the format wants even ones
+    # A pipe cannot be searched: such a file is of fragments.
+    words = [program, "-loglevel", "error", "-f", "rawvideo", "-pix_fmt", "rgb24", "-s",
+             f"{width}x{height}", "-framerate", f"{len(frames) / seconds:.4f}", "-i", "-",
+             "-pix_fmt", "yuv420p", "-movflags", "frag_keyframe+empty_moov", "-f", "mp4", "-"]
+    ended = subprocess.run(words, capture_output=True, check=False, input=b"".join(
+        frame.crop((0, 0, width, height)).tobytes() for frame in frames))
+    if ended.returncode != 0:
+        raise PlotError(f"ffmpeg has failed: {ended.stderr.decode(errors='replace').strip()}")
+    return ended.stdout
+
+
 def draw(run, paths):
-    """Draws the film of a run, as a GIF (of 128 colours) or an animated PNG each, by the
-    ends of their names."""
+    """Draws the film of a run, as a GIF (of 128 colours), an animated PNG or an MP4 file each,
+    by the ends of their names."""
     series = run.times("points")
     if len(series) < 2:
         raise Skipped("fewer than two times have points")
@@ -35,20 +57,23 @@ def draw(run, paths):
         drawn = look.collection(axes, field, value)
         drawn.set(cmap=STRAINS, norm=norm)
         axes.add_collection(drawn)
-        obstacles = draw_obstacles(axes, run, field.time)
+        around = look.surroundings(axes, run, field)
         bar = bar or figure.colorbar(drawn, ax=axes, label=label, aspect=40,
                                      location="bottom", extend=extend)
-        axes.set_title(f"{plain(run.name)}: t = {field.time:.4g} s")
+        axes.set_title(f"{plain(run.name)}: {moment(run, field.time)}")
         figure.canvas.draw()
         frame = Image.fromarray(np.asarray(figure.canvas.buffer_rgba())).convert("RGB")
         for path, frames in films.items():
             frames.append(frame.quantize(128) if path.suffix == ".gif" else frame)
-        drawn.remove()
-        obstacles.remove()
+        for artist in [drawn, *around]:
+            artist.remove()
     for path, frames in films.items():
-        film = io.BytesIO()
-        frames[0].save(film, format=path.suffix[1:], save_all=True,
-                       append_images=frames[1:],
-                       duration=round(1e3 * SECONDS / len(frames)), loop=0)
-        write_listed(path, film.getvalue())
+        if path.suffix == ".mp4":
+            write_listed(path, mp4_of(frames, SECONDS))
+        else:
+            film = io.BytesIO()
+            frames[0].save(film, format=path.suffix[1:], save_all=True,
+                           append_images=frames[1:],
+                           duration=round(1e3 * SECONDS / len(frames)), loop=0)
+            write_listed(path, film.getvalue())
         print(path)

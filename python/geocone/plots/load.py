@@ -159,7 +159,8 @@ def draw_curves(names, curves, title, run, *paths):
 
 
 def draw_run(run, path):
-    """Draws the curve of a run, also as .svg."""
+    """Draws the curve of a run, a .png also as .svg."""
+    paths = [path, path.with_suffix(".svg")] if path.suffix == ".png" else [path]
     size = run.summary["size"]
     draw_curves([plain(f"load, {size['cells']} {size['element']} cells")],
-                [curve_of(run)], heading(run), run, path, path.with_suffix(".svg"))
+                [curve_of(run)], heading(run), run, *paths)

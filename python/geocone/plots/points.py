@@ -79,6 +79,6 @@ def draw_strains(run, path, times=None):
     if not np.any(np.concatenate(values)):
         # Nothing yields in an elastic body: its stress is shown.
         values, label = shear_stress(fields), SHEAR
-        path = path.with_name("shear_stress.png")
+        path = path.with_stem("shear_stress")
     draw_panels(run, path, fields, look_at(fields, values, lambda size: size / 2.),
                 values, Normalize(0., level_of(fields, values)), label, extend="max")
