@@ -1,6 +1,7 @@
-# report.html holds all that it shows: pictures that are pictures, the numbers of the
-# summary, the parameters, and a slider where there are several times. It asks for
-# nothing else, is small, and a browser (where there is one) runs its script.
+# report.html holds all that it shows: pictures that are pictures, tables of the scene, the
+# numbers of the summary, the parameters, and a slider where there are several times. It asks
+# for nothing else, is small, and a browser (where there is one) runs its scripts, shows it
+# within a desk's and a telephone's width, and prints it.
 program=$1 root=$2 folder=$3
 . "$root/tests/fails.sh"
 rm -rf "$folder" && mkdir -p "$folder" && cd "$folder"
@@ -16,10 +17,14 @@ import base64, html.parser, json, pathlib, struct
 text = pathlib.Path("run/report.html").read_text()
 assert len(text) < 5e6, len(text)
 class Page(html.parser.HTMLParser):
-    images, words, inputs = [], [], []
+    images, words, inputs, titles, folded = [], [], [], [], 0
     def handle_starttag(self, tag, attributes):
         of = dict(attributes)
         assert tag not in ("link", "iframe", "a"), tag
+        if tag == "details":
+            assert "open" not in of
+            self.folded += 1
+        self.titles.append(of.get("title", ""))
         if tag == "img":
             self.images.append(of["src"])
         if tag == "script":
@@ -46,6 +51,13 @@ assert f"{summary['energy']['kinetic_J_per_m']:.6g}" in words
 assert "kinetic (J/m)" in words and "front x (m)" in words
 assert "The model" in words and "Largest shear stress of the material points" in words
 assert "set Friction coefficient" in words and "0.3" in words
+assert page.folded == 2
+places = [words.index(part) for part in (
+    "Model", "The model", "Soils", "Loads", "Results", "In time",
+    "Numbers of the computation", "kinetic (J/m)", "All parameters")]
+assert places == sorted(places), places
+# Values that are rounded have all their digits, with their place, where the pointer is.
+assert f"energy/kinetic_J_per_m = {summary['energy']['kinetic_J_per_m']}" in page.titles
 PYTHON
 # What a file says is shown, not run.
 sed -i 's/"name": "[^"]*"/"name": "<script>alert(1)<\/script>"/' run/summary.json
@@ -56,11 +68,11 @@ if command -v chromium > /dev/null; then
     run/report.html > moved.html
   chromium --headless --no-sandbox --disable-gpu --dump-dom "file://$PWD/moved.html" \
     > dom 2> /dev/null
-  grep -q '<output id="shown">0 s</output>' dom
-  # Nothing is wider than the page, on a desk or on a telephone; a picture that is tapped
-  # is scrolled within its own place.
+  grep -q '<output id="shown">t = 0 s</output>' dom
+  # Nothing is wider than the page, on a desk or on a telephone, with all numbers unfolded; a
+  # picture that is tapped is scrolled within its own place.
   for width in 1280 400; do
-    sed 's|</body>|<script>document.querySelector(".pictures img").click();</script></body>|' \
+    sed 's|</body>|<script>document.querySelector(".pictures img").click();for (const one of document.querySelectorAll("details")) one.open = true;</script></body>|' \
       run/report.html > page.html
     cat > frame.html <<HTML
 <iframe src="page.html" style="width: ${width}px; height: 900px" onload="
@@ -72,6 +84,28 @@ HTML
       --dump-dom "file://$PWD/frame.html" > dom 2> /dev/null
     grep -q '<title>fits</title>' dom
   done
+  # A column is sorted by its head, and again the other way.
+  "$program" "$root/prm/limit_load/footing_rough.prm" --quiet --output bounds \
+    --set 'Analysis/Maximum levels = 1' --set 'Analysis/Gap tolerance = 9' \
+    --set 'Mesh/Largest size = 0.2' --set 'Output/Pictures = false' \
+    --set 'Output/Expectations ='
+  "$root/scripts/plot" bounds > said
+  sed 's|</body>|<script>const head = [...document.querySelectorAll(".sortable th")].find(one => one.textContent == "support");const names = () => [...head.closest("table").tBodies[0].rows].map(row => row.cells[0].textContent);head.click();const up = names();head.click();document.title = up.length > 1 \&\& up.join() == [...up].sort().join() \&\& up.join() == names().reverse().join() ? "sorted" : up;</script></body>|' \
+    bounds/report.html > sorted.html
+  chromium --headless --no-sandbox --disable-gpu --dump-dom "file://$PWD/sorted.html" \
+    > dom 2> /dev/null
+  grep -q '<title>sorted</title>' dom
+  # Two pages of A4, or a few more: what is folded away is not printed.
+  chromium --headless --no-sandbox --disable-gpu --no-pdf-header-footer \
+    --print-to-pdf=page.pdf "file://$PWD/run/report.html" 2> /dev/null
+  /usr/bin/python3 -B - <<'PYTHON'
+import pathlib, re
+content = pathlib.Path("page.pdf").read_bytes()
+pages = len(re.findall(rb"/Type /Page\b(?!s)", content))
+assert 1 <= pages <= 5, pages
+for width, height in re.findall(rb"/MediaBox \[0 0 ([0-9.]+) ([0-9.]+)\]", content):
+    assert abs(float(width) - 595.) < 2. and abs(float(height) - 842.) < 2., (width, height)
+PYTHON
 fi
 # Names with their units, the answer in front, and what a run failed of.
 PYTHONPATH=$root/python /usr/bin/python3 -B - <<'PYTHON'
@@ -107,6 +141,10 @@ def titles(method):
     return [title for title, _ in page.numbers_of(other)]
 assert "Bounds of the factor of all loads at full strength" in titles("FEM"), titles("FEM")
 assert "Bounds" in titles("strength reduction") and "Bounds" not in titles("FEM")
+# A bracket in words is not narrower than that of the numbers.
+assert answer(size={"method": "strength reduction"}, bounds={"certified": True}, safety={
+    "factor": 1.38003297, "lower": 1.37326, "upper": 1.38684}) == (
+        "Factor of safety: 1.38 (certified: 1.3732 to 1.3869)")
 assert answer(safety={"factor": None, "lower": None, "upper": None}) == ""
 assert page.text_of("failed: it stopped remedy: smaller steps") == (
     "failed: it stopped Remedy: smaller steps")
