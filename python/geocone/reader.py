@@ -1,6 +1,6 @@
 # Copyright (C) 2026 by the geocone authors
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Reads the folders of runs: summary, tables, fields, parameters."""
+"""Reading the folders of runs: summary, tables, fields, parameters."""
 
 import base64
 import csv
@@ -11,19 +11,34 @@ import os
 import socket
 import xml.etree.ElementTree as ElementTree
 import zlib
-from collections import namedtuple
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from geocone.modules import require
 from geocone.parameter_file import IncludeError, parameters_of
+
+if TYPE_CHECKING:
+    import matplotlib.figure
+    import meshio
+    import pyvista
+
+Table = dict[str, np.ndarray]  # {"name (unit)": array of a value per line}
 
 # meshio's name of a cell, by the dimension of the scene and the number of corners.
 CELL_TYPES = {2: {1: "vertex", 2: "line", 3: "triangle", 4: "quad"},
               3: {1: "vertex", 4: "tetra", 8: "hexahedron"}}
 
-# points (n, dim) in m; cells (m, k) of indices; data {name: (n, components)}; time in s.
-Field = namedtuple("Field", "points cells data time", defaults=[None])
+
+class Field(NamedTuple):
+    """Fields of a series at one time."""
+
+    points: np.ndarray  #: (n, dimension), coordinates (m)
+    cells: np.ndarray  #: (m, corners), indices of points
+    data: Table  #: {name: (n, components)}
+    time: float | None = None  #: (s)
 
 
 class ReadError(Exception):
@@ -34,32 +49,46 @@ class Missing(ReadError):
     """Missing data: the run has not, or not yet, written them."""
 
 
-def read(folder):
-    """The run of a folder, as far as it has come.
+def read(folder: str | os.PathLike) -> "Run":
+    """Reads the run of a folder, as far as it has come.
 
-    @param folder a path
-    @return a Run
-    @throw ReadError if the folder has no summary.json of a run"""
+    Parameters
+    ----------
+    folder
+        Path of the folder.
+
+    Returns
+    -------
+        The run.
+
+    Raises
+    ------
+    ReadError
+        If the folder has no summary.json of a run.
+    """
     return Run(folder)
 
 
 class Run:
-    """A run of geocone, as its folder tells of it. The summary is read
-    at once, all else when it is asked for.
+    """A run of geocone, by the files of its folder. The summary is read at once, all else
+    when it is asked for.
 
-    folder      path of the folder
-    summary     what summary.json says, as dictionaries
-    name        of the parameter file, or of a resumed run
-    status      "finished", "running", or how it ended: "failed: WHY", "stopped: ...",
-                "killed: ..." (doc/runs.md)
-    warnings    what it warned of, a list of texts
-    statistics, newton, path, surfaces
-                the tables of steps, of iterations, of an element test and of its
-                surfaces: {"name (unit)": array}, an entry of the arrays per line
-    parameters  {"Section/Name": text}, as used by the run
+    Attributes
+    ----------
+    folder : pathlib.Path
+        Path of the folder.
+    summary : dict
+        Content of summary.json, as dictionaries.
+    name : str
+        Of the parameter file, or of a resumed run.
+    status : str
+        "finished", "running", or how it ended: "failed: WHY", "stopped: ...", "killed: ..."
+        (doc/runs.md).
+    warnings : list of str
+        The warnings of the program.
     """
 
-    def __init__(self, folder):
+    def __init__(self, folder: str | os.PathLike):
         self.folder = Path(folder)
         file = self.folder / "summary.json"
         try:
@@ -76,16 +105,21 @@ class Run:
         # Those of obstacles are small, and must not drive out the others.
         self.obstacles = functools.lru_cache(maxsize=64)(self._obstacles)
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         return f"<geocone run '{self.folder}': {self.status}>"
 
-    def value(self, key):
+    def _repr_html_(self) -> str:
+        """A table of the run, with its main picture, for notebooks."""
+        from geocone.html import html_of
+        return html_of(self)
+
+    def value(self, key: str) -> Any:
         """A value of the summary by its path, as in "limit_load/value"; or None."""
         return leaves(self.summary).get(key)
 
-    def per_metre(self, unit):
-        """A unit of forces or energies: per metre of thickness, or, of a round body
-        and in three dimensions, of all of it; e.g. "N/m" or "N" for "N"."""
+    def per_metre(self, unit: str) -> str:
+        """A unit of forces or energies: per metre of thickness, or, of an axisymmetric
+        problem and in three dimensions, of all of it; e.g. "N/m" or "N" for "N"."""
         try:
             known = self.statistics
         except Missing:
@@ -93,18 +127,50 @@ class Run:
         whole = "load (N)" in known or "kinetic energy (J)" in known
         return unit if whole else f"{unit}/m"
 
-    def table(self, name):
-        """The columns of NAME.csv, {"name (unit)": array}.
-        @throw Missing if there are no lines, ReadError if there are damaged ones"""
+    def table(self, name: str) -> Table:
+        """Reads a table of the folder.
+
+        Parameters
+        ----------
+        name
+            As in NAME.csv.
+
+        Returns
+        -------
+            The columns, {"name (unit)": array of a value per line}.
+
+        Raises
+        ------
+        Missing
+            If there are no lines.
+        ReadError
+            If there are damaged ones.
+        """
         return read_table(self.folder / f"{name}.csv")
 
-    statistics = functools.cached_property(lambda self: self.table("statistics"))
-    newton = functools.cached_property(lambda self: self.table("newton"))
-    path = functools.cached_property(lambda self: self.table("path"))
-    surfaces = functools.cached_property(lambda self: self.table("surfaces"))
+    @functools.cached_property
+    def statistics(self) -> Table:
+        """Table of the steps, {"name (unit)": array}, as table() reads it."""
+        return self.table("statistics")
 
     @functools.cached_property
-    def parameters(self):
+    def newton(self) -> Table:
+        """Table of the iterations of Newton's method, {"name (unit)": array}."""
+        return self.table("newton")
+
+    @functools.cached_property
+    def path(self) -> Table:
+        """Table of the steps of an element test, {"name (unit)": array}."""
+        return self.table("path")
+
+    @functools.cached_property
+    def surfaces(self) -> Table:
+        """Table of the yield surfaces of an element test, {"name (unit)": array}."""
+        return self.table("surfaces")
+
+    @functools.cached_property
+    def parameters(self) -> dict[str, str]:
+        """The parameters as used by the run, {"Section/Name": text}."""
         file = self.folder / "parameters.prm"
         if not file.is_file():
             raise Missing(f"there is no file '{file}'")
@@ -114,27 +180,42 @@ class Run:
             raise ReadError(f"'{file}' cannot be read: {problem}")
 
     @property
-    def method(self):
-        """FEM, MPM, explicit MPM, point, limit load or strength reduction; None if that is not known."""
+    def method(self) -> str | None:
+        """FEM, MPM, explicit MPM, point, limit load or strength reduction; None if unknown."""
         method = self.value("size/method")  # a run that goes on may not have it yet
         file = self.folder / "parameters.prm"
         return (self.parameters.get("Discretisation/Method")
                 if method is None and file.is_file() else method)
 
-    def times(self, series="points"):
-        """The times at which fields were written (s), an array."""
+    def times(self, series: str = "points") -> np.ndarray:
+        """Times at which fields were written (s), (n,)."""
         return np.array([time for time, _ in read_series(self._record(series))])
 
-    def fields(self, series="points", time=None):
-        """The fields of a series at one time.
+    def fields(self, series: str = "points", time: float | None = None) -> "meshio.Mesh":
+        """Reads the fields of a series at one time.
 
-        @param series "points" (material points) or "cells" (the mesh; each cell has
-          points of its own, whose values are the cell's where they jump)
-        @param time in s, the nearest one that was written; None: the last one
-        @return a meshio.Mesh: points (n, dim), point_data {name: (n,) or (n, 3)},
-          info {"time": s}
-        @throw Missing if there are none, ReadError if they are damaged"""
-        import meshio  # takes as long as all other imports together
+        Parameters
+        ----------
+        series
+            "points" (material points) or "cells" (the mesh; each cell has points of its own,
+            whose values are the cell's where they jump).
+        time
+            The nearest one that was written is taken (s). None: the last one.
+
+        Returns
+        -------
+            points (n, dimension) in m, point_data {name: (n,) or (n, 3)}, info {"time": s}.
+
+        Raises
+        ------
+        Missing
+            If there are none.
+        ReadError
+            If they are damaged.
+        MissingModule
+            If meshio, or h5py for files of HDF5, is not installed.
+        """
+        meshio = require("meshio")  # takes as long as all other imports together
         i = -1 if time is None else nearest(self.times(series), [time])[0]
         state, = self._states(series, (int(i),))
         kind = CELL_TYPES[state.points.shape[1]].get(state.cells.shape[1])
@@ -146,25 +227,69 @@ class Run:
             point_data={name: values[:, 0] if values.shape[1] == 1 else values
                         for name, values in state.data.items()})
 
-    def _record(self, series):
+    def pyvista(self, series: str = "points",
+                time: float | None = None) -> "pyvista.UnstructuredGrid":
+        """Reads the fields of a series at one time, as fields() does, as a mesh of pyvista.
+
+        Raises
+        ------
+        MissingModule
+            If pyvista is not installed.
+        """
+        return require("pyvista").from_meshio(self.fields(series, time))
+
+    def figure(self, name: str) -> "matplotlib.figure.Figure":
+        """Draws a picture of the run as a figure, which can be changed and saved.
+
+        Parameters
+        ----------
+        name
+            Of a picture that `python3 -m geocone plot` draws, e.g. "load_displacement".
+
+        Returns
+        -------
+            The figure. No file is written.
+
+        Raises
+        ------
+        ValueError
+            If runs of this method have no picture of this name.
+        Missing, geocone.style.Skipped
+            If the run has no data for it.
+        MissingModule
+            If matplotlib is not installed.
+        """
+        require("matplotlib")
+        from geocone.plots import model, pictures_of
+        from geocone.style import kept
+        pictures = {"model.png": model.draw_run, **pictures_of(self)}
+        file = name.removesuffix(".png") + ".png"
+        if file not in pictures:
+            raise ValueError(f"there is no picture '{name}'; allowed: " + ", ".join(
+                picture.removesuffix(".png") for picture in pictures))
+        with kept() as figures:
+            pictures[file](self, self.folder / file)
+        return figures[0]
+
+    def _record(self, series: str) -> Path:
         """The record of a series: of VTU files, or else of HDF5 files."""
         record = self.folder / f"{series}.pvd"
         other = record.with_suffix(".vtkhdf")
         return other if other.is_file() and not record.is_file() else record
 
-    def _states(self, series, indices=(-1,)):
-        """The states of a series, of all pieces, by their places: a list of Fields."""
+    def _states(self, series: str, indices: Sequence[int] = (-1,)) -> list[Field]:
+        """The states of a series, of all pieces, by their places."""
         return read_states(self._record(series), indices)
 
-    def _obstacles(self, time=None):
-        """The obstacles at the time nearest to one (s), or at the end: Fields."""
+    def _obstacles(self, time: float | None = None) -> Field:
+        """The obstacles at the time nearest to one (s), or at the end."""
         place = -1 if time is None else nearest(self.times("obstacles"), [time])[0]
         return self._states("obstacles", (int(place),))[0]
 
 
-def is_silent(run):
-    """Whether a run that has not ended gives no sign of life: its process is gone, or
-    it has not told for ten minutes that it goes on."""
+def is_silent(run: Mapping[str, Any]) -> bool:
+    """Whether a run that has not ended, by this topic of its summary, gives no sign of life:
+    its process is gone, or its last sign is older than ten minutes."""
     pid, sign = run.get("pid"), run.get("last_sign_of_life")
     if run.get("host") == socket.gethostname() and isinstance(pid, int) and pid > 0:
         try:
@@ -179,7 +304,7 @@ def is_silent(run):
             datetime.datetime.now().timestamp() - sign > 600.)
 
 
-def status_of(summary):
+def status_of(summary: Mapping[str, Any]) -> str:
     """The status of a summary, in a line. One that says "running" of a process that is
     gone was killed."""
     status = " ".join(summary["status"].split())
@@ -188,7 +313,7 @@ def status_of(summary):
     return status
 
 
-def leaves(tree, prefix=""):
+def leaves(tree: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
     """The values of a summary by their paths, {"topic/name": value}."""
     found = {}
     for key, value in tree.items():
@@ -199,9 +324,8 @@ def leaves(tree, prefix=""):
     return found
 
 
-def read_table(path):
-    """The columns of a CSV file by name; an unfinished line is left out.
-    @throw Missing if there are no lines, ReadError if there are damaged ones"""
+def read_table(path: Path) -> Table:
+    """Reads a CSV file as Run.table() has it; an unfinished line is left out."""
     if not path.is_file():
         raise Missing(f"there is no file '{path}'")
     try:
@@ -216,8 +340,8 @@ def read_table(path):
     return dict(zip(header, table.T))
 
 
-def decode(array):
-    """The numbers of a VTK DataArray: ascii, or zlib's blocks in base64."""
+def decode(array: ElementTree.Element) -> np.ndarray:
+    """The numbers of a VTK DataArray, ascii or zlib's blocks in base64, (n,)."""
     dtype = np.dtype(array.get("type").lower()).newbyteorder("<")
     if array.get("format") == "ascii":
         return np.array((array.text or "").split(), dtype)
@@ -231,14 +355,14 @@ def decode(array):
                                   for end, size in zip(ends, sizes)), dtype)
 
 
-def beside(record, name):
+def beside(record: Path, name: str) -> Path:
     """The path of a file that a record names: only those in its own folder are read."""
     if name in ("", ".", "..") or name != os.path.basename(name):
         raise ValueError(f"it names '{name}', which is not in its folder")
     return record.parent / name
 
 
-def read_vtu(path):
+def read_vtu(path: Path) -> list[Field]:
     """The pieces of a .vtu file, or of all files of a .pvtu record, as Fields."""
     if not path.is_file():  # a device would be read without end
         raise FileNotFoundError(None, "no file", str(path))
@@ -260,7 +384,7 @@ def read_vtu(path):
     return fields
 
 
-def joined(pieces, time):
+def joined(pieces: Sequence[Field], time: float) -> Field:
     """The pieces of a state as one."""
     first = np.cumsum([0] + [len(piece.points) for piece in pieces])
     points = np.concatenate([piece.points for piece in pieces])
@@ -271,9 +395,9 @@ def joined(pieces, time):
          for name in pieces[0].data}, time)
 
 
-def read_hdf5(path):
+def read_hdf5(path: Path) -> list[Field]:
     """The state of a .h5 file, as a list of one Field."""
-    import h5py  # takes a while, and most runs have none
+    h5py = require("h5py")  # takes a while, and most runs have none
     if not path.is_file():
         raise FileNotFoundError(None, "no file", str(path))
     with h5py.File(path, "r") as file:
@@ -288,10 +412,10 @@ def read_hdf5(path):
         name: values.reshape(len(points), -1) for name, values in arrays.items()})]
 
 
-def damage_of_fields(reads):
+def damage_of_fields(reads: Callable) -> Callable:
     """A reader of a series, whose errors are one kind that names the file."""
     @functools.wraps(reads)
-    def reads_or_tells(path, *arguments):
+    def reads_or_reports(path, *arguments):
         if not path.is_file():
             raise Missing(f"there is no file '{path}'")
         try:
@@ -299,14 +423,14 @@ def damage_of_fields(reads):
         except (ElementTree.ParseError, zlib.error, LookupError, TypeError, ValueError,
                 AttributeError, OSError, RuntimeError) as problem:  # some are HDF5's
             raise ReadError(f"the fields of '{path}' cannot be read: {problem!r}")
-    return reads_or_tells
+    return reads_or_reports
 
 
 @damage_of_fields
-def read_series(path):
+def read_series(path: Path) -> list[tuple[float, Path]]:
     """The times (s) of a .pvd or .vtkhdf series and their files, [(time, path)]."""
     if path.suffix == ".vtkhdf":
-        import h5py
+        h5py = require("h5py")
         with h5py.File(path, "r") as file:
             times = file["VTKHDF/Steps/Values"][()].tolist()
             files = [part.file_name for part in file["VTKHDF/Points"].virtual_sources()]
@@ -318,7 +442,7 @@ def read_series(path):
 
 
 @damage_of_fields
-def read_states(path, indices=(-1,)):
+def read_states(path: Path, indices: Sequence[int] = (-1,)) -> list[Field]:
     """The states of a series at some places, the last one by itself: Fields."""
     series = read_series(path)
     read_file = read_hdf5 if path.suffix == ".vtkhdf" else read_vtu
@@ -326,6 +450,6 @@ def read_states(path, indices=(-1,)):
             for time, file in (series[i] for i in indices)]
 
 
-def nearest(times, wanted):
-    """The indices of the times that are nearest to the wanted ones."""
+def nearest(times: np.ndarray, wanted: Sequence[float]) -> np.ndarray:
+    """The indices of the times that are nearest to the wanted ones, each once."""
     return np.unique([np.argmin(np.abs(times - t)) for t in wanted])

@@ -4,6 +4,7 @@
 
 pyplot is not used: it takes long to load, and keeps figures that nobody shows."""
 
+import contextlib
 import io
 import os
 import textwrap
@@ -303,6 +304,20 @@ def write_figure(figure, paths, cropped):
             raise PlotError(f"'{path}' cannot be written: {problem}")
 
 
+# Lists of figures that are kept and not written, the innermost one last.
+keeping = []
+
+
+@contextlib.contextmanager
+def kept():
+    """The list of the figures that are saved within: they are kept, and not written."""
+    keeping.append([])
+    try:
+        yield keeping[-1]
+    finally:
+        keeping.pop()
+
+
 # Processes that write figures: number, where their errors are read, the files.
 writers = []
 
@@ -310,6 +325,9 @@ writers = []
 def save(figure, run, *paths, cropped=False):
     """Writes the figure of a run, or of several (None), as a process of its own: most
     of the time goes into this. finish() waits for them."""
+    if keeping:
+        keeping[-1].append(figure)
+        return
     for path in paths:
         claim(path)
     if run:
