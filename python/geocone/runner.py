@@ -1,90 +1,142 @@
 # Copyright (C) 2026 by the geocone authors
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Calls geocone."""
+"""Calls of geocone."""
 
 import contextlib
 import os
-import shutil
 import signal
 import subprocess
+import threading
 import time
-from collections import namedtuple
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
+from typing import Any, NamedTuple
 
 from geocone.parameter_file import setting
-from geocone.reader import read
+from geocone.program import ROOT, environment, example, find_program
+from geocone.progress import Progress, listener, reporter
+from geocone.reader import Run, read
+from geocone.scene import Scene
 
-ROOT = Path(__file__).resolve().parents[2]  # of the source, or share/geocone
-# code: as of subprocess, None: stopped for want of time; seconds: on the clock.
-Ended = namedtuple("Ended", "code output seconds reason")
+__all__ = ["ROOT", "Ended", "RunFailed", "command", "example", "find_program", "finish",
+           "free_folder", "run", "start"]
+
+
+class Ended(NamedTuple):
+    """How a call has ended."""
+
+    code: int | None  #: as subprocess has it; None: stopped as it took too long
+    output: str  #: all that was printed
+    seconds: float  #: on the clock
+    reason: str  #: why it has failed, in a line; empty if it has not
 
 
 class RunFailed(Exception):
-    """Why a run has failed, in a line. Its folder, as far as there is one, can be read
-    (member `folder`); `output` is what the program has said."""
+    """A run that has failed, with the reason in a line.
 
-    def __init__(self, reason, folder, output=""):
+    Attributes
+    ----------
+    folder : pathlib.Path
+        Folder of the run, which can be read as far as it is there.
+    output : str
+        All that the program has printed.
+    """
+
+    def __init__(self, reason: str, folder: Path, output: str = ""):
         super().__init__(reason)
         self.folder, self.output = folder, output
 
 
-def run(file, parameters=(), *, ranks=1, output=None, program="geocone",
-        time_limit=None, force=False, run_gmsh_script=False):
-    """Runs a parameter file and reads what it has left.
+def run(file: str | os.PathLike | Scene, parameters: Mapping[str, Any] | None = None, *,
+        ranks: int = 1, output: str | os.PathLike | None = None,
+        program: str | os.PathLike = "geocone", time_limit: float | None = None,
+        force: bool = False, run_gmsh_script: bool = False,
+        progress: Callable[[Progress], Any] | bool | None = None) -> Run:
+    """Runs a parameter file or a scene, and reads its results.
 
-    @param file a path
-    @param parameters {"Section/Name": value} that count instead of those of the file:
-      texts, numbers, truth values, lists. {"Output/Pictures": False} saves seconds
-    @param ranks of MPI
-    @param output the folder, new or empty; None: results/NAME of the working folder, or
-      results/NAME-2 and so on if that is there
-    @param program "geocone": beside this package where it was built
-      or installed, or else in the PATH; or the path of a program
-    @param time_limit in s; a run that takes longer fails
-    @param force runs also what is too large for the machine's memory
-    @param run_gmsh_script runs the geo script of 'Geometry/File': a program, which can
-      run commands and write files with your rights
-    @return a Run
-    @throw RunFailed if the run fails, if one of its expectations does not hold, or if
-      there is no such program; with the program's words"""
-    return result_of(lambda words: finish(start(words), time_limit), file, parameters,
-                     ranks, Path(output) if output is not None else free_folder(file),
-                     program, options_of(force, run_gmsh_script))
+    Parameters
+    ----------
+    file
+        Path of a parameter file, or a `Scene`.
+    parameters
+        {"Section/Name": value} that replace those of the file: texts, numbers, truth values,
+        lists. {"Output/Pictures": False} saves seconds.
+    ranks
+        Number of processes of MPI.
+    output
+        Folder of the results, new or empty. None: results/NAME of the working folder, or
+        results/NAME-2 and so on if that is there.
+    program
+        "geocone", which `find_program` looks for, or the path of a program.
+    time_limit
+        A run that takes longer fails (s).
+    force
+        Run also a scene that is too large for the memory of the machine.
+    run_gmsh_script
+        Run the geo script of 'Geometry/File': a program, which can run commands and write
+        files with your rights.
+    progress
+        A function that is called with a `Progress` as the run proceeds; an error that it
+        raises ends the run. True: print one line, which is replaced. Nothing is reported
+        with 'Output/Verbosity' = 0.
+
+    Returns
+    -------
+        The results.
+
+    Raises
+    ------
+    RunFailed
+        If the run fails, if one of its expectations does not hold, or if there is no such
+        program; with the program's words.
+    """
+    def call(words, hear):
+        return finish(start(words), time_limit, hear)
+
+    with reporter(progress) as report:
+        return result_of(call, file, parameters, ranks,
+                         Path(output) if output is not None else free_folder(file),
+                         program, options_of(force, run_gmsh_script), report)
 
 
-def options_of(force, run_gmsh_script):
-    """What no parameter file may say, as words of a call."""
+def options_of(force: bool, run_gmsh_script: bool) -> list[str]:
+    """Options that no parameter file has, as words of a call."""
     return ["--force"] * force + ["--run-gmsh-script"] * run_gmsh_script
 
 
-def result_of(call, file, parameters, ranks, folder, program, options):
-    """What run() returns or throws, by a function that calls words and tells what came
-    of it."""
-    settings = [setting(*item) for item in dict(parameters).items()]
+def result_of(call: Callable, file: str | os.PathLike | Scene,
+              parameters: Mapping[str, Any] | None, ranks: int, folder: Path,
+              program: str | os.PathLike, options: Sequence[str],
+              report: Callable | None) -> Run:
+    """Result of a run, or the error, as run() has them.
+
+    Parameters
+    ----------
+    call
+        A function of the words of a call and of one that hears its lines, or None; it returns
+        how the call has ended, an `Ended`.
+    report
+        A function of a `Progress`, or None.
+    """
+    changes = dict(parameters or {})
+    if isinstance(file, Scene):
+        file, changes = file.file, {**file.changes, **changes}
+    settings = [setting(*item) for item in changes.items()]
     try:
-        ended = call(command(find_program(program), file, settings, folder, ranks,
-                             options))
+        words = command(find_program(program), file, settings, folder, ranks, options,
+                        quiet=report is None)
+        ended = call(words, report and listener(folder, report))
     except OSError as problem:
-        raise RunFailed(str(problem), folder)
+        raise RunFailed(one_line(str(problem)), folder)
     if ended.reason:
         raise RunFailed(ended.reason.removeprefix("error: "), folder, ended.output)
     return read(folder)
 
 
-def example(name):
-    """The path of a parameter file that comes with geocone, e.g.
-    example("safety/slope_2to1.prm"): in prm of the source, or where it is installed.
-    @throw FileNotFoundError if there is none"""
-    places = [ROOT / "prm" / name, ROOT.parent / "doc" / "geocone" / "examples" / name]
-    for place in places:
-        if place.is_file():
-            return place
-    raise FileNotFoundError(f"there is no example '{name}' in {places[0].parent}")
-
-
-def free_folder(file):
-    """The folder of a run without a name: results/NAME, or results/NAME-2, ..."""
-    name, i = Path("results") / Path(file).stem, 1
+def free_folder(file: str | os.PathLike | Scene) -> Path:
+    """A new folder for a run: results/NAME, or results/NAME-2, ..."""
+    path = file.file if isinstance(file, Scene) else Path(file)
+    name, i = Path("results") / path.stem, 1
     folder = name
     while folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
         i += 1
@@ -92,72 +144,83 @@ def free_folder(file):
     return folder
 
 
-def find_program(name="geocone"):
-    """The path of a program: a path, or a name that is looked for.
-    @throw FileNotFoundError if there is none"""
-    if isinstance(name, Path) or os.sep in name:
-        places = [Path(name)]
-    else:
-        found = shutil.which(name)
-        places = [ROOT / "build" / "release" / name,
-                  *(parent / "bin" / name for parent in ROOT.parents[1:2]),
-                  *([Path(found)] if found else [])]
-    for place in places:
-        if place.is_file():
-            return place.resolve()
-    raise FileNotFoundError(f"there is no program '{name}'; scripts/build makes it")
-
-
-def command(program, file, settings, folder, ranks=1, options=()):
-    """The call of a program, as a list of words.
-    @param settings ['Section/Name = value']"""
+def command(program: str | os.PathLike, file: str | os.PathLike, settings: Iterable[str],
+            folder: str | os.PathLike, ranks: int = 1, options: Iterable[str] = (),
+            quiet: bool = True) -> list[str]:
+    """The call of a program, as a list of words; settings are 'Section/Name = value'."""
     launcher = ["mpirun", "-np", str(ranks)] if ranks > 1 else []
-    return [*launcher, str(program), *options, str(file), "--quiet", "--output",
+    return [*launcher, str(program), *options, str(file), *["--quiet"] * quiet, "--output",
             str(folder), *(word for text in settings for word in ("--set", text))]
 
 
-def start(call):
+def start(call: Sequence[str]) -> subprocess.Popen:
     """Starts a call, in a session of its own so that mpirun's children end with it. One
     thread for each rank."""
-    environment = {**os.environ, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
-    if os.geteuid() == 0:
-        environment.update(OMPI_ALLOW_RUN_AS_ROOT="1",
-                           OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
     return subprocess.Popen(call, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                             stdin=subprocess.DEVNULL, text=True, errors="replace",
-                            env=environment, start_new_session=True)
+                            env=environment(), start_new_session=True)
 
 
-def send(child, number):
+def send(child: subprocess.Popen, number: int) -> None:
     """Sends a signal to a call and all that it has started."""
     with contextlib.suppress(ProcessLookupError):  # it has just ended
         os.killpg(child.pid, number)
 
 
-def finish(child, time_limit=None):
-    """Waits for a call, at most so many seconds; what came of it."""
-    began = time.monotonic()
+def finish(child: subprocess.Popen, time_limit: float | None = None,
+           hear: Callable[[str], Any] | None = None) -> Ended:
+    """Waits for a call.
+
+    Parameters
+    ----------
+    child
+        Of start().
+    time_limit
+        A call that takes longer is killed (s).
+    hear
+        A function of each line as soon as it is printed; an error that it raises ends the
+        call.
+    """
+    began, lines, is_late = time.monotonic(), [], threading.Event()
+
+    def kill():
+        is_late.set()
+        send(child, signal.SIGKILL)
+
+    timer = threading.Timer(time_limit or 0., kill)
     with child:
         try:
-            output, _ = child.communicate(timeout=time_limit)
-            code, reason = child.returncode, reason_of(child.returncode, output)
-        except subprocess.TimeoutExpired:
-            send(child, signal.SIGKILL)
-            output, _ = child.communicate()
-            code, reason = None, f"no end in {duration(time_limit)}"
+            if time_limit is not None:
+                timer.start()
+            for line in child.stdout:
+                lines.append(line)
+                if hear:
+                    hear(line.rstrip("\n"))
+            child.wait()
         except BaseException:  # e.g. Ctrl-C: the run writes a checkpoint and ends
             send(child, signal.SIGTERM)
+            child.stdout.read()  # its last words must not fail
             raise
-    return Ended(code, output, time.monotonic() - began, reason)
+        finally:
+            timer.cancel()
+    output, seconds = "".join(lines), time.monotonic() - began
+    if is_late.is_set():
+        return Ended(None, output, seconds, f"no end in {duration(time_limit)}")
+    return Ended(child.returncode, output, seconds, reason_of(child.returncode, output))
 
 
-def reason_of(code, output):
+def one_line(text: str) -> str:
+    """A text with all gaps between words made single blanks."""
+    return " ".join(text.split())
+
+
+def reason_of(code: int, output: str) -> str:
     """Why a call has failed, in a line; empty if it has not."""
     if code == 0:
         return ""
     if code < 0:
         return f"ended by signal {-code}"
-    lines = [line.strip() for line in output.splitlines() if line.strip()]
+    lines = [one_line(line) for line in output.splitlines() if line.strip()]
     for i, line in enumerate(lines):
         if line.startswith("error:"):
             return " ".join(lines[i:i + 3])
@@ -165,7 +228,7 @@ def reason_of(code, output):
     return "; ".join(unmet) or (lines[-1] if lines else f"exit code {code}")
 
 
-def duration(seconds):
+def duration(seconds: float) -> str:
     """A duration in words."""
     if seconds < 90.:
         return f"{seconds:.0f} s"

@@ -6,50 +6,68 @@ import functools
 import os
 import signal
 import threading
+from collections.abc import Callable, Hashable, Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
-from geocone.runner import (RunFailed, finish, free_folder, options_of, result_of, send,
+from geocone.progress import Progress, reporter
+from geocone.reader import Run
+from geocone.runner import (Ended, RunFailed, finish, free_folder, options_of, result_of, send,
                             start)
+from geocone.scene import Scene
 
 
 class SideBySide:
-    """Does jobs side by side, as many as there are cores for, and ends what they have
-    called if it is interrupted.
+    """Does jobs side by side, as many as there are cores for, and ends the programs that
+    they have called if it is interrupted.
 
-    cores    at a time
-    stopped  whether it was interrupted: what a job gets from call() then is not a result
+    Attributes
+    ----------
+    cores : int
+        Number of cores that jobs take at a time.
+    stopped : bool
+        Whether it was interrupted: what a job gets from call() then is not a result.
     """
 
-    def __init__(self, cores):
+    def __init__(self, cores: int):
         self.cores, self.stopped = cores, False
         self.children, self.changed = set(), threading.Condition()
 
-    def call(self, words, time_limit=None):
-        """Calls a program, from a job; what came of it, an Ended."""
+    def call(self, words: Sequence[str], time_limit: float | None = None,
+             hear: Callable[[str], Any] | None = None) -> Ended:
+        """Calls a program, from a job, and waits for it as finish() does."""
         child = start(words)
         with self.changed:
             self.children.add(child)
             if self.stopped:  # while it was started
                 send(child, signal.SIGTERM)
         try:
-            return finish(child, time_limit)
+            return finish(child, time_limit, hear)
         finally:
             with self.changed:
                 self.children.discard(child)
 
-    def stop(self):
+    def stop(self) -> None:
         """Ends what is being computed: runs write a checkpoint and end."""
         with self.changed:
             self.stopped = True
             for child in self.children:
                 send(child, signal.SIGTERM)
 
-    def do(self, jobs):
+    def do(self, jobs: Sequence[tuple[int, Callable[[], Any]]]) -> None:
         """Does all jobs, the first one first.
 
-        @param jobs [(cores that it takes, function)]
-        @throw what the first job that has failed has thrown, or what has interrupted;
-          nothing is being computed any more then"""
+        Parameters
+        ----------
+        jobs
+            Of each the number of cores that it takes, and its function.
+
+        Raises
+        ------
+        BaseException
+            The error of the first job that has failed, or the interruption; nothing is being
+            computed any more then.
+        """
         free, problems = self.cores, []
 
         def work(function, taken):
@@ -89,45 +107,86 @@ class SideBySide:
             raise problems[0]
 
 
-def run_many(file, variants, *, cores=None, ranks=1, output=None, program="geocone",
-             time_limit=None, force=False, run_gmsh_script=False, keep_failed=False):
-    """Runs variants of a parameter file side by side, as run() does each.
+def run_many(file: str | os.PathLike | Scene, variants: Mapping[Hashable, Mapping[str, Any]],
+             *, cores: int | None = None, ranks: int = 1,
+             output: str | os.PathLike | None = None, program: str | os.PathLike = "geocone",
+             time_limit: float | None = None, force: bool = False,
+             run_gmsh_script: bool = False, keep_failed: bool = False,
+             progress: Callable[[Hashable, Progress], Any] | bool | None = None
+             ) -> dict[Hashable, Run | RunFailed]:
+    """Runs variants of a parameter file or a scene side by side, as run() does each.
 
-    @param variants {"name": {"Section/Name": value}}; runs leave their folders
-      under these names. A name may be a number, too
-    @param cores how many there are for all; None: all of this machine. A run takes as
-      many as it has ranks
-    @param output the folder of the runs' folders; None: results/NAME of the working
-      folder, or results/NAME-2 and so on if that is there
-    @param keep_failed True: what has failed is a RunFailed in the place of its run.
-      False: once all have ended, the first one of them is thrown
-    @param ranks, program, time_limit, force, run_gmsh_script as run() has them
-    @return {"name": Run}, in the order of the variants
-    @throw RunFailed as told; its folder tells which one it is
-    @throw ValueError if a name is not that of a folder"""
+    Parameters
+    ----------
+    file
+        Path of a parameter file, or a `Scene`.
+    variants
+        {name: {"Section/Name": value}}; the folder of a run has the name of its variant. A
+        name may be a number, too: the folder of 6000.0 is 6000.
+    cores
+        Number of cores for all runs. None: all of this machine. A run takes as many as it
+        has ranks.
+    output
+        Folder of the runs' folders. None: results/NAME of the working folder, or
+        results/NAME-2 and so on if that is there.
+    keep_failed
+        True: a `RunFailed` is in the place of a run that has failed. False: once all have
+        ended, the first one of them is raised.
+    progress
+        A function that is called with the name of a variant and a `Progress`, never twice at
+        a time; an error that it raises ends all runs. True: print one line, which is
+        replaced.
+    ranks, program, time_limit, force, run_gmsh_script
+        As run() has them.
+
+    Returns
+    -------
+        {name: Run}, in the order of the variants.
+
+    Raises
+    ------
+    RunFailed
+        If a run fails; its folder shows which one.
+    ValueError
+        If a name is not that of a folder.
+    """
     folder = Path(output) if output is not None else free_folder(file)
-    variants = dict(variants)
-    names = [str(name) for name in variants]
+    folders = {name: folder_name(name) for name in variants}
+    names = list(folders.values())
     for name in names:
         if name in ("", "..") or name != Path(name).name or names.count(name) > 1:
             raise ValueError(f"the variant '{name}' cannot have a folder of its name")
     if cores is not None and cores < 1:
         raise ValueError(f"cores = {cores}; allowed: 1 and more")
     calls = SideBySide(cores or len(os.sched_getaffinity(0)))
-    results = {}
+    results, one_at_a_time = {}, threading.Lock()
 
-    def compute(name, parameters):
+    def compute(name, parameters, report):
+        def report_of_variant(state):
+            with one_at_a_time:
+                report(name, state)
+
+        def call(words, hear):
+            return calls.call(words, time_limit, hear)
+
         try:
-            results[name] = result_of(
-                functools.partial(calls.call, time_limit=time_limit), file, parameters,
-                ranks, folder / str(name), program,
-                options_of(force, run_gmsh_script))
+            results[name] = result_of(call, file, parameters, ranks, folder / folders[name],
+                                      program, options_of(force, run_gmsh_script),
+                                      report and report_of_variant)
         except RunFailed as problem:
             results[name] = problem
 
-    calls.do([(ranks, functools.partial(compute, *item)) for item in variants.items()])
+    with reporter(progress) as report:
+        calls.do([(ranks, functools.partial(compute, *item, report))
+                  for item in variants.items()])
     results = {name: results[name] for name in variants}
     for result in results.values():
         if isinstance(result, RunFailed) and not keep_failed:
             raise result
     return results
+
+
+def folder_name(name: Hashable) -> str:
+    """Name of the folder of a variant; that of a whole number has no decimals."""
+    text = str(name)
+    return text.removesuffix(".0") if isinstance(name, float) else text
