@@ -38,7 +38,7 @@ class Section(Mapping):
         self._scene, self._prefix = scene, prefix
 
     def _settings(self) -> dict[str, str]:
-        """What is set in the section, {"Name" or "Section/Name": text}."""
+        """Settings of the section, {"Name" or "Section/Name": text}."""
         return {path.removeprefix(self._prefix): text
                 for path, text in self._scene.settings().items()
                 if path.startswith(self._prefix)}
