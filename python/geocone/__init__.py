@@ -36,3 +36,7 @@ from geocone.side_by_side import run_many  # noqa: E402
 __all__ = ["Missing", "MissingModule", "Progress", "ReadError", "Run", "RunFailed", "Scene",
            "Section", "UnknownParameter", "example", "find_program", "read", "run",
            "run_many", "to_dataframe"]
+
+for name in __all__:  # as users and the reference name them
+    globals()[name].__module__ = "geocone"
+del name

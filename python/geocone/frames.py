@@ -28,6 +28,7 @@ def to_dataframe(runs: Mapping[Hashable, Run | RunFailed] | Iterable[Run | RunFa
 
     Returns
     -------
+    pandas.DataFrame
         A row for each run with its key as index (tuples are an index of several levels);
         the column "status", and those of the values, "topic/name".
 

@@ -24,6 +24,7 @@ def require(name: str) -> ModuleType:
 
     Returns
     -------
+    ModuleType
         The module.
 
     Raises

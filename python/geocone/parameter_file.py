@@ -39,6 +39,7 @@ def lines_of(path: Path) -> Iterator[tuple[str, Path]]:
 
     Yields
     ------
+    tuple
         Each line, and the path of its file.
 
     Raises
@@ -94,6 +95,7 @@ def parameters_of(path: str | os.PathLike) -> dict[str, str]:
 
     Returns
     -------
+    dict
         {"Section/Name": text}.
 
     Raises

@@ -22,6 +22,7 @@ def find_program(name: str | os.PathLike = "geocone") -> Path:
 
     Returns
     -------
+    pathlib.Path
         Path of the program.
 
     Raises
@@ -60,6 +61,7 @@ def example(name: str) -> Path:
 
     Returns
     -------
+    pathlib.Path
         Path of the file: in prm of the source, or where this package or else the program
         is installed.
 

@@ -17,14 +17,30 @@ LEFT = re.compile(r"  (\d+) s left$")
 
 
 class Progress(NamedTuple):
-    """How far a run has come. A value that the program does not print is None."""
+    """Progress of a run. A value that the program does not print is None.
 
-    text: str  #: line of the program
-    step: int | None = None  #: number of the last step, or of the mesh of a limit analysis
-    steps: int | None = None  #: number of steps of the programme; a run may end earlier
-    time: float | None = None  #: (s) in the scene
-    end_time: float | None = None  #: (s) in the scene, at the end of the last stage
-    seconds_left: float | None = None  #: on the clock, if steps cost as much as those before
+    Attributes
+    ----------
+    text : str
+        Line of the program.
+    step : int or None
+        Number of the last step, or of the mesh of a limit analysis.
+    steps : int or None
+        Number of steps of the programme; a run may end earlier.
+    time : float or None
+        Time in the scene (s).
+    end_time : float or None
+        Time in the scene at the end of the last stage (s).
+    seconds_left : float or None
+        Time on the clock, if steps cost as much as those before (s).
+    """
+
+    text: str
+    step: int | None = None
+    steps: int | None = None
+    time: float | None = None
+    end_time: float | None = None
+    seconds_left: float | None = None
 
 
 def progress_in(line: str, end_time: Callable[[], float | None]) -> Progress | None:

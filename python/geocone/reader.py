@@ -59,6 +59,7 @@ def read(folder: str | os.PathLike) -> "Run":
 
     Returns
     -------
+    Run
         The run.
 
     Raises
@@ -137,6 +138,7 @@ class Run:
 
         Returns
         -------
+        dict
             The columns, {"name (unit)": array of a value per line}.
 
         Raises
@@ -150,27 +152,27 @@ class Run:
 
     @functools.cached_property
     def statistics(self) -> Table:
-        """Table of the steps, {"name (unit)": array}, as table() reads it."""
+        """Columns of the steps, as table() returns them."""
         return self.table("statistics")
 
     @functools.cached_property
     def newton(self) -> Table:
-        """Table of the iterations of Newton's method, {"name (unit)": array}."""
+        """Columns of the iterations of Newton's method."""
         return self.table("newton")
 
     @functools.cached_property
     def path(self) -> Table:
-        """Table of the steps of an element test, {"name (unit)": array}."""
+        """Columns of the steps of an element test."""
         return self.table("path")
 
     @functools.cached_property
     def surfaces(self) -> Table:
-        """Table of the yield surfaces of an element test, {"name (unit)": array}."""
+        """Columns of the yield surfaces of an element test."""
         return self.table("surfaces")
 
     @functools.cached_property
     def parameters(self) -> dict[str, str]:
-        """The parameters as used by the run, {"Section/Name": text}."""
+        """Parameters as used by the run, by "Section/Name", as texts."""
         file = self.folder / "parameters.prm"
         if not file.is_file():
             raise Missing(f"there is no file '{file}'")
@@ -204,6 +206,7 @@ class Run:
 
         Returns
         -------
+        meshio.Mesh
             points (n, dimension) in m, point_data {name: (n,) or (n, 3)}, info {"time": s}.
 
         Raises
@@ -244,31 +247,35 @@ class Run:
         Parameters
         ----------
         name
-            Of a picture that `python3 -m geocone plot` draws, e.g. "load_displacement".
+            Of a picture that ``python3 -m geocone plot`` draws, e.g. "load_displacement".
 
         Returns
         -------
+        matplotlib.figure.Figure
             The figure. No file is written.
 
         Raises
         ------
         ValueError
             If runs of this method have no picture of this name.
-        Missing, geocone.style.Skipped
+        Missing
             If the run has no data for it.
         MissingModule
             If matplotlib is not installed.
         """
         require("matplotlib")
         from geocone.plots import model, pictures_of
-        from geocone.style import kept
+        from geocone.style import Skipped, kept
         pictures = {"model.png": model.draw_run, **pictures_of(self)}
         file = name.removesuffix(".png") + ".png"
         if file not in pictures:
             raise ValueError(f"there is no picture '{name}'; allowed: " + ", ".join(
                 picture.removesuffix(".png") for picture in pictures))
-        with kept() as figures:
-            pictures[file](self, self.folder / file)
+        try:
+            with kept() as figures:
+                pictures[file](self, self.folder / file)
+        except Skipped as reason:
+            raise Missing(str(reason)) from reason
         return figures[0]
 
     def _record(self, series: str) -> Path:

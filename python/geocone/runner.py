@@ -82,6 +82,7 @@ def run(file: str | os.PathLike | Scene, parameters: Mapping[str, Any] | None = 
 
     Returns
     -------
+    Run
         The results.
 
     Raises

@@ -30,8 +30,8 @@ class UnknownParameter(KeyError):
 class Section(Mapping):
     """A section of a scene: its parameters by their names below it, as texts.
 
-    `section["Friction angle"]` is the text that is set, or else the program's default;
-    `section["clay"]` is the section below. Iteration goes over the parameters that are set.
+    ``section["Friction angle"]`` is the text that is set, or else the program's default;
+    ``section["clay"]`` is the section below. Iteration goes over the parameters that are set.
     """
 
     def __init__(self, scene: "Scene", prefix: str):
@@ -82,7 +82,7 @@ class Section(Mapping):
 
 
 class Scene(Section):
-    """A parameter file, with the files that it includes, as a mapping.
+    """A parameter file, with the files that it includes, as a mapping::
 
         scene = geocone.Scene("prm/footing_fem.prm")
         scene["Materials"]["soil"]["Cohesion"] = 12e3       # or in one, "Materials/soil/Cohesion"
@@ -112,7 +112,7 @@ class Scene(Section):
 
     Raises
     ------
-    geocone.parameter_file.IncludeError, OSError
+    ValueError, OSError
         If a file cannot be read.
     """
 
@@ -132,7 +132,7 @@ class Scene(Section):
         return {**self._of_file, **self.changes}
 
     def change(self, path: str, value: Any) -> None:
-        """Sets a parameter, as `scene[path] = value` does.
+        """Sets a parameter, as ``scene[path] = value`` does.
 
         Raises
         ------
@@ -172,6 +172,7 @@ class Scene(Section):
 
         Returns
         -------
+        pathlib.Path
             The path.
         """
         path = Path(path)
@@ -218,6 +219,7 @@ def declared(shape: tuple[tuple[str, str], ...], program: Path) -> dict[str, str
 
     Returns
     -------
+    dict
         The defaults, {"Section/Name": text}.
 
     Raises

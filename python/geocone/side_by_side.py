@@ -141,6 +141,7 @@ def run_many(file: str | os.PathLike | Scene, variants: Mapping[Hashable, Mappin
 
     Returns
     -------
+    dict
         {name: Run}, in the order of the variants.
 
     Raises
