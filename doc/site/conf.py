@@ -52,11 +52,23 @@ mathjax2_config = {"tex2jax": {"inlineMath": [["\\(", "\\)"]],
                    "SVG": {"scale": 92, "linebreaks": {"automatic": True}}, "messageStyle": "none",
                    "displayAlign": "left", "displayIndent": "1.5em"}
 
+# The Python reference is made from the docstrings of the package and their type hints.
+sys.path.insert(0, str(ROOT / "python"))
+extensions += ["sphinx.ext.autodoc", "sphinx.ext.napoleon"]
+napoleon_google_docstring, napoleon_use_ivar = False, True
+autodoc_typehints, autodoc_typehints_description_target = "description", "documented"
+autodoc_member_order = "bysource"
+autodoc_preserve_defaults = True
+default_role = "py:obj"  # of `names` in docstrings
+# Names of others, which have no pages here, and kinds of types.
+nitpick_ignore_regex = [
+    ("py:.*", r"(collections|matplotlib|meshio|numpy|np|os|pandas|pathlib|pyvista|typing)\..*")]
+
 # The pages in the order of the menu, below the first one.
 PAGES = {
     "Use": ["doc/tutorials/README", "doc/scenes", "doc/your_own_scene", "doc/cookbook/README", "doc/notebooks/footing",
             "doc/notebooks/slope_factor_of_safety", "doc/notebooks/element_tests",
-            "doc/runs", "doc/trust", "doc/element_test", "doc/studies",
+            "doc/runs", "doc/trust", "doc/element_test", "doc/studies", "doc/python_reference",
             "meshes/README", "packaging/README"],
     "What is known": ["doc/limits", "doc/comparison", "doc/validation", "doc/verification",
                       "doc/verification_mpm", "doc/limit_load", "doc/footing_deep",
