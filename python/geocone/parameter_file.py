@@ -1,7 +1,7 @@
 # Copyright (C) 2026 by the geocone authors
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Parameter files: their values, and how settings are written. Errors are left to geocone,
-but for files that are read without end."""
+"""Parameter files and settings, read and written. Values are left to geocone to check, but
+files that would be read without end are refused."""
 
 import itertools
 import os
