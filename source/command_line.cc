@@ -146,7 +146,15 @@ namespace geocone
         else if (argument == "--run-gmsh-script")
           call.may_run_scripts = true;
         else if (argument == "--help" || argument == "-h")
-          call.help = true;
+          {
+            // The names of sections have blanks: all words up to the next option.
+            call.help = "";
+            while (i + 1 < argc && argv[i + 1][0] != '-')
+              *call.help +=
+                (call.help->empty() ? "" : " ") + std::string(argv[++i]);
+          }
+        else if (argument == "--schema")
+          call.schema = true;
         else if (argument == "--version")
           call.version = true;
         else if (argument == "--defaults")

@@ -29,14 +29,12 @@ main(int argc, char **argv)
       arguments.push_back("--set");
       arguments.push_back("Discretisation/Method = point");
     }
-  // Only the parameters of the law of soils are shown for materials.
-  for (const std::string &argument : arguments)
-    if (argument == "--help" || argument == "-h" || argument == "--defaults")
-      {
-        arguments.push_back("--set");
-        arguments.push_back("Materials/soil/Type = subloading");
-        break;
-      }
+  // The materials of --defaults have the law of soils.
+  if (std::count(arguments.begin(), arguments.end(), "--defaults") > 0)
+    {
+      arguments.push_back("--set");
+      arguments.push_back("Materials/soil/Type = subloading");
+    }
   std::vector<char *> pointers;
   for (std::string &argument : arguments)
     pointers.push_back(argument.data());

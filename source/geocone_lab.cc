@@ -70,7 +70,8 @@ namespace
                                                  "--dry-run",
                                                  "--force",
                                                  "--resume",
-                                                 "--run-gmsh-script"});
+                                                 "--run-gmsh-script",
+                                                 "--schema"});
     const bool        first =
       dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
     if (call.version || call.help)

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
+#include <geocone/base/parameter_reference.h>
 #include <geocone/base/types.h>
 #include <geocone/base/unused_parameters.h>
 #include <geocone/command_line.h>
@@ -13,10 +14,12 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
-#include <sstream>
+#include <map>
+#include <utility>
 
 namespace geocone::GEOCONE_DIM
 {
@@ -30,60 +33,121 @@ namespace geocone::GEOCONE_DIM
       "mpirun -np RANKS geocone FILE.prm ...\n"
       "geocone --check FILE.prm... [--set 'Section/Parameter = value']...\n"
       "geocone --resume FOLDER [--force] [--run-gmsh-script] [--quiet]\n"
+      "geocone --help [SECTION | PARAMETER | all]\n"
       "\n"
       "  --output FOLDER      folder of the results (default: results/NAME)\n"
       "  --set 'S/P = value'  overrides a parameter of the file; repeatable\n"
-      "  --resume FOLDER      goes on with a run that was stopped or killed, "
-      "from "
+      "  --resume FOLDER      continues a run that was stopped or killed, from "
       "its last\n"
       "                       checkpoint (section Checkpoint), in the same "
       "folder\n"
-      "  --dry-run            checks everything, prints how large the run is, "
-      "and "
-      "ends:\n"
-      "                       nothing is computed or written\n"
-      "  --picture            with --dry-run: draws the model (results/NAME-model, "
-      "or\n"
+      "  --dry-run            checks the file and prints the size of the run, "
+      "without\n"
+      "                       computing or writing anything\n"
+      "  --picture            with --dry-run: draws the model "
+      "(results/NAME-model, or\n"
       "                       --output), as each run does\n"
-      "  --check FILE.prm...  the same for each of the files, with a line for "
+      "  --check FILE.prm...  --dry-run of several files, with a line for "
       "each\n"
-      "  --force              runs also what is too large for this machine's "
-      "memory\n"
-      "  --run-gmsh-script    'Geometry/File' may be a geo script, which gmsh "
-      "runs: "
-      "a program\n"
-      "                       that can run commands and write files with your "
+      "  --force              also runs models too large for the memory of "
+      "this machine\n"
+      "  --run-gmsh-script    allows 'Geometry/File' to be a geo script, which "
+      "gmsh runs:\n"
+      "                       it can run commands and write files with your "
       "rights\n"
-      "  --quiet              nothing on the screen but errors and warnings\n"
-      "  --defaults NEW.prm   writes all parameters with their defaults, "
-      "commented,\n"
-      "                       into a new file;\n"
-      "                       --set 'Materials/soil/Type = LAW' tells those of "
-      "other laws\n"
-      "  --help               this text, all parameters and the plans of "
-      "Newton's method\n"
+      "  --quiet              prints only errors and warnings\n"
+      "  --defaults NEW.prm   writes all parameters with their defaults and "
+      "comments into\n"
+      "                       a new file; with --set 'Materials/soil/Type = "
+      "LAW' those of\n"
+      "                       another constitutive law\n"
+      "  --help               this text\n"
+      "  --help SECTION       the parameters of a section, e.g. Materials\n"
+      "  --help PARAMETER     those of a name, e.g. Cohesion or 'Time "
+      "stepping/Friction'\n"
+      "  --help all           all parameters, and the strategies of Newton's "
+      "method\n"
+      "  --schema             JSON Schema of all parameters; of "
+      "three-dimensional models\n"
+      "                       (also --help) with --set 'Geometry/Dimension = "
+      "3'\n"
       "  --version            versions of geocone and its libraries\n"
       "\n"
       "The exit code is 0 if the run has finished and its expectations hold, "
       "and\n"
       "1 otherwise; 130, 143 and 129 after Ctrl-C, SIGTERM and SIGHUP.\n";
 
-    /** Prints all parameters with an example of each kind of named section.
-     *  @param overrides e.g. another law of the material 'soil' */
-    void
-    print_defaults(std::ostream &out, const std::vector<std::string> &overrides)
+    /** Declares the parameters of all methods, as for the run of a text. */
+    std::vector<DocumentedParameter>
+    declared(const std::string &text, const std::vector<std::string> &overrides)
     {
-      const ParameterFile file = ParameterFile::from_text(
-        "subsection Boundary conditions\nset Names = footing\n"
-        "subsection footing\nend\nend\n"
-        "subsection Tractions\nset Names = surcharge\n"
-        "subsection surcharge\nend\nend\n",
-        "defaults",
-        overrides);
+      dealii::ParameterAcceptor::clear();
+      const ParameterFile file =
+        ParameterFile::from_text(text, "defaults", overrides);
       Log     log(MPI_COMM_WORLD, true);
       Methods methods(file, log);
       file.parse();
-      ParameterFile::print(out, true);
+      return documented_parameters();
+    }
+
+    /** All parameters with their defaults: of members of lists once, with any_name for
+     *  theirs, and of materials those of all laws. */
+    std::vector<DocumentedParameter>
+    all_parameters()
+    {
+      const std::vector<std::string> dimension = {"Geometry/Dimension = " +
+                                                  std::to_string(dim)};
+      const std::vector<std::string> laws      = material_types();
+      std::string                    names, text; // materials named after laws
+      for (const std::string &law : laws)
+        {
+          names += (names.empty() ? "" : ", ") + law;
+          text += "subsection " + law + "\nset Type = " + law + "\nend\n";
+        }
+      text =
+        "subsection Materials\nset Names = " + names + "\n" + text + "end\n";
+      for (const char *list : {"Boundary conditions",
+                               "Tractions",
+                               "Absorbing boundaries",
+                               "Obstacles",
+                               "Contacts"})
+        text += std::string("subsection ") + list +
+                "\nset Names = " + any_name + "\nend\n";
+      std::map<std::string, std::string> defaults;
+      for (const DocumentedParameter &parameter : declared("", dimension))
+        defaults[parameter.path()] = parameter.value;
+      std::vector<DocumentedParameter>                all;
+      std::map<std::string, std::vector<std::string>> members;
+      for (DocumentedParameter &parameter : declared(text, dimension))
+        {
+          std::string member;
+          if (parameter.sections.size() > 1)
+            member = std::exchange(parameter.sections[1], any_name);
+          else
+            parameter.value = defaults.at(parameter.path());
+          members[parameter.path()].push_back(member);
+          if (members[parameter.path()].size() == 1)
+            all.push_back(parameter);
+        }
+      for (DocumentedParameter &parameter : all)
+        {
+          parameter.conditions = conditions_of(parameter.path());
+          const auto &having   = members[parameter.path()];
+          if (parameter.sections[0] == "Materials" &&
+              parameter.sections.size() > 1 && having.size() < laws.size())
+            {
+              const bool  is_of_most = having.size() > laws.size() / 2;
+              std::string types;
+              for (const std::string &law : laws)
+                if ((std::count(having.begin(), having.end(), law) > 0) !=
+                    is_of_most)
+                  types += (types.empty() ? "" : " or ") + law;
+              parameter.conditions.own.push_back(
+                "Materials/NAME/Type = " +
+                std::string(is_of_most ? "any but " : "") + types);
+            }
+        }
+      return all;
     }
 
     /** @throws InputError if --resume is combined with options that change the run */
@@ -111,9 +175,12 @@ namespace geocone::GEOCONE_DIM
                          call.defaults_file,
                          "a file that is not there yet",
                          "name another one, or delete it yourself");
-      write_file(call.defaults_file, [&](std::ostream &out) {
-        print_defaults(out, call.overrides);
-      });
+      const std::vector<DocumentedParameter> parameters =
+        declared("subsection Boundary conditions\nset Names = footing\nend\n"
+                 "subsection Tractions\nset Names = surcharge\nend\n",
+                 call.overrides);
+      write_file(call.defaults_file,
+                 [&](std::ostream &out) { print(out, parameters); });
     }
 
     bool
@@ -122,29 +189,39 @@ namespace geocone::GEOCONE_DIM
       return dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
     }
 
+    /** @param topic empty: options and sections */
     void
-    print_help(const std::vector<std::string> &overrides)
+    print_help(const std::string &topic)
     {
-      // Lists that are empty by default get an example name.
-      std::vector<std::string> with_names = {
-        "Absorbing boundaries/Names = base",
-        "Obstacles/Names = wall",
-        "Contacts/Names = joint"};
-      with_names.insert(with_names.end(), overrides.begin(), overrides.end());
-      // In one piece, since the reader of a pipe may close it early.
-      std::ostringstream text;
-      print_defaults(text, with_names);
-      std::cout
-        << usage
-        << "\nAll parameters, with their defaults; absorbing boundaries, "
-           "obstacles and contacts are\nnamed to show theirs, and there "
-           "are none by default:\n\n"
-        << text.str()
-        << "\nAttempts of Newton's method at a step, by its properties, until "
-           "one "
-           "is solved:\n\n"
-        << text_of_plans() << std::flush;
-      if (!std::cout)
+      if (topic.empty())
+        {
+          std::cout << usage << "\nSections of parameters (--help SECTION):\n\n"
+                    << list_of_sections();
+          return;
+        }
+      const std::vector<DocumentedParameter> found =
+        on_topic(all_parameters(), topic);
+      print(std::cout, found);
+      if (std::any_of(found.begin(), found.end(), [](const auto &parameter) {
+            return parameter.path() == "Newton/Maximum iterations";
+          }))
+        std::cout << "\nStrategies of Newton's method in a step, by its "
+                     "properties, tried in turn until one\nconverges:\n\n"
+                  << text_of_plans();
+    }
+
+    /** Prints what an option asks for in place of a run. */
+    void
+    print_asked(const CommandLine &call)
+    {
+      if (call.version)
+        print_version("geocone");
+      else if (call.help)
+        print_help(*call.help);
+      else
+        std::cout << json_schema(all_parameters()) << "\n";
+      std::cout << std::flush;
+      if (!std::cout)  // the reader of a pipe may close it early
         std::_Exit(0); // else libraries report the closed pipe
     }
 
@@ -201,13 +278,15 @@ namespace geocone::GEOCONE_DIM
     {
       const bool        first = on_first_rank();
       const CommandLine call  = parse_command_line(argc, argv, "geocone");
-      if (call.version || call.help || !call.defaults_file.empty())
+      if (call.version || call.help || call.schema)
         {
-          if (first && call.version)
-            print_version("geocone");
-          else if (first && call.help)
-            print_help(call.overrides);
-          else if (first)
+          if (first)
+            print_asked(call);
+          return 0;
+        }
+      if (!call.defaults_file.empty())
+        {
+          if (first)
             write_defaults(call);
           return 0;
         }

@@ -23,19 +23,21 @@ namespace geocone
     std::vector<std::string>   overrides;
     std::string                defaults_file;
     std::optional<std::string> resumed; ///< folder of the run
+    std::optional<std::string> help; ///< its topic; empty: options and sections
     bool                       quiet           = false;
     bool                       dry_run         = false;
     bool                       picture         = false;
     bool                       force           = false;
     bool                       may_run_scripts = false;
-    bool                       help            = false;
+    bool                       schema          = false;
     bool                       version         = false;
   };
 
   /**
    * Reads FILE, --output, --set, --quiet, --dry-run, --picture, --check FILE...,
-   * --force, --run-gmsh-script, --resume, --defaults, --help and --version.
-   * @param lacking options among these that the program does not support
+   * --force, --run-gmsh-script, --resume, --defaults, --help [TOPIC], --schema and
+   * --version.
+   * @param lacking those of these options that the program does not have
    * @throws InputError on anything else
    */
   CommandLine

@@ -43,64 +43,15 @@ namespace geocone
       return declared;
     }
 
-    /** Bounds in a pattern like "[Double 0...1 (inclusive)]". */
+    /** The bounds of a pattern in words. */
     std::string
     bounds(const std::string &pattern)
     {
-      std::smatch match;
-      if (!std::regex_search(
-            pattern, match, std::regex("([-+.eE\\w]+)\\.\\.\\.([-+.\\w]+) ")))
-        return "";
-      const auto is_limit = [](const std::string &text) {
-        return text.find("MAX_DOUBLE") != std::string::npos ||
-               text == std::to_string(std::numeric_limits<int>::min()) ||
-               text == std::to_string(std::numeric_limits<int>::max()) ||
-               text == std::to_string(std::numeric_limits<unsigned>::max());
-      };
-      const bool from = !is_limit(match[1]), to = !is_limit(match[2]);
-      return from && to ? " from " + match.str(1) + " to " + match.str(2)
-             : from     ? " >= " + match.str(1)
-             : to       ? " <= " + match.str(2)
+      const auto [from, to] = bounds_of(pattern);
+      return from && to ? " from " + *from + " to " + *to
+             : from     ? " >= " + *from
+             : to       ? " <= " + *to
                         : "";
-    }
-
-    /** Admissible values of a deal.II pattern, in words. */
-    std::string
-    allowed_by(const std::string &pattern)
-    {
-      const auto begins = [&](const std::string &text) {
-        return pattern.compare(0, text.size(), text) == 0;
-      };
-      if (begins("[Selection "))
-        {
-          std::string choices = trim(pattern.substr(11, pattern.size() - 12));
-          for (std::size_t i = choices.find('|'); i != std::string::npos;
-               i             = choices.find('|', i + 3))
-            choices.replace(i, 1, " | ");
-          return choices;
-        }
-      if (begins("[Bool"))
-        return "true | false";
-      if (begins("[Integer"))
-        return "a whole number" + bounds(pattern);
-      if (begins("[Double"))
-        return "a number" + bounds(pattern);
-      if (begins("[List"))
-        {
-          const bool doubles = pattern.find("[Double") != std::string::npos;
-          const bool spatial =
-            pattern.find("length 3...3 ") != std::string::npos;
-          if (pattern.find("[List", 5) != std::string::npos)
-            return spatial ? "points x, y, z; x, y, z; ... of numbers"
-                           : "points x, y; x, y; ... of numbers";
-          if (spatial)
-            return "three numbers x, y, z";
-          if (pattern.find("length 2...2 ") != std::string::npos)
-            return "two numbers x, y";
-          return doubles ? "numbers, separated by commas"
-                         : "names, separated by commas";
-        }
-      return "text";
     }
 
     /** Whether a text may contain decimal commas: a comma between two digits,
@@ -154,6 +105,61 @@ namespace geocone
     for (const auto &[below, declared] : section.sections)
       text += as_text(below, declared, indent + "  ");
     return text + indent + "end\n";
+  }
+
+  std::pair<std::optional<std::string>, std::optional<std::string>>
+  bounds_of(const std::string &pattern)
+  {
+    std::smatch match;
+    if (!std::regex_search(
+          pattern, match, std::regex("([-+.eE\\w]+)\\.\\.\\.([-+.\\w]+) ")))
+      return {};
+    const auto bound = [](const std::string &text) {
+      const bool is_none =
+        text.find("MAX_DOUBLE") != std::string::npos ||
+        text == std::to_string(std::numeric_limits<int>::min()) ||
+        text == std::to_string(std::numeric_limits<int>::max()) ||
+        text == std::to_string(std::numeric_limits<unsigned>::max());
+      return is_none ? std::nullopt : std::optional<std::string>(text);
+    };
+    return {bound(match[1]), bound(match[2])};
+  }
+
+  std::string
+  allowed_by(const std::string &pattern)
+  {
+    const auto begins = [&](const std::string &text) {
+      return pattern.compare(0, text.size(), text) == 0;
+    };
+    if (begins("[Selection "))
+      {
+        std::string choices = trim(pattern.substr(11, pattern.size() - 12));
+        for (std::size_t i = choices.find('|'); i != std::string::npos;
+             i             = choices.find('|', i + 3))
+          choices.replace(i, 1, " | ");
+        return choices;
+      }
+    if (begins("[Bool"))
+      return "true | false";
+    if (begins("[Integer"))
+      return "a whole number" + bounds(pattern);
+    if (begins("[Double"))
+      return "a number" + bounds(pattern);
+    if (begins("[List"))
+      {
+        const bool doubles = pattern.find("[Double") != std::string::npos;
+        const bool spatial = pattern.find("length 3...3 ") != std::string::npos;
+        if (pattern.find("[List", 5) != std::string::npos)
+          return spatial ? "points x, y, z; x, y, z; ... of numbers"
+                         : "points x, y; x, y; ... of numbers";
+        if (spatial)
+          return "three numbers x, y, z";
+        if (pattern.find("length 2...2 ") != std::string::npos)
+          return "two numbers x, y";
+        return doubles ? "numbers, separated by commas"
+                       : "names, separated by commas";
+      }
+    return "text";
   }
 
   std::string

@@ -73,6 +73,23 @@ namespace geocone
       return row.back();
     }
 
+    /** The call for help on the first section of a path. */
+    std::string
+    help_on(const std::string &path)
+    {
+      const std::size_t slash = path.find('/');
+      return "'geocone --help" +
+             (slash == std::string::npos ? "" : " " + path.substr(0, slash)) +
+             "'";
+    }
+
+    std::string
+    did_you_mean(const std::string &path)
+    {
+      return "\n  remedy:  did you mean '" + path + "'? " + help_on(path) +
+             " lists all";
+    }
+
     /** Suggestion for an unknown name: a similar known name, or all known names
      *  if they are few. */
     std::string
@@ -80,32 +97,17 @@ namespace geocone
                const std::string              &section,
                const std::vector<std::string> &known)
     {
-      std::string  best;
-      unsigned int distance = std::max<std::size_t>(2, name.size() / 3) + 1;
-      if (name.size() <= longest_name)
-        for (const std::string &candidate : known)
-          if (const unsigned int d = edit_distance(name, candidate);
-              d < distance)
-            {
-              distance = d;
-              best     = candidate;
-            }
-      // Or an abbreviation.
-      for (const std::string &candidate : known)
-        if (best.empty() && name.size() > 2 &&
-            candidate.compare(0, name.size(), name) == 0)
-          best = candidate;
+      const std::string best = nearest_name(name, known);
       if (!best.empty())
-        return "\n  remedy:  did you mean '" + section + best +
-               "'? 'geocone --help' lists all";
+        return did_you_mean(section + best);
       if (known.size() > 16)
-        return "\n  remedy:  'geocone --help' lists all parameters";
+        return "\n  remedy:  " + help_on(section) + " lists all";
       std::string all;
       for (const std::string &candidate : known)
         all += (all.empty() ? "" : ", ") + candidate;
       return "\n  allowed: " + (all.empty() ? "nothing here" : all) +
-             "\n  remedy:  take one of these; 'geocone --help' tells what they "
-             "are";
+             "\n  remedy:  choose one of these; " + help_on(section) +
+             " describes them";
     }
 
     /** "SECTION/NAME" if exactly one other section has a parameter of this
@@ -124,6 +126,26 @@ namespace geocone
       return place;
     }
   } // namespace
+
+  std::string
+  nearest_name(const std::string &name, const std::vector<std::string> &known)
+  {
+    std::string  best;
+    unsigned int distance = std::max<std::size_t>(2, name.size() / 3) + 1;
+    if (name.size() <= longest_name)
+      for (const std::string &candidate : known)
+        if (const unsigned int d = edit_distance(name, candidate); d < distance)
+          {
+            distance = d;
+            best     = candidate;
+          }
+    // Or only its beginning.
+    for (const std::string &candidate : known)
+      if (best.empty() && name.size() > 2 &&
+          candidate.compare(0, name.size(), name) == 0)
+        best = candidate;
+    return best;
+  }
 
   std::vector<std::string>
   split_names(const std::string &list, const char separator)
@@ -212,11 +234,12 @@ namespace geocone
           sections_and_name(override_text.substr(0, equals));
         if (equals == std::string::npos || name.empty() ||
             has_control_characters(override_text))
-          throw InputError(where + " cannot be understood\n"
-                                   "  allowed: 'Section/Subsection/Name = "
-                                   "value', in one line\n"
-                                   "  remedy:  e.g. --set 'Mesh/Cell size = "
-                                   "0.1'; 'geocone --help' lists all names");
+          throw InputError(where +
+                           " cannot be understood\n"
+                           "  allowed: 'Section/Subsection/Name = "
+                           "value', in one line\n"
+                           "  remedy:  e.g. --set 'Mesh/Cell size = "
+                           "0.1'; 'geocone --help all' lists all names");
         for (const std::string &section : sections)
           lines.push_back({"subsection " + section, where, 0});
         lines.push_back(
@@ -534,8 +557,7 @@ namespace geocone
                                 ? suggestion(set.name,
                                              joined(set.sections, ""),
                                              keys(here->entries))
-                                : "\n  remedy:  did you mean '" + elsewhere +
-                                    "'? 'geocone --help' lists all"));
+                                : did_you_mean(elsewhere)));
           }
         set_value(
           set.sections, set.name, set.value, entry->second, set.line->place());
@@ -571,12 +593,11 @@ namespace geocone
   }
 
   void
-  ParameterFile::print(std::ostream &out, const bool with_documentation)
+  ParameterFile::print(std::ostream &out)
   {
     ParameterAcceptor::prm.print_parameters(
       out,
-      (with_documentation ? ParameterHandler::PRM
-                          : ParameterHandler::PRM | ParameterHandler::Short) |
+      ParameterHandler::PRM | ParameterHandler::Short |
         ParameterHandler::KeepDeclarationOrder);
   }
 } // namespace geocone

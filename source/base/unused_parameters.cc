@@ -46,6 +46,25 @@ namespace geocone
       return true;
     }
 
+    /** A path of a rule with the name that a '*' stands for. */
+    std::string
+    with_star(std::string path, const std::string &star)
+    {
+      if (const auto place = path.find('*'); place != std::string::npos)
+        path.replace(place, 1, star);
+      return path;
+    }
+
+    /** The values of its chooser that a rule asks for. */
+    std::string
+    needed(const UsedWhere &rule, const std::string &chooser)
+    {
+      std::string values;
+      for (const std::string &choice : rule.values)
+        values += (values.empty() ? " = " : " or ") + choice;
+      return chooser + values;
+    }
+
     /** The first rule that a setting violates, as a text; or empty. */
     std::string
     broken_rule(const std::vector<UsedWhere>              &rules,
@@ -58,10 +77,8 @@ namespace geocone
           std::string star;
           if (!matches(rule.parameter, setting.path, star))
             continue;
-          std::string chooser = rule.chooser;
-          if (const auto place = chooser.find('*'); place != std::string::npos)
-            chooser.replace(place, 1, star);
-          const auto        known = values.find(chooser);
+          const std::string chooser = with_star(rule.chooser, star);
+          const auto        known   = values.find(chooser);
           const std::string value =
             known != values.end()
               ? known->second
@@ -78,10 +95,7 @@ namespace geocone
                                    !other.value.empty();
                           }))
             continue;
-          std::string needed;
-          for (const std::string &choice : rule.values)
-            needed += (needed.empty() ? "" : " or ") + choice;
-          return chooser + (needed.empty() ? "" : " = " + needed);
+          return needed(rule, chooser);
         }
       return "";
     }
@@ -136,5 +150,21 @@ namespace geocone
           add(setting.path, needed);
       }
     return list.empty() ? "" : "set, but not used by this run: " + list;
+  }
+
+  Conditions
+  conditions_of(const std::string &path)
+  {
+    const auto of = [&](const std::vector<UsedWhere> &rules) {
+      std::vector<std::string> all;
+      for (const UsedWhere &rule : rules)
+        if (std::string star; matches(rule.parameter, path, star))
+          all.push_back(
+            needed(rule, with_star(rule.chooser, star)) +
+            (rule.other.empty() ? "" : " or " + with_star(rule.other, star)));
+      return all;
+    };
+    return {of(declared_rules().of_sections),
+            of(declared_rules().of_parameters)};
   }
 } // namespace geocone

@@ -164,7 +164,7 @@ namespace geocone
       try
         {
           write_file(path + "/parameters.prm", [](std::ostream &out) {
-            ParameterFile::print(out, false);
+            ParameterFile::print(out);
           });
         }
       catch (const RunError &error)

@@ -25,9 +25,9 @@ fi
 grep -q 'expected final/q_Pa <= 1: NO' err
 # The command line.
 "$program" --version | grep -q '^geocone [0-9]'
-"$program" --help >help
+"$program" --help all >help
 for word in 'Swelling index kappa' 'Stop when' 'Initial specific volume'; do
-  grep -q "$word" help || { echo "no $word in --help"; exit 1; }
+  grep -q "$word" help || { echo "no $word in --help all"; exit 1; }
 done
 "$program" --defaults new.prm
 grep -q '^ *# .*Pa' new.prm

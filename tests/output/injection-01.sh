@@ -18,7 +18,7 @@ run --output -dash --set 'Output/Pictures = true'
 # The help writes no file, above all not through a link that somebody has laid.
 mkdir tmp
 for pid in $(seq $$ $(($$ + 300))); do ln -s "$PWD/victim" "tmp/geocone-$pid.prm"; done
-TMPDIR=$PWD/tmp "$program" --help >help
+TMPDIR=$PWD/tmp "$program" --help all >help
 TMPDIR=$PWD/tmp "$program" --defaults all.prm
 [ ! -e victim ] && [ -z "$(find tmp -type f -name '*geocone*')" ]
 

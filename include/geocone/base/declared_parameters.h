@@ -5,7 +5,9 @@
 #define geocone_base_declared_parameters_h
 
 #include <map>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace geocone
@@ -57,7 +59,15 @@ namespace geocone
     return all;
   }
 
-  /** Path of a parameter: SECTION/SUBSECTION/NAME. */
+  /** Lower and upper bound in a pattern like "[Double 0...1 (inclusive)]". */
+  std::pair<std::optional<std::string>, std::optional<std::string>>
+  bounds_of(const std::string &pattern);
+
+  /** Values that a pattern of the library allows, in words. */
+  std::string
+  allowed_by(const std::string &pattern);
+
+  /** SECTION/SUBSECTION/NAME. */
   std::string
   joined(const std::vector<std::string> &sections, const std::string &name);
 

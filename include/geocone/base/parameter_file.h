@@ -121,7 +121,7 @@ namespace geocone
 
     /** Prints all declared parameters with their present values. */
     static void
-    print(std::ostream &out, const bool with_documentation);
+    print(std::ostream &out);
 
   private:
     struct Line
@@ -188,6 +188,10 @@ namespace geocone
   /** Splits "a, b, c" into its trimmed, non-empty parts. */
   std::vector<std::string>
   split_names(const std::string &list, const char separator = ',');
+
+  /** The known name that was meant, or empty. */
+  std::string
+  nearest_name(const std::string &name, const std::vector<std::string> &known);
 } // namespace geocone
 
 #endif

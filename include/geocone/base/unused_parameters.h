@@ -38,6 +38,15 @@ namespace geocone
    */
   std::string
   unused_parameters(const std::vector<ParameterFile::Setting> &settings);
+
+  /** The rules of a parameter in words, e.g. "Mesh/Type = graded or unstructured": those
+   *  of its whole section and its own. */
+  struct Conditions
+  {
+    std::vector<std::string> of_section, own;
+  };
+  Conditions
+  conditions_of(const std::string &path);
 } // namespace geocone
 
 #endif
