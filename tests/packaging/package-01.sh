@@ -20,6 +20,7 @@ zcat tree/usr/share/doc/geocone/changelog.gz | grep -qx ' -- Ada Example <ada@ex
 [ "$(ls tree/usr/share/geocone/scripts | xargs)" = 'plot study' ]
 [ -z "$(find tree -name '*.pyc' -o -name results -o -name '*.part')" ]
 (cd tree && md5sum --quiet -c <(dpkg-deb -I "$package" md5sums))
+[ -s tree/usr/share/bash-completion/completions/geocone ]
 # The interpreter, with the package where it would be unpacked.
 PYTHONPATH=tree/usr/lib/python3/dist-packages /usr/bin/python3 -c '
 import pathlib
