@@ -25,7 +25,7 @@ release = re.search(r"project\(geocone VERSION ([\d.]+)",
 extensions = ["myst_parser", "sphinx.ext.mathjax"]
 root_doc = "README"
 include_patterns = ["*.md", "doc/*.md", "doc/cookbook/*.md", "doc/theory/*.md",
-                    "doc/tutorials/*.md",
+                    "doc/tutorials/*.md", "doc/parameters/*.md",
                     "doc/notebooks/*.ipynb", "packaging/*.md", "meshes/*.md"]
 exclude_patterns = ["doc/api.md"]  # the first page of doxygen's site
 myst_enable_extensions = ["dollarmath", "amsmath"]
@@ -67,7 +67,8 @@ nitpick_ignore_regex = [
 
 # The pages in the order of the menu, below the first one.
 PAGES = {
-    "Use": ["doc/tutorials/README", "doc/scenes", "doc/your_own_scene", "doc/cookbook/README", "doc/notebooks/footing",
+    "Use": ["doc/tutorials/README", "doc/scenes", "doc/your_own_scene",
+            "doc/parameters/README", "doc/cookbook/README", "doc/notebooks/footing",
             "doc/notebooks/slope_factor_of_safety", "doc/notebooks/element_tests",
             "doc/runs", "doc/trust", "doc/element_test", "doc/studies", "doc/python_reference",
             "meshes/README", "packaging/README"],
@@ -95,7 +96,8 @@ def add_menu(_, page, source):
     """Before a page is read."""
     if page == root_doc:
         source[0] += "".join(menu(*part) for part in PAGES.items())
-    elif page in ("doc/cookbook/README", "doc/theory/README", "doc/tutorials/README"):
+    elif page in ("doc/tutorials/README", "doc/parameters/README", "doc/cookbook/README",
+                  "doc/theory/README"):
         folder = page[:-len("README")]
         source[0] += menu("", (folder + name for name in linked_pages(source[0])))
     elif page == "CHANGELOG":

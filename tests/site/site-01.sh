@@ -1,10 +1,10 @@
 # The site is built; all that its pages link to, with place, and all that they load is in
-# it; and a page that links to nothing is refused. A browser (where there is one) draws all
+# it; every parameter is on a page; and a page that links to nothing is refused. A browser (where there is one) draws all
 # formulas and searches, without a network.
-root=$2 folder=$3
+program=$1 root=$2 folder=$3
 . "$root/tests/fails.sh"
 rm -rf "$folder" && mkdir -p "$folder" && cd "$folder"
-"$root/scripts/site" "$folder/site" > said
+GEOCONE=$program "$root/scripts/site" "$folder/site" > said
 grep -qx "site: $folder/site/index.html" said
 /usr/bin/python3 -B "$root/tests/site/links.py" site
 # Every page of the repository is in it, also by its menu.
@@ -17,6 +17,8 @@ for page in *.md doc/*.md doc/cookbook/*.md doc/theory/*.md doc/tutorials/*.md; 
       "$folder/site/$(dirname "$page")/README.html" || [ "$page" = README.md ]
 done
 cd "$folder"
+"$program" --schema > schema.json
+/usr/bin/python3 -B "$root/tests/site/parameters.py" schema.json site/doc/parameters
 # The checks find what is wrong.
 cp -r site damaged
 rm damaged/doc/limit_load.html damaged/_images/footing_mpm.png
@@ -60,5 +62,7 @@ if command -v chromium > /dev/null; then
   [ "$all" -gt 500 ]
   shows 'search.html?q=Prandtl' > dom
   fails grep -q '<a href="doc/cookbook/footing.html' site/search.html
+  shows 'search.html?q=Swelling+index' > parameter
+  grep -q '<a href="doc/parameters/materials.html' parameter
   grep -q '<a href="doc/cookbook/footing.html' dom
 fi
