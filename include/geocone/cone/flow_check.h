@@ -58,9 +58,9 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * Of a cone. The complementarity law is that of one without a cut-off: at a cut-off
-     * of the normal stress the strength alone is checked, and at Rankine's the plastic
-     * strain, flow_at_cut_off().
+     * Check of a cone law. The complementarity law assumes a cone without a cut-off: at
+     * a cut-off of the normal stress only the strength is checked, at Rankine's also the
+     * plastic strain, flow_at_cut_off().
      * @param solved,exact cones at the end of the step
      * @param z,s negative plastic strain increment, and the stress, in cone
      * axes

@@ -135,7 +135,7 @@ namespace geocone::GEOCONE_DIM
       return end;
     }
 
-    /** By how much s is beyond the cone, or the cut-off (Pa); negative within both. */
+    /** Excess of s over the cone and the cut-off (Pa); negative within both. */
     template <typename V>
     double
     yield_function(const V &s) const
