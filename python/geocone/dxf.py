@@ -4,11 +4,14 @@
 file, by the names of their layers in it."""
 
 import argparse
+import os
 import re
 import sys
 from pathlib import Path
 
 from geocone.files import write_whole
+
+Points = list[tuple[float, float]]
 
 METRES = {0: 1., 1: 0.0254, 2: 0.3048, 4: 1e-3, 5: 1e-2, 6: 1.}  # of $INSUNITS
 UNITS = {"m": 1., "cm": 1e-2, "mm": 1e-3, "ft": 0.3048, "in": 0.0254}
@@ -19,14 +22,13 @@ class DrawingError(Exception):
     """A drawing that holds no model, with what is allowed and the remedy."""
 
 
-def area(points):
+def area(points: Points) -> float:
     """The area of a polygon, positive if its vertices run counterclockwise."""
     return sum(a[0] * b[1] - b[0] * a[1] for a, b in zip(points, [*points[1:], points[0]])) / 2
 
 
-def joined(pieces, tolerance):
-    """Lines from pieces whose ends meet.
-    @param pieces lists of points; closed ones repeat their first point"""
+def joined(pieces: list[Points], tolerance: float) -> list[Points]:
+    """Joins pieces whose ends meet; closed lines repeat their first point."""
     def meet(a, b):
         return max(abs(a[0] - b[0]), abs(a[1] - b[1])) <= tolerance
 
@@ -54,8 +56,8 @@ def joined(pieces, tolerance):
     return lines
 
 
-def without_doubles(points, tolerance):
-    """Points less those that repeat the one before."""
+def without_doubles(points: Points, tolerance: float) -> Points:
+    """Leaves out points that repeat the one before."""
     kept = []
     for point in points:
         if not kept or max(abs(point[0] - kept[-1][0]), abs(point[1] - kept[-1][1])) > tolerance:
@@ -63,11 +65,28 @@ def without_doubles(points, tolerance):
     return kept
 
 
-def lines_of(file, unit):
-    """The lines of a drawing by layers.
-    @param unit its length in metres; None: as the drawing says
-    @return {layer: [points (m)]}, closed ones with their first point again at the end, and
-    the distance of points that are the same (m)"""
+def lines_of(file: str | os.PathLike,
+             unit: float | None) -> tuple[dict[str, list[Points]], float]:
+    """Reads the lines of a drawing.
+
+    Parameters
+    ----------
+    file
+        Path of the DXF file.
+    unit
+        Length of its unit (m); None: as the drawing says.
+
+    Returns
+    -------
+    lines : dict
+        Lines (m) by the names of their layers; closed ones repeat their first point.
+    tolerance : float
+        Distance within which points are the same (m).
+
+    Raises
+    ------
+    DrawingError
+    """
     try:
         import ezdxf
         from ezdxf import path
@@ -99,19 +118,19 @@ def lines_of(file, unit):
             for layer, parts in pieces.items()}, tolerance
 
 
-def text(points):
-    """Points as a parameter."""
+def text(points: Points) -> str:
+    """Writes points as a parameter."""
     return "; ".join(f"{x:.10g}, {y:.10g}" for x, y in points)
 
 
-def section(name, lines):
-    """A subsection of a parameter file."""
+def section(name: str, lines: list[str]) -> str:
+    """Writes a subsection of a parameter file."""
     inside = "".join(f"  {line}\n" for line in lines)
     return f"subsection {name}\n{inside}end\n"
 
 
-def supports(body, tolerance):
-    """Sides of the body that lie on its base, and upright ones at its ends."""
+def supports(body: Points, tolerance: float) -> tuple[list[int], list[int]]:
+    """Finds the sides of the body on its base, and the upright ones at its ends."""
     low = min(y for _, y in body)
     ends = min(x for x, _ in body), max(x for x, _ in body)
     base, upright = [], []
@@ -123,15 +142,32 @@ def supports(body, tolerance):
     return base, upright
 
 
-def scene_of(file, unit=None, body=None, water="water"):
-    """The text of a parameter file.
+def scene_of(file: str | os.PathLike, unit: float | None = None, body: str | None = None,
+             water: str = "water") -> str:
+    """Writes the parameter file of a drawing.
 
     The greatest closed line is the body; another closed line is a region, and an open one
     the top of what lies below it, of a material that has the name of the layer.
-    @param file a DXF file
-    @param unit length of its unit (m), None: as it says
-    @param body,water names of layers
-    @throws DrawingError"""
+
+    Parameters
+    ----------
+    file
+        Path of the DXF file.
+    unit
+        Length of its unit (m); None: as the drawing says.
+    body, water
+        Names of layers.
+
+    Returns
+    -------
+    str
+        Text of the parameter file.
+
+    Raises
+    ------
+    DrawingError
+        If there is no body, or an open line turns back.
+    """
     layers, tolerance = lines_of(file, unit)
     closed = [(layer, line[:-1]) for layer, lines in layers.items() for line in lines
               if len(line) > 3 and max(abs(line[0][0] - line[-1][0]),
@@ -208,7 +244,7 @@ def scene_of(file, unit=None, body=None, water="water"):
     return "".join(result)
 
 
-def main(arguments, prog):
+def main(arguments: list[str], prog: str) -> int:
     """Writes the parameter file of a drawing; returns the exit code."""
     parser = argparse.ArgumentParser(
         prog=prog, description=__doc__ + " The greatest closed line is the body; another closed "
