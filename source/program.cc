@@ -131,7 +131,7 @@ namespace geocone::GEOCONE_DIM
         }
       for (DocumentedParameter &parameter : all)
         {
-          parameter.conditions = conditions_of(parameter.path());
+          parameter.conditions = conditions_of_use(parameter.path());
           const auto &having   = members[parameter.path()];
           if (parameter.sections[0] == "Materials" &&
               parameter.sections.size() > 1 && having.size() < laws.size())

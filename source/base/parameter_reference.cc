@@ -108,7 +108,7 @@ namespace geocone
                          value.at("value").get<std::string>(),
                          pattern->get<std::string>(),
                          value.at("documentation").get<std::string>(),
-                         conditions_of(joined(sections, key))});
+                         conditions_of_use(joined(sections, key))});
         else
           {
             std::vector<std::string> below = sections;

@@ -153,7 +153,7 @@ namespace geocone
   }
 
   Conditions
-  conditions_of(const std::string &path)
+  conditions_of_use(const std::string &path)
   {
     const auto of = [&](const std::vector<UsedWhere> &rules) {
       std::vector<std::string> all;

@@ -46,7 +46,7 @@ namespace geocone
     std::vector<std::string> of_section, own;
   };
   Conditions
-  conditions_of(const std::string &path);
+  conditions_of_use(const std::string &path);
 } // namespace geocone
 
 #endif
