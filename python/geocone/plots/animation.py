@@ -19,6 +19,7 @@ from geocone.style import STRAINS, PlotError, Skipped, panels, plain
 
 SECONDS = 8.  # that a film takes
 MOST = 200  # pictures
+DOTS = 110  # per inch: films of many pictures are large
 
 
 def mp4_of(frames, seconds):
@@ -51,6 +52,7 @@ def draw(run, paths):
     values, label, norm, extend = strain_or_shear(fields)
     look = look_at(fields, values, lambda size: 0.1 * np.max(size))
     figure, (axes,) = panels(1, look.box)
+    figure.set_dpi(DOTS)
     look.finish(axes)
     bar, films = None, {path: [] for path in paths}
     for field, value in zip(fields, values):
