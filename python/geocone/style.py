@@ -127,7 +127,7 @@ def panels(n, view):
     columns = columns_of(n, ratio)
     shape = np.array([-(-n // columns), columns])
     # Of many panels only the outer ones have labels.
-    w = min((4.5 if shape.min() > 1 else 6.) * min(1., max(0.4, ratio)), 8. * ratio)
+    w = min((4.5 if shape.min() > 1 or columns > 2 else 6.) * min(1., max(0.4, ratio)), 8. * ratio)
     labels = [1.9, 1.] if n < 3 else [0.6, 0.5]
     figure, axes = subplots(*shape, squeeze=False,
                             figsize=shape[::-1] * ([w, w / ratio] + np.array(labels)))

@@ -117,8 +117,9 @@ def draw_mechanism(run, path):
         axes.set_title(f"mechanism of the {of} bound: speed")
         add_bar(axes, drawn, "relative", extend="max")
     if has_gap:
-        most = level(part[field.cells[:, 0]], sizes_of(field))
-        mesh = PolyCollection(field.points[field.cells], array=part[field.cells[:, 0]],
+        parts = part[field.cells[:, 0]]
+        most = level(parts, np.ones(len(parts)))  # of a triangle each, whatever its area
+        mesh = PolyCollection(field.points[field.cells], array=parts,
                               edgecolors="#00000030", linewidths=0.2, cmap=RATES,
                               norm=LogNorm(1e-2 * most, most))
         axes_of[-1].add_collection(mesh)

@@ -126,10 +126,10 @@ def draw_contours(axes, field, values, norm, colors):
 
 def magnification(most, view):
     """A round factor by which displacements are drawn, the greatest ones a twentieth of the
-    view; 1 if they are larger than that."""
+    view."""
     wanted = 0.05 * np.max(view[1] - view[0]) / most if most > 0. else 1.
     power = 10.**np.floor(np.log10(wanted))
-    return max(1., power * max(step for step in (1., 2., 5.) if step * power <= wanted * 1.0001))
+    return power * max(step for step in (1., 2., 5.) if step * power <= wanted * 1.0001)
 
 
 def draw_arrows(axes, places, vectors, most):
