@@ -107,7 +107,7 @@ def meaning_of(run):
     proof = ("A stress field in equilibrium proves the lower end, a mechanism the upper one; "
              "neither depends on how fine the mesh is.")
     if is_strength_reduction(run):
-        factor = "The factor of safety F divides the strength, c and tan φ, of the soils at failure."
+        factor = "The factor of safety F divides c and tan φ of the soils at failure."
         if run.method == "strength reduction":
             return [factor, proof, *associated]
         sentences = [factor, "It was found by steps on this mesh, and is no bound."]

@@ -10,8 +10,8 @@ from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from geocone.plots import overlay
 from geocone.plots.answer import heading
-from geocone.style import (BLUE, COLORS, GREY, RATES, STRAINS, Skipped, add_bar, level, panels, save,
-                           sizes_of, subplots, unit_for)
+from geocone.style import (BLUE, COLORS, GREY, RATES, STRAINS, Skipped, add_bar, level, panels,
+                           save, sizes_of, subplots, unit_for)
 
 FEWEST = 3  # meshes, from which on a trend can be seen
 

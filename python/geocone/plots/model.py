@@ -16,7 +16,7 @@ from matplotlib.path import Path as Outline
 from matplotlib.transforms import offset_copy
 
 from geocone.parameter_file import IncludeError, parameters_of
-from geocone.plots.solid import ON_DARK, View, add_directions
+from geocone.plots.solid import View, add_directions
 from geocone.reader import Missing, ReadError
 from geocone.style import (WATER, draw_table, plain, save, subplots, table_of,
                            unit_for)

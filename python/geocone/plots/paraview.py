@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from geocone.files import write_listed
-from geocone.plots.point_values import STRAIN
+from geocone.plots.point_values import STRAIN, level_of
 from geocone.reader import Missing
 from geocone.style import SHOWN, Skipped
 
@@ -52,11 +52,12 @@ def magnitude(values):
     return np.linalg.norm(values, axis=1) if values.shape[1] > 1 else values[:, 0]
 
 
-def range_of(values, part, vector):
+def range_of(field, values, part, vector):
     """The range of the colours: of vectors from zero, and a few values, as of points that
     fly or of sand at an edge, are beyond."""
     if part is not None:
-        return [part * float(values.max()), float(values.max())]
+        most = float(level_of([field], [values]))
+        return [part * most, most]
     low, high = map(float, np.quantile(values, [0.005, 0.995]))
     if vector:
         low = 0.
@@ -71,7 +72,7 @@ def view_of(series, field, choices):
             continue
         values, dim = magnitude(field.data[array]), field.points.shape[1]
         view = {"series": series, "array": array, "title": title,
-                "range": range_of(values, part, field.data[array].shape[1] > 1),
+                "range": range_of(field, values, part, field.data[array].shape[1] > 1),
                 "log": part is not None, "rates": part in (SHOWN, 1e-2),
                 "edges": array == "part_of_gap",
                 "warp": None, "factor": 1., "radius": None}

@@ -23,7 +23,7 @@ from geocone.plots.rates import add_rates, cells_of
 from geocone.reader import nearest, read_series, read_states, read_table
 from geocone.report.schema import (LINE, NUMBER, POSITIVE, VALUE, VIEW, any_of, between, list_of,
                                    table_of, takes, words)
-from geocone.style import (BESIDE, BLUE, COLORS, ORANGE, SHOWN, STRAINS, add_bar, disks,
+from geocone.style import (BESIDE, BLUE, COLORS, ORANGE, STRAINS, add_bar, disks,
                            panels, plain, subplots)
 
 STYLES = ["-", (0, (5, 2)), (0, (1.5, 1.5)), (0, (6, 2, 1.5, 2))]
@@ -194,7 +194,7 @@ def rates(rows, options):
         return empty(text)
     series = options.get("series", "points")
     fields = [read_states(row["folder"] / f"{series}.pvd")[0] for row in good]
-    shown, (x0, y0, x1, y1) = options.get("shown", SHOWN), options["view"]
+    shown, (x0, y0, x1, y1) = options.get("shown", 1e-4), options["view"]
     figure, axes = panels(len(good), np.array([[x0, y0], [x1, y1]]))
     values = values_of(fields, "plastic_strain_rate")
     most = max(value.max() for value in values)
