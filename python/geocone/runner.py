@@ -154,21 +154,33 @@ def command(program: str | os.PathLike, file: str | os.PathLike, settings: Itera
             str(folder), *(word for text in settings for word in ("--set", text))]
 
 
-def start(call: Sequence[str]) -> subprocess.Popen:
-    """Starts a call, in a session of its own so that mpirun's children end with it. One
-    thread for each rank."""
-    return subprocess.Popen(call, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                            stdin=subprocess.DEVNULL, text=True, errors="replace",
-                            env=environment(), start_new_session=True)
+class Call(subprocess.Popen):
+    """A call, in a session of its own so that mpirun's children end with it. One thread for
+    each rank."""
+
+    def __init__(self, words: Sequence[str]):
+        super().__init__(words, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                         stdin=subprocess.DEVNULL, text=True, errors="replace",
+                         env=environment(), start_new_session=True)
+        self._not_asked = threading.Lock()
+
+    def send(self, number: int) -> None:
+        """Sends a signal to the call and all that it has started."""
+        with contextlib.suppress(ProcessLookupError):  # it has just ended
+            os.killpg(self.pid, number)
+
+    def ask_to_end(self) -> None:
+        """Asks the run to write a checkpoint and end, once: a second signal would kill it."""
+        if self._not_asked.acquire(blocking=False):
+            self.send(signal.SIGTERM)
 
 
-def send(child: subprocess.Popen, number: int) -> None:
-    """Sends a signal to a call and all that it has started."""
-    with contextlib.suppress(ProcessLookupError):  # it has just ended
-        os.killpg(child.pid, number)
+def start(words: Sequence[str]) -> Call:
+    """Starts a call."""
+    return Call(words)
 
 
-def finish(child: subprocess.Popen, time_limit: float | None = None,
+def finish(child: Call, time_limit: float | None = None,
            hear: Callable[[str], Any] | None = None) -> Ended:
     """Waits for a call.
 
@@ -186,7 +198,7 @@ def finish(child: subprocess.Popen, time_limit: float | None = None,
 
     def kill():
         is_late.set()
-        send(child, signal.SIGKILL)
+        child.send(signal.SIGKILL)
 
     timer = threading.Timer(time_limit or 0., kill)
     with child:
@@ -198,8 +210,8 @@ def finish(child: subprocess.Popen, time_limit: float | None = None,
                 if hear:
                     hear(line.rstrip("\n"))
             child.wait()
-        except BaseException:  # e.g. Ctrl-C: the run writes a checkpoint and ends
-            send(child, signal.SIGTERM)
+        except BaseException:  # e.g. Ctrl-C
+            child.ask_to_end()
             child.stdout.read()  # its last words must not fail
             raise
         finally:

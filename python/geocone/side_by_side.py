@@ -4,7 +4,6 @@
 
 import functools
 import os
-import signal
 import threading
 from collections.abc import Callable, Hashable, Mapping, Sequence
 from pathlib import Path
@@ -12,8 +11,7 @@ from typing import Any
 
 from geocone.progress import Progress, reporter
 from geocone.reader import Run
-from geocone.runner import (Ended, RunFailed, finish, free_folder, options_of, result_of, send,
-                            start)
+from geocone.runner import (Ended, RunFailed, finish, free_folder, options_of, result_of, start)
 from geocone.scene import Scene
 
 
@@ -40,7 +38,7 @@ class SideBySide:
         with self.changed:
             self.children.add(child)
             if self.stopped:  # while it was started
-                send(child, signal.SIGTERM)
+                child.ask_to_end()
         try:
             return finish(child, time_limit, hear)
         finally:
@@ -52,7 +50,7 @@ class SideBySide:
         with self.changed:
             self.stopped = True
             for child in self.children:
-                send(child, signal.SIGTERM)
+                child.ask_to_end()
 
     def do(self, jobs: Sequence[tuple[int, Callable[[], Any]]]) -> None:
         """Does all jobs, the first one first.

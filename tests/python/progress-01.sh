@@ -40,6 +40,17 @@ except Enough:
 assert geocone.read("endless").status.startswith("stopped")
 assert any(name.startswith("checkpoint") for name in os.listdir("endless"))
 
+# Asked twice to end, e.g. by the errors of two runs, it is not killed by the second signal.
+from geocone.runner import command, finish, start
+child = start(command(program, f"{root}/tests/footing_coarse.prm", [
+    "Loading/push/Duration = 1e5", "Output/Verbosity = 1"], "twice", quiet=False))
+def asks_twice(line):
+    if line.startswith("step 1/"):
+        child.ask_to_end()
+        child.ask_to_end()
+finish(child, hear=asks_twice)
+assert geocone.read("twice").status.startswith("stopped")
+
 # Meshes of bounds, explicit steps, a line on the screen, errors.
 heard = []
 bounds = run("prm/safety/slope_2to1.prm",
