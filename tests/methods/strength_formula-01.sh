@@ -18,7 +18,9 @@ for method in FEM MPM 'explicit MPM'; do
     block formula "${call[@]}" --set 'Output/If folder exists = overwrite' \
       --set 'Materials/clay/Cohesion gradient = 0' \
       --set 'Materials/clay/Cohesion formula = 1000 + 1000 * (1 - y)'
-    cmp gradient/statistics.csv formula/statistics.csv
+    # But for the time that was taken.
+    cmp <(cut -d, -f4 --complement gradient/statistics.csv) \
+      <(cut -d, -f4 --complement formula/statistics.csv)
     [ "$(wc -l <formula/statistics.csv)" -gt 2 ]
   done
 done
