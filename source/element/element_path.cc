@@ -75,41 +75,45 @@ namespace geocone::GEOCONE_DIM
     kind.declare(
       *this,
       "Kind",
-      ". Components: each by its own strain or stress below. Isotropic: equal "
-      "strains, Amount: volumetric strain. Oedometric: Amount: strain of the "
-      "axis, no other. Drained: Amount: strain of the axis, other normal "
-      "stresses constant. Undrained: Amount: strain of the axis, others equal, "
-      "no volume change. Simple shear: Amount: shear angle gamma = 2 eps_xy, "
-      "no other strain. Tension is positive: -0.1 is 10 % in compression.");
-    axis.declare(*this, "Axis", ": the axis of these kinds.");
-    add_parameter("Amount", amount, "See Kind (-).");
+      ". Components: each component by its own strain or stress below. "
+      "Isotropic: equal normal strains; Amount: volumetric strain. Oedometric: "
+      "axial strain only; Amount: axial strain. Drained: constant lateral "
+      "stresses; Amount: axial strain. Undrained: constant volume with equal "
+      "lateral strains; Amount: axial strain. Simple shear: Amount: shear "
+      "angle gamma = 2 eps_xy, no other strain. Tension is positive: -0.1 is "
+      "10 % compression.");
+    axis.declare(
+      *this, "Axis", ": axis of the kinds oedometric, drained and undrained.");
+    add_parameter(
+      "Amount", amount, "Strain at the end of the stage [-]; see 'Kind'.");
     add_parameter("Increments",
                   n_increments,
-                  "Number of increments (for each amplitude of cycles), > 0.");
-    add_parameter("Cycles",
-                  n_cycles,
-                  "Number of cycles; 0: once to the end. The amount, strains "
-                  "and stress targets are then amplitudes around the start.");
-    cycle_form.declare(
-      *this,
-      "Cycle form",
-      ". Two-way: to the amplitude, to its opposite, back. One-way: to the "
-      "amplitude and back.");
+                  "Number of increments, > 0; with cycles, per amplitude.");
+    add_parameter(
+      "Cycles",
+      n_cycles,
+      "Number of cycles; 0: monotonic. With cycles, the amount, strains and "
+      "target stresses are amplitudes about the initial state.");
+    cycle_form.declare(*this,
+                       "Cycle form",
+                       ". Two-way: to the amplitude, to its opposite and back. "
+                       "One-way: to the amplitude and back.");
     add_parameter(
       "Stop when",
       stop_text,
-      "Ends the stage early: NAME <= NUMBER or NAME >= NUMBER with a "
-      "column of path.csv, e.g. p <= 20e3, eps_q >= 0.05.");
+      "Condition that ends the stage early: NAME <= NUMBER or NAME >= NUMBER "
+      "with a column of path.csv, e.g. p <= 20e3, eps_q >= 0.05. Empty: none.");
     for (unsigned int i = 0; i < 6; ++i)
       {
-        add_parameter(std::string("Strain ") + component_names[i],
-                      strain_texts[i],
-                      "Strain increment of the stage (-); for 'components'. "
-                      "Without strain and stress: no strain.");
+        add_parameter(
+          std::string("Strain ") + component_names[i],
+          strain_texts[i],
+          "Strain increment of the stage [-], for the kind 'components'. Zero "
+          "if neither strain nor stress is given.");
         add_parameter(std::string("Stress ") + component_names[i],
                       stress_texts[i],
-                      "Stress at the end of the stage (Pa), or 'constant'; for "
-                      "'components'.");
+                      "Target stress at the end of the stage [Pa], or "
+                      "'constant', for the kind 'components'.");
       }
   }
 
@@ -256,8 +260,8 @@ namespace geocone::GEOCONE_DIM
   ElementPath::ElementPath(const ParameterFile &file)
     : NamedList(file,
                 "Path",
-                "Names of the stages, comma-separated, in their order; each "
-                "has a subsection of that name.",
+                "Names of the stages in order, comma-separated; each has a "
+                "subsection of its name.",
                 "loading")
   {
     make();

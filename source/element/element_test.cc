@@ -28,18 +28,20 @@ namespace geocone::GEOCONE_DIM
     , path(file)
     , element_output(comm, log)
   {
-    components.declare(*this,
-                       "Components",
-                       ". Automatic: 3D if the law has it. Plane strain: as in "
-                       "scenes, xx, yy, xy. Axisymmetric: xx, yy, zz, xy, as "
-                       "in scenes around an axis; for laws that these take.");
+    components.declare(
+      *this,
+      "Components",
+      ". Components of stress and strain. Automatic: 3D if the law supports "
+      "it. Plane strain: xx, yy, xy, as in plane scenes. Axisymmetric: xx, yy, "
+      "zz, xy, as in axisymmetric scenes, for laws that support them.");
     add_parameter("Initial stress",
                   initial_stress,
-                  "xx, yy, zz, xy, yz, zx (Pa), tension positive. Laws of the "
-                  "plane carry zz along.");
-    add_parameter("Initial specific volume",
-                  initial_volume,
-                  "v = 1 + e at the start (-), > 1: for the column ln v.");
+                  "Initial stress xx, yy, zz, xy, yz, zx [Pa], tension "
+                  "positive. Plane-strain laws carry zz along.");
+    add_parameter(
+      "Initial specific volume",
+      initial_volume,
+      "Initial specific volume v = 1 + e [-], > 1, for the column ln v.");
   }
 
   std::vector<std::string>

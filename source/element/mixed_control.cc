@@ -18,15 +18,15 @@ namespace geocone::GEOCONE_DIM
   {
     add_parameter("Tolerance",
                   tolerance,
-                  "Largest difference of a stress from its target, over the "
-                  "norm of the stress (-).");
+                  "Largest deviation of a stress from its target, relative to "
+                  "the norm of the stress [-].");
     add_parameter("Maximum iterations",
                   max_iterations,
-                  "Newton iterations before an increment is halved.");
+                  "Newton iterations after which an increment is halved.");
     add_parameter("Maximum halvings",
                   max_halvings,
-                  "How often an increment may be halved before the run gives "
-                  "up, at most 30.");
+                  "Maximum number of successive halvings of an increment, <= "
+                  "30; beyond it the run fails.");
   }
 
   void

@@ -81,39 +81,42 @@ namespace geocone::GEOCONE_DIM
     order.declare(
       *this,
       "Order",
-      ". MUSL: velocities of points first, stress from their mean; tolerates "
-      "small nodal masses. USL: stress last, one pass over the points: the "
-      "fastest; for splines. USF: stress first.");
-    add_parameter("Courant number",
-                  courant,
-                  "C of the step C h/(c + v), with the cell size h, the "
-                  "fastest elastic wave c and point v; 0 < C <= 1. With "
-                  "Element = Q1 take 0.1 to 0.3.");
+      ". MUSL: velocities of points are updated first, and stresses follow "
+      "from the velocities mapped back to the grid; tolerates small nodal "
+      "masses. USL: stresses are updated last, in a single pass over the "
+      "points; fastest, for B-splines. USF: stresses are updated first.");
+    add_parameter(
+      "Courant number",
+      courant,
+      "Courant number C [-] of the time step C h/(c + v), with the cell size "
+      "h, the fastest elastic wave speed c and the largest speed v of a point; "
+      "0 < C <= 1. For Element = Q1 use 0.1 to 0.3.");
     add_parameter("Time step",
                   fixed_step,
-                  "A step of this size (s); 0: the one that the Courant number "
-                  "gives, anew in each step.",
+                  "Constant time step [s]; 0: from the Courant number, updated "
+                  "in each step.",
                   prm,
                   Patterns::Double(0.));
     add_parameter("Allow unstable step",
                   allow_unstable,
-                  "Whether a given step may exceed h/(c + v).");
+                  "Whether a given time step may exceed h/(c + v).");
     add_parameter("Largest strain increment",
                   largest_strain,
-                  "Steps are kept so small that no displacement gradient "
-                  "changes by more than about this, by its rate in the step "
-                  "before; 0: no such limit.",
+                  "Limits the time step so that no displacement gradient "
+                  "changes by more than about this value [-], estimated from "
+                  "its rate in the previous step; 0: no limit.",
                   prm,
                   Patterns::Double(0.));
-    add_parameter("Fast path",
-                  fast_path,
-                  "Whether a uniform grid is treated as such; false: like any "
-                  "other mesh, for comparisons, with the same result (but for "
-                  "Q1 and points exactly on edges of cells).");
+    add_parameter(
+      "Fast path",
+      fast_path,
+      "Whether the faster algorithm for uniform grids is used. false: the "
+      "algorithm for general meshes, for comparison; results are the same, "
+      "except for Q1 and for points exactly on cell edges.");
     add_parameter("Sort every",
                   sort_every,
-                  "Points are sorted by cell, and shared out among the ranks, "
-                  "every so many steps (20 to 100 are fastest).",
+                  "Number of steps after which points are sorted by cell and "
+                  "redistributed among the ranks (20 to 100 is fastest).",
                   prm,
                   Patterns::Integer(1));
   }

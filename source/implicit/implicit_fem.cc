@@ -73,13 +73,14 @@ namespace geocone::GEOCONE_DIM
   {
     add_parameter("Inertia",
                   inertia,
-                  "false: quasi-static, no mass is assembled and the density "
-                  "enters only the weight. true: lumped mass (row sums; for P2 "
-                  "the scaled diagonal).");
+                  "Whether inertia is included. false: quasi-static; the "
+                  "density enters only the weight. true: lumped mass (row "
+                  "sums; for P2 the scaled diagonal).");
     integration.declare(
       *this,
-      ", of FEM with inertia. Midpoint and Newmark's average acceleration: of "
-      "order two; elastic motion loses no energy, and waves are not damped.");
+      ". Time integration of FEM with inertia. The midpoint rule and Newmark's "
+      "average acceleration are second-order accurate and conserve the energy "
+      "of elastic motion, without damping waves.");
   }
 
   std::string

@@ -46,51 +46,55 @@ namespace geocone::GEOCONE_DIM
     advection.declare(
       *this,
       "Advection",
-      ": what moves the particles. The second lets loads drift with FLIP. "
-      "None: they stay, as do supports, for limit loads by small strains.");
-    add_parameter("Consistent mass part",
-                  consistent_mass,
-                  "M = (1 - c) lumped + c consistent; 0 to 1. Up to 0.999 is "
-                  "safe; 1 is singular where a cell has fewer particles than "
-                  "functions.",
-                  prm,
-                  Patterns::Double(0., 1.));
+      ": velocity by which particles move. Particle velocity lets loads drift "
+      "with FLIP. None: particles and supports keep their positions, for limit "
+      "loads by small strains.");
     add_parameter(
-      "Consistent integration",
-      consistent_integration,
-      "With B-bar of B-splines and particles that move, in cells full of "
-      "soil: weights of the particles sum up to the cell and mean gradients "
-      "are those of the cell. false: weights are volumes.");
-    add_parameter(
-      "Ghost stiffness",
-      ghost_part,
-      "gamma >= 0: B-splines that hold hardly any material are kept with those "
-      "beside them by a viscous force of this part of Young's modulus, or "
-      "loads "
-      "are taken by jets of a few particles; 0: none.",
+      "Consistent mass part",
+      consistent_mass,
+      "Part c of the consistent mass [-] in M = (1 - c) M_lumped + c "
+      "M_consistent, 0 to 1. Values up to 0.999 are safe; with 1, M is "
+      "singular where a cell has fewer particles than basis functions.",
       prm,
       Patterns::Double(0., 1.));
-    ghosts.declare(*this,
-                   "Ghost stiffness of",
-                   ": which functions. All: fewer iterations where soil flows, "
-                   "but it takes some per cent of the energy.");
+    add_parameter("Consistent integration",
+                  consistent_integration,
+                  "For B-bar with B-splines and moving particles, in full "
+                  "cells: scales the weights of the particles to the volume of "
+                  "the cell and corrects the mean gradients to those of the "
+                  "cell. false: weights are the volumes of the particles.");
+    add_parameter("Ghost stiffness",
+                  ghost_part,
+                  "Ghost stiffness gamma [-], 0 to 1: viscous stiffness, as a "
+                  "part of Young's modulus, that couples low-mass B-splines of "
+                  "small cut cells to their neighbours. It prevents spurious "
+                  "velocities of few particles under load. 0: none.",
+                  prm,
+                  Patterns::Double(0., 1.));
+    ghosts.declare(
+      *this,
+      "Ghost stiffness of",
+      ": basis functions with ghost stiffness. All: fewer iterations where "
+      "soil yields, but a dissipation of some per cent of the energy.");
     integration.declare(*this, ". All but the first lose less energy.");
     start_asked.declare(
       *this,
       "Start",
-      ": where Newton's method starts. Grid velocity: that of the last step; "
-      "best for slow loading. Particle velocity: vL, with the elastic tangent "
-      "first. Automatic: the former, and the latter if it fails.");
-    add_parameter("Grid follows",
-                  grid_follows,
-                  "A condition that is imposed on averages or segments of a "
-                  "side: between steps the lines of the grid go with the side, "
-                  "and those beyond it are stretched up to the ends of the "
-                  "grid, which stay. Empty: the grid stays.");
+      ": initial guess of Newton's method. Grid velocity: that of the last "
+      "step; best for slow loading. Particle velocity: velocity mapped from "
+      "the particles, with the elastic tangent in the first iteration. "
+      "Automatic: grid velocity, or particle velocity if that fails.");
+    add_parameter(
+      "Grid follows",
+      grid_follows,
+      "Name of a boundary condition imposed on averages or segments of a side "
+      "that the grid follows: between steps its grid lines move with the side, "
+      "and the cells beyond stretch to the ends of the grid, which are fixed. "
+      "Empty: the grid is fixed.");
     add_parameter("Largest move",
                   largest_move,
-                  "A step in which a particle would move farther than so many "
-                  "cells is cut.");
+                  "Largest displacement of a particle in a step, in cells [-]; "
+                  "a step beyond it is halved.");
   }
 
   void

@@ -32,26 +32,28 @@ namespace geocone::GEOCONE_DIM
     using dealii::ParameterAcceptor;
     using dealii::Patterns::Double;
     rule.declare(acceptor, "Integration", documentation);
-    acceptor.add_parameter("Theta",
-                           theta,
-                           "Of the theta-scheme, 0.5 to 1: 0.5 is the midpoint "
-                           "rule, 1 backward Euler; a step loses (theta - 1/2) "
-                           "(|dv|_M^2 + |ds|_S^2) of the energy.",
-                           ParameterAcceptor::prm,
-                           Double(0.5, 1.));
-    acceptor.add_parameter("Newmark gamma",
-                           gamma,
-                           "0.5 (of order two, no damping) to 1.",
-                           ParameterAcceptor::prm,
-                           Double(0.5, 1.));
-    acceptor.add_parameter("Newmark beta",
-                           beta,
-                           "At least gamma/2, for steps of any size to be "
-                           "stable; 0.25 with gamma = 0.5 is the average "
-                           "acceleration, (gamma + 1/2)^2/4 damps waves that "
-                           "the steps do not resolve most.",
-                           ParameterAcceptor::prm,
-                           Double(0.25, 1.));
+    acceptor.add_parameter(
+      "Theta",
+      theta,
+      "Parameter theta of the theta-scheme [-], 0.5 to 1. 0.5: midpoint rule; "
+      "1: backward Euler. A step dissipates the energy (theta - 1/2) (|dv|_M^2 "
+      "+ |ds|_S^2).",
+      ParameterAcceptor::prm,
+      Double(0.5, 1.));
+    acceptor.add_parameter(
+      "Newmark gamma",
+      gamma,
+      "Newmark's gamma [-], 0.5 (second order, no damping) to 1.",
+      ParameterAcceptor::prm,
+      Double(0.5, 1.));
+    acceptor.add_parameter(
+      "Newmark beta",
+      beta,
+      "Newmark's beta [-], 0.25 to 1; >= gamma/2 for unconditional stability. "
+      "0.25 with gamma = 0.5: average acceleration; (gamma + 1/2)^2/4: "
+      "strongest damping of unresolved waves.",
+      ParameterAcceptor::prm,
+      Double(0.25, 1.));
   }
 
   void

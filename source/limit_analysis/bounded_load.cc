@@ -132,15 +132,12 @@ namespace geocone::GEOCONE_DIM
   void
   BoundedLoad::declare(dealii::ParameterAcceptor &section)
   {
-    asked.declare(
-      section,
-      "Load factor of",
-      ". What the bounded factor multiplies; other loads are dead. Velocity: "
-      "the "
-      "bounded load is the reaction to the prescribed velocities, which are "
-      "those "
-      "at t = 0. Automatic: velocity if some is not zero, else weight, else "
-      "tractions.");
+    asked.declare(section,
+                  "Load factor of",
+                  ". Loads multiplied by the load factor; other loads are "
+                  "constant. Velocity: the bounded load is the reaction to the "
+                  "velocities prescribed at t = 0. Automatic: velocity if one "
+                  "of them is not zero, else weight, else tractions.");
   }
 
   void

@@ -78,37 +78,36 @@ namespace geocone::GEOCONE_DIM
     analysis.declare(
       *this,
       "Kind",
-      ". Steps: the scene moves, by the method of 'Discretisation'. Limit "
-      "load: "
-      "strict upper and lower bounds of the load that a rigid-plastic body "
-      "with "
-      "associated flow bears, on meshes of triangles that are refined where "
-      "they "
-      "differ; steps, elasticity and inertia have no part in it. Strength "
-      "reduction: as strict bounds of the factor of safety, by which c and "
-      "tan(phi) are divided at the limit.");
+      ". Steps: time steps with the method of 'Discretisation'. Limit load: "
+      "strict upper and lower bounds of the limit load of a rigid-plastic body "
+      "with associated flow, on adaptively refined triangular meshes, "
+      "independent of steps, elasticity and inertia. Strength reduction: "
+      "strict bounds of the factor of safety, by which c and tan(phi) are "
+      "divided at collapse.");
     bounded_load.declare(*this);
-    add_parameter(
-      "Gap tolerance",
-      gap_tolerance,
-      "Meshes are refined until upper/lower - 1 is less than this.");
+    add_parameter("Gap tolerance",
+                  gap_tolerance,
+                  "Relative gap upper/lower - 1 of the bounds [-] below which "
+                  "refinement ends.");
     add_parameter("Growth of meshes",
                   growth,
-                  "Each mesh has about so many times the triangles of the last "
-                  "one.");
+                  "Ratio of the number of triangles of a mesh to that of the "
+                  "previous mesh [-].");
     add_parameter("Maximum cells",
                   most_cells,
-                  "No mesh is made that would have more triangles.");
-    add_parameter("Maximum levels",
-                  most_levels,
-                  "The number of meshes; 1: only that of the section 'Mesh'.");
+                  "Maximum number of triangles of a mesh; refinement ends "
+                  "before it is exceeded.");
+    add_parameter(
+      "Maximum levels",
+      most_levels,
+      "Maximum number of meshes; 1: only the mesh of the section 'Mesh'.");
     add_parameter(
       "Solver tolerance",
       tolerance,
-      "The interior-point method ends where the distance to the "
-      "optimum of the mesh is less than this part of the load, or "
-      "than a tenth of the gap tolerance. Sharper optima concentrate "
-      "flow on fewer cells, and meshes that follow them are worse.");
+      "Tolerance of the interior-point method [-]: distance to the optimum of "
+      "the mesh, relative to the load; also at most a tenth of the gap "
+      "tolerance. Smaller values localise the mechanism in fewer cells, which "
+      "impairs adaptive refinement.");
   }
 
   void

@@ -28,32 +28,34 @@ namespace geocone
   LinearSolverParameters::LinearSolverParameters()
     : dealii::ParameterAcceptor("/Linear solver")
   {
-    name.declare(*this,
-                 "Name",
-                 ". Automatic: Cholmod for associated flow on one rank, "
-                 "otherwise Mumps. Multigrid takes less memory in three "
-                 "dimensions.");
-    index_size.declare(*this,
-                       "Index size",
-                       ": bits of the integers that count the entries of "
-                       "Cholmod's factors. Automatic: 64 where 32 cannot hold "
-                       "them, beyond some 2e7 unknowns in the plane.");
+    name.declare(
+      *this,
+      "Name",
+      ". Automatic: Cholmod for associated flow on one rank, otherwise Mumps. "
+      "Multigrid needs less memory in three dimensions.");
+    index_size.declare(
+      *this,
+      "Index size",
+      ": bits of the indices of Cholmod's factors. Automatic: 64 if 32 are too "
+      "few (beyond about 2e7 unknowns in the plane).");
     add_parameter("Out of core",
                   out_of_core,
-                  "Mumps keeps the factors in files: a third of the memory, "
-                  "for a tenth to a third more time.");
+                  "Whether Mumps stores the factors on disk: a third of the "
+                  "memory for 10 to 30 % more time.");
     add_parameter("Out-of-core folder",
                   folder,
-                  "Where, on a disk of each rank's machine. The files go when "
-                  "the run ends.");
-    add_parameter("Tolerance",
-                  tolerance,
-                  "Of multigrid: the residual over the right-hand side.",
-                  prm,
-                  dealii::Patterns::Double(1e-14, 0.1));
+                  "Folder of these files, on a local disk of each rank; they "
+                  "are deleted when the run ends.");
+    add_parameter(
+      "Tolerance",
+      tolerance,
+      "Tolerance of multigrid: residual relative to the right-hand side [-].",
+      prm,
+      dealii::Patterns::Double(1e-14, 0.1));
     add_parameter("Maximum iterations",
                   max_iterations,
-                  "Of multigrid, after which a system goes to a direct solver.",
+                  "Maximum number of multigrid iterations; if exceeded, a "
+                  "direct solver solves the system.",
                   prm,
                   dealii::Patterns::Integer(1));
   }

@@ -13,28 +13,32 @@ namespace geocone::GEOCONE_DIM
   ConstitutiveLaw::ConstitutiveLaw(const std::string &section)
     : dealii::ParameterAcceptor("/" + section)
   {
-    add_parameter("Density", rho, "Mass density rho (kg/m^3), > 0.");
+    add_parameter(
+      "Density",
+      rho,
+      "Mass density rho [kg/m^3], > 0; below water, of the saturated soil.");
     add_parameter("Unit weight",
                   unit_weight,
-                  "Weight per volume gamma (N/m^3), > 0, in place of the "
-                  "density: rho = gamma/|g|. 0: by 'Density'.");
-    add_parameter("Saturated unit weight",
-                  saturated_unit_weight,
-                  "Weight per volume (N/m^3) below the water of 'Water', as it "
-                  "is at the start, at least that above it. 0: the same.");
-    add_parameter("K0",
-                  k0,
-                  "Horizontal over vertical effective stress in a geostatic "
-                  "initial stress, of this material. 0: as 'Initial stress/K0' "
-                  "says.");
+                  "Unit weight gamma [N/m^3], > 0, instead of the density: rho "
+                  "= gamma/|g|. 0: from 'Density'.");
+    add_parameter(
+      "Saturated unit weight",
+      saturated_unit_weight,
+      "Saturated unit weight [N/m^3], not less than that above the water, "
+      "below the initial water table of 'Water'. 0: same as above the water.");
+    add_parameter(
+      "K0",
+      k0,
+      "Ratio of horizontal to vertical effective stress of this material [-] "
+      "in a geostatic initial stress. 0: as 'Initial stress/K0'.");
     add_parameter(
       "Pore fluid bulk modulus",
       pore_fluid,
-      "K_w/n (Pa) of undrained soil, with the porosity n: c, phi, E and nu are "
-      "those of effective stresses, to which the pores add an excess pressure "
-      "that grows by dp = -K_w/n tr(de). 100 to 1000 times the bulk modulus of "
-      "the soil (Skempton's B = 0.99 to 0.999) is as good as incompressible. "
-      "0: drained.");
+      "Bulk modulus of the pore fluid over porosity, K_w/n [Pa], of undrained "
+      "soil. c, phi, E and nu are effective parameters; the excess pore "
+      "pressure grows by dp = -K_w/n tr(de). 100 to 1000 times the bulk "
+      "modulus of the soil (Skempton's B = 0.99 to 0.999) is practically "
+      "incompressible. 0: drained.");
   }
 
   std::string

@@ -16,12 +16,12 @@ namespace geocone::GEOCONE_DIM
   DruckerPrager::DruckerPrager(const std::string &section)
     : FrictionalSpatialLaw(section)
   {
-    match.declare(*this,
-                  "Match",
-                  " of the cone and Mohr-Coulomb's pyramid: where both are "
-                  "equally strong. Plane strain: in plane strain with "
-                  "associated flow. Outer: in triaxial compression. Inner: in "
-                  "triaxial extension.");
+    match.declare(
+      *this,
+      "Match",
+      ": match of the cone with Mohr-Coulomb's pyramid. Plane strain: same "
+      "strength in plane strain with associated flow. Outer: in triaxial "
+      "compression. Inner: in triaxial extension.");
   }
 
   void

@@ -18,17 +18,15 @@ namespace geocone::GEOCONE_DIM
     section.add_parameter(
       entry,
       text,
-      "Time (s) in which the strength follows the normal stress, "
-      ">= 0; it makes flow with little dilatancy well-posed. 0: at "
-      "once, the exact law. Automatic: 0, but for FEM (for MPM if "
-      "nu > 0.49) and a soil with theta below about phi/2 and "
-      "sin(phi) - sin(theta) > 0.2 that a part of the boundary is "
-      "pushed into: B/1000 over its speed, B its length (twice "
-      "that where it is a part of a side and ends in a plane of "
-      "symmetry: a side left or right on all of which only "
-      "'Velocity x' is held, at 0; of a round body its radius); with "
-      "'Time stepping/Friction' = exact it is 0 always, and for "
-      "Drucker-Prager's cone, which is easy without.");
+      "Time [s] with which the frictional strength follows the normal stress, "
+      ">= 0, or automatic. It regularises flow with small dilatancy (friction "
+      "with memory). 0: exact law. Automatic: 0, except for FEM (and MPM if nu "
+      "> 0.49) if a part of the boundary is pushed into a soil with theta "
+      "below about phi/2 and sin(phi) - sin(theta) > 0.2: then B/1000 over its "
+      "speed. B is its length, twice that length if it ends in a plane of "
+      "symmetry (an end of the body along x where only 'Velocity x' = 0 is "
+      "prescribed), and its radius in axisymmetric problems. Automatic is "
+      "always 0 with 'Time stepping/Friction' = exact and for Drucker-Prager.");
   }
 
   void

@@ -14,12 +14,14 @@ namespace geocone
   void
   FrictionalStrength::declare(dealii::ParameterAcceptor &law)
   {
-    declare_cohesion(law, "c (Pa), >= 0; > 0 where phi = 0.");
-    law.add_parameter("Friction angle", phi, "phi (degrees), 0 <= phi < 90.");
-    law.add_parameter("Dilatancy angle",
-                      theta,
-                      "theta (degrees), 0 <= theta <= phi. theta = phi is "
-                      "associated flow.");
+    declare_cohesion(law, "Cohesion c [Pa], >= 0; > 0 if phi = 0.");
+    law.add_parameter(
+      "Friction angle", phi, "Friction angle phi [degrees], 0 <= phi < 90.");
+    law.add_parameter(
+      "Dilatancy angle",
+      theta,
+      "Dilatancy angle theta (psi in most textbooks) [degrees], 0 <= theta <= "
+      "phi. theta = phi: associated flow.");
   }
 
   void
@@ -32,25 +34,26 @@ namespace geocone
   void
   FrictionalStrength::declare_growth(dealii::ParameterAcceptor &law)
   {
-    law.add_parameter("Cohesion gradient",
-                      gradient,
-                      "By how much the cohesion grows with depth (Pa/m): c + "
-                      "gradient (level - y). A point keeps what it has at the "
-                      "place where it begins.");
+    law.add_parameter(
+      "Cohesion gradient",
+      gradient,
+      "Increase of the cohesion with depth [Pa/m]: c + gradient (level - y), "
+      "evaluated at the initial position of a point.");
     law.add_parameter("Cohesion level",
                       level,
-                      "y (m) of the level at which the cohesion is 'Cohesion', "
-                      "with a 'Cohesion gradient'.");
+                      "Level y [m] at which the cohesion is 'Cohesion', for a "
+                      "'Cohesion gradient'.");
   }
 
   void
   FrictionalStrength::declare_tension(dealii::ParameterAcceptor &law)
   {
-    law.add_parameter("Tensile strength",
-                      tension_text,
-                      "Largest principal stress of the plane (Pa), >= 0: "
-                      "Rankine's cut-off, with flow along its normal. none: "
-                      "the cone alone limits tension, to c cot(phi).");
+    law.add_parameter(
+      "Tensile strength",
+      tension_text,
+      "Tensile strength [Pa], >= 0: tension cut-off (Rankine) of the principal "
+      "stresses in the plane, with associated flow. none: tension is limited "
+      "only by the cone, to c cot(phi).");
   }
 
   void

@@ -19,33 +19,27 @@ namespace geocone::GEOCONE_DIM
   HardeningMohrCoulomb::HardeningMohrCoulomb(const std::string &section)
     : MohrCoulomb(section)
   {
-    const std::string forms = " with the plastic shear strain: constant; "
-                              "'strain: value, strain: value, "
-                              "...', linear from the initial value at strain 0 "
-                              "to each of them and constant "
-                              "beyond the last; or 'exponential VALUE, "
-                              "STRAIN', which falls or rises to the "
-                              "value by exp(-strain/STRAIN).";
+    const std::string forms =
+      " as a function of the plastic shear strain gamma_p: constant; 'strain: "
+      "value, strain: value, ...', linear from the initial value at strain 0 "
+      "through these values and constant beyond the last; or 'exponential "
+      "VALUE, STRAIN', which approaches VALUE as exp(-gamma_p/STRAIN).";
     add_parameter("Hardening modulus",
                   modulus,
-                  "H (Pa), >= 0: the cohesion is c + H gamma_p, with gamma_p "
-                  "the plastic shear strain.");
-    add_parameter(curve_parameter[0],
-                  cohesion_text,
-                  "How the cohesion (Pa) changes" + forms);
-    add_parameter(curve_parameter[1],
-                  friction_text,
-                  "How the friction angle (degrees) changes" + forms);
-    add_parameter(curve_parameter[2],
-                  dilatancy_text,
-                  "How the dilatancy angle (degrees) changes" + forms);
+                  "Hardening modulus H [Pa], >= 0: the cohesion is c + H "
+                  "gamma_p with the plastic shear strain gamma_p.");
+    add_parameter(curve_parameter[0], cohesion_text, "Cohesion [Pa]" + forms);
+    add_parameter(
+      curve_parameter[1], friction_text, "Friction angle [degrees]" + forms);
+    add_parameter(
+      curve_parameter[2], dilatancy_text, "Dilatancy angle [degrees]" + forms);
     add_parameter(
       "Softening length",
       length,
-      "Thickness (m) of the shear band that the strains of the curves "
-      "belong to, > 0 where the strength falls: a band in a mesh is one "
-      "row of cells thick, and takes the same slip. 0: strains of the "
-      "mesh, for strength that only grows.");
+      "Thickness of the physical shear band [m] to which the strains of these "
+      "curves refer; > 0 if strength decreases. Strains in the mesh, where a "
+      "shear band is one row of cells wide, are scaled to the same slip. 0: "
+      "strains of the mesh, only if strength does not decrease.");
   }
 
   void

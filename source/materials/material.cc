@@ -27,16 +27,15 @@ namespace geocone::GEOCONE_DIM
     : ConstitutiveLaw(section)
   {
     if (stiffness == Stiffness::constant)
-      add_parameter("Young modulus", young_modulus, "E (Pa), > 0.");
-    add_parameter("Poisson ratio",
-                  poisson_ratio,
-                  "nu (-), between -1 and 0.5, both excluded.");
+      add_parameter(
+        "Young modulus", young_modulus, "Young's modulus E [Pa], > 0.");
+    add_parameter(
+      "Poisson ratio", poisson_ratio, "Poisson's ratio nu [-], -1 < nu < 0.5.");
     add_parameter("Reduce strength",
                   reduced,
-                  "Whether the search for a factor of safety ('Analysis/Kind' "
-                  "= strength reduction, or a 'Strength factor' of a stage) "
-                  "reduces the strength of this material; false for a "
-                  "structure, whose strength is not in doubt.");
+                  "Whether strength reduction ('Analysis/Kind' = strength "
+                  "reduction, or 'Strength factor' of a stage) applies to this "
+                  "material; false for structures.");
   }
 
   void

@@ -126,7 +126,7 @@ namespace geocone::GEOCONE_DIM
     : NamedList(file,
                 "Materials",
                 "Names of the materials, comma-separated; each has a "
-                "subsection of that name.",
+                "subsection of its name.",
                 "soil")
   {
     require_one("soil");
@@ -135,14 +135,14 @@ namespace geocone::GEOCONE_DIM
       {
         const std::string section = "Materials/" + name(i);
         types[i] = file.peek(section + "/Type", "Mohr-Coulomb");
-        std::string documentation = "The law, one of:";
+        std::string documentation = "Constitutive law, one of:";
         for (const std::string &type : material_types())
           documentation += " " + type + ",";
         documentation.back() = '.';
         documentation +=
-          " Mohr-Coulomb is the cone of the stresses in the plane, the "
+          " Mohr-Coulomb is the cone of the in-plane stresses, i.e. the "
           "Drucker-Prager criterion of Guillet et al. (2025) in plane strain; "
-          "Drucker-Prager is the cone of all principal stresses.";
+          "Drucker-Prager is the cone of the full stress tensor.";
         enter_subsection(name(i));
         add_parameter("Type", types[i], documentation);
         leave_subsection();

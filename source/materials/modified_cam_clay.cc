@@ -100,33 +100,35 @@ namespace geocone::GEOCONE_DIM
   {
     add_parameter("Swelling index kappa",
                   kappa,
-                  "Slope of swelling lines in ln v over ln p (-), 0 < kappa < "
-                  "lambda. It is the textbooks' kappa over v.");
+                  "Slope kappa of swelling lines in ln v - ln p [-], 0 < kappa "
+                  "< lambda: the kappa of textbooks divided by v.");
     add_parameter("Compression index lambda",
                   lambda,
-                  "Slope of compression lines in ln v over ln p (-).");
-    add_parameter("Critical state slope M",
-                  M,
-                  "M (-), > 0: q/p at the critical state, 6 sin(phi)/(3 - "
-                  "sin(phi)) of triaxial compression. It is the same in "
-                  "extension.");
+                  "Slope lambda of compression lines in ln v - ln p [-].");
+    add_parameter(
+      "Critical state slope M",
+      M,
+      "Stress ratio M = q/p at the critical state [-], > 0: 6 sin(phi)/(3 - "
+      "sin(phi)) in triaxial compression, and the same in extension.");
     add_parameter("Attraction",
                   a,
-                  "a (Pa), >= 0: stiffness and strength are those of p + a, so "
-                  "that there is some without pressure, as at a free surface; "
-                  "the critical state is q = M (p + a).");
+                  "Attraction a [Pa], >= 0: stiffness and strength depend on p "
+                  "+ a, so that they do not vanish at zero pressure, e.g. at a "
+                  "free surface. Critical state: q = M (p + a).");
     add_parameter("Overconsolidation ratio",
                   ratio,
-                  "pc + a at the start over that of the yield surface through "
-                  "the stress (-), >= 1; 1: normally consolidated.");
-    add_parameter("Preconsolidation pressure",
-                  given_pc,
-                  "pc (Pa), where the yield surface crosses q = 0, at the "
-                  "start; 0: by the overconsolidation ratio.");
-    if_outside.declare(*this,
-                       "Stress outside",
-                       ": what to do with an initial stress outside the yield "
-                       "surface.");
+                  "Initial pc + a over that of the yield surface through the "
+                  "initial stress [-], >= 1; 1: normally consolidated.");
+    add_parameter(
+      "Preconsolidation pressure",
+      given_pc,
+      "Initial preconsolidation pressure pc [Pa], where the yield surface "
+      "intersects q = 0; 0: from the overconsolidation ratio.");
+    if_outside.declare(
+      *this,
+      "Stress outside",
+      ": treatment of an initial stress outside the yield surface. Raise size: "
+      "the yield surface is enlarged to contain it.");
   }
 
   void

@@ -33,7 +33,8 @@ namespace geocone::GEOCONE_DIM
     constexpr Constant rotational_hardening = {
       "Rotational hardening rate cbeta",
       &Constants::cbeta,
-      "cbeta (-), >= 0; 0: the inclination beta does not change.",
+      "Rate cbeta of rotational hardening [-], >= 0; 0: constant inclination "
+      "beta.",
       [](const Constants &c) { return c.cbeta >= 0.; },
       "cbeta >= 0",
       "0 switches it off"};
@@ -41,56 +42,56 @@ namespace geocone::GEOCONE_DIM
     constexpr Constant elasticity_and_strength[] = {
       {"Swelling index kappa",
        &Constants::kappa,
-       "Slope of swelling lines in ln v over ln p (-), 0 < kappa < lambda. It "
-       "is the textbooks' kappa over v.",
+       "Slope kappa of swelling lines in ln v - ln p [-], 0 < kappa < lambda: "
+       "the kappa of textbooks divided by v.",
        [](const Constants &c) { return c.kappa > 0.; },
        "kappa > 0",
        "clays have 0.005 to 0.05"},
       {"Compression index lambda",
        &Constants::lambda,
-       "Slope of compression lines in ln v over ln p (-).",
+       "Slope lambda of compression lines in ln v - ln p [-].",
        [](const Constants &c) { return c.lambda > c.kappa; },
        "lambda > kappa = ",
        "clays have lambda of 4 to 10 times kappa",
        &Constants::kappa},
       {"Poisson ratio",
        &Constants::nu,
-       "nu (-), between -1 and 0.5, both excluded.",
+       "Poisson's ratio nu [-], -1 < nu < 0.5.",
        [](const Constants &c) { return c.nu > -1. && c.nu < 0.5; },
        "-1 < nu < 0.5",
        "soils have 0.1 to 0.4"},
       {"Elastic cohesion pe",
        &Constants::pe,
-       "pe (Pa), >= 0: the bulk modulus is (p + pe)/kappa.",
+       "Elastic cohesion pe [Pa], >= 0: the bulk modulus is (p + pe)/kappa.",
        [](const Constants &c) { return c.pe >= 0.; },
        "pe >= 0 Pa",
        "0, or some kPa for stiffness without pressure"},
       {"Apex ratio xi",
        &Constants::xi,
-       "xi (-), 0 <= xi < 0.5: the yield surface reaches to the tension p = "
-       "-xi pcb.",
+       "Apex ratio xi [-], 0 <= xi < 0.5: the yield surface extends to the "
+       "tension p = -xi pcb.",
        [](const Constants &c) { return c.xi >= 0. && c.xi < 0.5; },
        "0 <= xi < 0.5",
        "0 for soil without tensile strength"},
       {"Yield slope M",
        &Constants::M,
-       "M (-), > 0: half axes of the yield ellipsoid, q over p. With "
-       "rotational hardening M <= k Mc.",
+       "Ratio M of the half axes q over p of the yield ellipsoid [-], > 0. "
+       "With rotational hardening M <= k Mc.",
        [](const Constants &c) { return c.M > 0.; },
        "M > 0",
        "soils have 0.7 to 1.5"},
       {"Critical state slope Mc",
        &Constants::Mc,
-       "Mc (-), > 0: q/p at the critical state in triaxial compression, 6 "
-       "sin(phi)/(3 - sin(phi)). It acts by rotational hardening only; "
-       "without, the critical state is at M.",
+       "Stress ratio Mc = q/p at the critical state in triaxial compression "
+       "[-], > 0: 6 sin(phi)/(3 - sin(phi)). Used only by rotational "
+       "hardening; without it the critical state is at M.",
        [](const Constants &c) { return c.Mc > 0.; },
        "Mc > 0",
        "6 sin(phi)/(3 - sin(phi)), with the friction angle phi"},
       {"Strength ratio k",
        &Constants::k,
-       "k (-), 0.5 < k <= 1: critical state slope in triaxial extension over "
-       "that in compression; 3/(3 + Mc) is Mohr-Coulomb's.",
+       "Ratio k of the critical state slopes in triaxial extension and "
+       "compression [-], 0.5 < k <= 1; 3/(3 + Mc): Mohr-Coulomb.",
        [](const Constants &c) { return c.k > 0.5 && c.k <= 1.; },
        "0.5 < k <= 1",
        "3/(3 + Mc) is Mohr-Coulomb's"}};
@@ -98,14 +99,14 @@ namespace geocone::GEOCONE_DIM
     constexpr Constant flow_and_hardening[] = {
       {"Potential ratio alpha",
        &Constants::alpha,
-       "alpha (-), 0 < alpha < sqrt(2): slope of the plastic potential over M; "
-       "1 is associated flow.",
+       "Slope of the plastic potential over M, alpha [-], 0 < alpha < sqrt(2); "
+       "1: associated flow.",
        [](const Constants &c) { return c.alpha > 0. && c.alpha < sqrt2; },
        "0 < alpha < sqrt(2)",
        "1 is associated flow"},
       {"Subloading rate cR",
        &Constants::cR,
-       "cR (-), > 0: how fast the subloading surface grows to the yield "
+       "Rate cR [-], > 0, at which the subloading surface approaches the yield "
        "surface with plastic strain.",
        [](const Constants &c) { return c.cR > 0.; },
        "cR > 0",
@@ -113,38 +114,40 @@ namespace geocone::GEOCONE_DIM
       rotational_hardening,
       {"Structure loss rate cb",
        &Constants::cb,
-       "cb (-), >= 0; 0: the structure ratio does not change.",
+       "Rate cb of structure loss [-], >= 0; 0: constant structure ratio.",
        [](const Constants &c) { return c.cb >= 0.; },
        "cb >= 0",
        "0 switches it off"},
       {"Final structure ratio Rbf",
        &Constants::Rbf,
-       "Rbf (-), >= 1: what remains of the structure.",
+       "Final structure ratio Rbf [-], >= 1.",
        [](const Constants &c) { return c.Rbf >= 1.; },
        "Rbf >= 1",
        "1: all structure can be lost"},
       {"Similarity centre rate ca",
        &Constants::ca,
-       "ca (-), >= 0; 0: the centre moves with the surface only.",
+       "Rate ca of the similarity centre [-], >= 0; 0: the centre moves only "
+       "with the surface.",
        [](const Constants &c) { return c.ca >= 0.; },
        "ca >= 0",
        "0 switches it off"},
       {"Atmospheric pressure",
        &Constants::patm,
-       "Reference pressure of rotational hardening (Pa), > 0.",
+       "Reference pressure of rotational hardening [Pa], > 0.",
        [](const Constants &c) { return c.patm > 0.; },
        "> 0 Pa",
        "1e5 Pa is usual"},
       {"Elastic ratio Rmin",
        &Constants::Rmin,
-       "Rmin (-), 0 < Rmin < 1, much less than 1: elastic below it.",
+       "Elastic ratio Rmin [-], 0 < Rmin < 1, much less than 1: elastic "
+       "behaviour below it.",
        [](const Constants &c) { return c.Rmin > 0. && c.Rmin < 1.; },
        "0 < Rmin < 1",
        "0.01 is usual"},
       {"Centre margin delta",
        &Constants::delta,
-       "delta (-), 0 < delta < 1, much less than 1: how near the similarity "
-       "centre comes to the yield surface.",
+       "Smallest relative distance delta of the similarity centre to the yield "
+       "surface [-], 0 < delta < 1, much less than 1.",
        [](const Constants &c) { return c.delta > 0. && c.delta < 1.; },
        "0 < delta < 1",
        "0.01 is usual"}};
@@ -152,7 +155,7 @@ namespace geocone::GEOCONE_DIM
     constexpr Constant integration[] = {
       {"Error tolerance",
        &Constants::tolerance,
-       "Relative error of a substep of the integration (-), 0 < STOL <= 0.1. "
+       "Relative error of a substep of the integration [-], > 0 and <= 0.1. "
        "Smaller increments need fewer substeps.",
        [](const Constants &c) {
          return c.tolerance > 0. && c.tolerance <= 0.1;
@@ -161,8 +164,8 @@ namespace geocone::GEOCONE_DIM
        "1e-4 is usual"},
       {"Smallest substep",
        &Constants::smallest_substep,
-       "Smallest part of an increment (-), > 0 and <= 1; substeps of this size "
-       "are accepted with any error, and counted.",
+       "Smallest substep relative to the increment [-], > 0 and <= 1; substeps "
+       "of this size are accepted regardless of their error, and counted.",
        [](const Constants &c) {
          return c.smallest_substep > 0. && c.smallest_substep <= 1.;
        },
@@ -170,7 +173,7 @@ namespace geocone::GEOCONE_DIM
        "1e-4 is usual"},
       {"Lowest pressure",
        &Constants::lowest_pressure,
-       "p + pe is kept at this value or above (Pa), > 0; counted.",
+       "Lower limit of p + pe [Pa], > 0; its use is counted.",
        [](const Constants &c) { return c.lowest_pressure > 0.; },
        "> 0 Pa",
        "1 Pa is usual: without pressure there is no stiffness"}};
@@ -187,52 +190,50 @@ namespace geocone::GEOCONE_DIM
     declare(flow_and_hardening);
     rotation.declare(*this,
                      "Pressure of rotation",
-                     ": the reading of the report's equation (24), sh = s - p "
-                     "beta or s - ph beta with ph = p + xi pcb.");
+                     ": interpretation of equation (24) of the report: sh = s "
+                     "- p beta, or s - ph beta with ph = p + xi pcb.");
     declare(integration);
 
     add_parameter("Overconsolidation ratio",
                   ocr,
-                  "Size of the yield surface at the start over that of the "
-                  "surface through the stress (-); 1: normally consolidated.");
+                  "Initial size of the yield surface over that of the surface "
+                  "through the initial stress [-]; 1: normally consolidated.");
     add_parameter("Initial size pcb",
                   given_size,
-                  "Size of the structured yield surface at the start (Pa); 0: "
-                  "by the overconsolidation ratio.");
+                  "Initial size pcb of the structured yield surface [Pa]; 0: "
+                  "from the overconsolidation ratio.");
     add_parameter("Smallest size pcb",
                   c.smallest_size,
-                  "The yield surface starts at least this large, and does not "
-                  "shrink below it (Pa), > 0; counted.");
+                  "Lower limit of the size pcb of the yield surface [Pa], > 0, "
+                  "initially and in softening; its use is counted.");
     add_parameter("Initial centre ratio chi",
                   chi,
-                  "chi (-), 0 <= chi < 1: the similarity centre starts at chi "
-                  "times the stress.");
-    add_parameter(
-      "Initial centre",
-      given_centre,
-      "The similarity centre a at the start instead: xx, yy, zz, xy "
-      "(Pa), tension positive; in 3D also yz, zx. Empty: chi times "
-      "the stress.");
+                  "Initial ratio chi of the similarity centre to the stress "
+                  "[-], 0 <= chi < 1.");
+    add_parameter("Initial centre",
+                  given_centre,
+                  "Initial similarity centre a: xx, yy, zz, xy [Pa], tension "
+                  "positive; in 3D also yz, zx. Empty: chi times the stress.");
     add_parameter("Initial anisotropy",
                   given_beta,
-                  "Inclination beta at the start: xx, yy, zz, xy (-), of trace "
-                  "zero; in 3D also yz, zx.");
-    add_parameter(
-      "Initial anisotropy by stress",
-      zeta,
-      "This times s/p of the initial stress is added to the initial "
-      "anisotropy (-).");
-    add_parameter(
-      "Initial structure ratio", initial_Rb, "Rb at the start (-), >= Rbf.");
-    add_parameter(
-      "Show tensors",
-      show_tensors,
-      "Whether fields and tables have the components of the "
-      "similarity centre a (Pa) and the inclination beta (-), too.");
-    if_outside.declare(*this,
-                       "Stress outside",
-                       ": what to do with an initial stress outside the yield "
-                       "surface.");
+                  "Initial inclination beta: xx, yy, zz, xy [-], trace zero; "
+                  "in 3D also yz, zx.");
+    add_parameter("Initial anisotropy by stress",
+                  zeta,
+                  "Multiple of s/p of the initial stress that is added to the "
+                  "initial anisotropy [-].");
+    add_parameter("Initial structure ratio",
+                  initial_Rb,
+                  "Initial structure ratio Rb [-], >= Rbf.");
+    add_parameter("Show tensors",
+                  show_tensors,
+                  "Whether fields and tables also contain the components of "
+                  "the similarity centre a [Pa] and the inclination beta [-].");
+    if_outside.declare(
+      *this,
+      "Stress outside",
+      ": treatment of an initial stress outside the yield surface. Raise size: "
+      "the yield surface is enlarged to contain it.");
   }
 
   void

@@ -60,7 +60,7 @@ namespace geocone::GEOCONE_DIM
   {
     storage.declare(*this,
                     "Triangulation",
-                    ". Distributed: p4est, quadrilaterals only. Shared: every "
+                    ". Distributed: p4est, quadrilaterals only. Shared: each "
                     "rank stores the whole mesh.");
   }
 

@@ -50,55 +50,53 @@ namespace geocone::GEOCONE_DIM
   {
     type.declare(*this,
                  "Type",
-                 ". The first two are for boxes, the others are made by gmsh, "
-                 "the last one with sizes that a limit analysis of the scene "
-                 "asks for. Not used where the domain is a .msh file.");
-    add_parameter("Box",
-                  box,
-                  "MPM: lower left and upper right corner x, y; x, y (m) of "
-                  "the background mesh; empty: the smallest box around the "
-                  "body, or the body itself for an unstructured mesh. Leave "
-                  "room for what moves out of it. An unstructured mesh has "
-                  "edges on the border of the body.");
-    cells.declare(*this,
-                  "Cells",
-                  dim == 2
-                    ? ". Automatic: triangles for FEM, quadrilaterals for MPM."
-                    : ". Boxes have hexahedra; files what they hold.");
+                 ". Uniform and graded: for boxes. Unstructured: by gmsh. From "
+                 "the bounds: by gmsh, with cell sizes from a limit analysis "
+                 "of the scene. Not used if the domain is a .msh file.");
+    add_parameter(
+      "Box",
+      box,
+      "MPM: lower left and upper right corner x, y; x, y [m] of the background "
+      "mesh, with room for the motion of the body. Unstructured meshes have "
+      "edges along the boundary of the body. Empty: bounding box of the body, "
+      "or the body itself for an unstructured mesh.");
+    cells.declare(
+      *this,
+      "Cells",
+      dim == 2 ? ". Automatic: triangles for FEM, quadrilaterals for MPM."
+               : ". Boxes have hexahedra; mesh files have their own cells.");
     diagonals.declare(
       *this,
       "Diagonals",
-      ": how the rectangles of a uniform or graded mesh are cut into "
-      "triangles, two by alternating or parallel diagonals, four by crossed "
-      "ones.");
-    add_parameter(
-      "Cell size",
-      cell_size,
-      "Side of the squares of a uniform mesh (m); it is rounded to "
-      "a whole number of cells. Without grading points also that of "
-      "an unstructured mesh, and of the first one from the bounds.");
+      ": division of the rectangles of uniform and graded meshes into "
+      "triangles. Alternating and parallel: two triangles; crossed: four.");
+    add_parameter("Cell size",
+                  cell_size,
+                  "Cell size of a uniform mesh [m], rounded to a whole number "
+                  "of cells; without grading points also of an unstructured "
+                  "mesh, and of the first mesh from the bounds.");
     add_parameter("Grading points",
                   grading_points,
-                  "Points x, y; x, y; ... (m) around which graded and "
-                  "unstructured meshes are fine. Each becomes a vertex.");
+                  "Points x, y; x, y; ... [m] around which graded and "
+                  "unstructured meshes are refined. Each becomes a vertex.");
     add_parameter(
-      "Smallest size", smallest, "Cell size at the grading points (m).");
-    add_parameter("Largest size", largest, "Largest cell size (m).");
-    add_parameter("Growth factor",
-                  growth,
-                  "Graded meshes: ratio of a cell to its smaller neighbour, "
-                  "> 1.");
+      "Smallest size", smallest, "Cell size at the grading points [m].");
+    add_parameter("Largest size", largest, "Largest cell size [m].");
+    add_parameter(
+      "Growth factor",
+      growth,
+      "Graded meshes: size ratio of a cell to its smaller neighbour [-], > 1.");
     add_parameter("Size ratio",
                   size_ratio,
-                  "Unstructured meshes: cell size over distance to the nearest "
-                  "grading point, > 0.");
+                  "Unstructured meshes: ratio of the cell size to the distance "
+                  "from the nearest grading point [-], > 0.");
     add_parameter("Number of cells",
                   number,
-                  "From the bounds: the mesh has about so many triangles.");
-    add_parameter("Gmsh algorithm",
-                  algorithm,
-                  "gmsh's number of the 2D algorithm: 5 Delaunay, 6 "
-                  "frontal-Delaunay, 1 MeshAdapt.");
+                  "Mesh from the bounds: approximate number of triangles.");
+    add_parameter(
+      "Gmsh algorithm",
+      algorithm,
+      "2D algorithm of gmsh: 5 Delaunay, 6 frontal-Delaunay, 1 MeshAdapt.");
   }
 
   void

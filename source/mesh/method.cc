@@ -8,13 +8,13 @@ namespace geocone
   Method::Method()
     : dealii::ParameterAcceptor("/Discretisation")
   {
-    kind.declare(*this,
-                 "Method",
-                 ". FEM: the mesh fits the body, its quadrature points carry "
-                 "the material. MPM: particles carry it through a background "
-                 "mesh, implicitly, with inertia. Explicit MPM: the same in "
-                 "many small explicit steps, for fast flows and soils without "
-                 "a closed form. Point: one material point that is led along "
-                 "the section Path, without a scene.");
+    kind.declare(
+      *this,
+      "Method",
+      ". FEM: implicit finite elements on a mesh that fits the body. MPM: "
+      "implicit material point method with inertia; particles move through a "
+      "background mesh. Explicit MPM: many small explicit steps, for fast "
+      "flows and for laws without a closed-form return map. Point: a single "
+      "material point, loaded along the section Path, without a scene.");
   }
 } // namespace geocone

@@ -61,12 +61,13 @@ namespace geocone::GEOCONE_DIM
     kind.declare(
       *this,
       "Friction",
-      ". Exact: strength depends on the normal "
-      "stress at the end of the step; steps that are not solved are cut. "
-      "Automatic: exact, but in single steps that are not solved a part of "
-      "that stress, the least that is solved, lags: it is of the step's start. "
-      "They are counted. Nothing changes for associated flow, and nothing lags "
-      "where friction has a memory ('Materials/NAME/Friction memory').");
+      ". Exact: the strength depends on the normal stress at the end of the "
+      "step; steps that do not converge are subdivided. Automatic: exact, "
+      "except in single steps that do not converge: there the smallest "
+      "sufficient part of this stress is lagged, i.e. taken from the start of "
+      "the step. Such steps are counted. It has no effect for associated flow, "
+      "and nothing is lagged for friction with memory "
+      "('Materials/NAME/Friction memory').");
   }
 
   NonsmoothNewton::NonsmoothNewton(const StressMethods &others)
@@ -85,67 +86,64 @@ namespace geocone::GEOCONE_DIM
     formulation.declare(
       *this,
       "Formulation",
-      std::string(
-        ": what is solved for, by which method. Return "
-        "map: the velocities, with the closed-form law. Natural map: "
-        "velocities, "
-        "stresses and plastic strains with the natural map of the law, which "
-        "each iteration linearises. Automatic: the return map for theta >= "
-        "phi/2 > 0 and for friction with memory, and the natural map otherwise "
-        "and where that fails.") +
+      std::string(". Unknowns and method. Return map: velocities, with the "
+                  "closed-form return map of the law. Natural map: velocities, "
+                  "stresses and plastic strains; each iteration linearises the "
+                  "natural map of the law. Automatic: return map for theta >= "
+                  "phi/2 > 0 and for friction with memory, otherwise natural "
+                  "map; also natural map if the return map fails.") +
         others.formulation_help);
     add_parameter("Rho",
                   rho,
-                  "Rho of the formulation 'natural map', in units of 2G of "
+                  "Parameter rho of the natural map [-], in units of 2G of "
                   "each point, 1e-6 to 1e6.",
                   prm,
                   Double(1e-6, 1e6));
-    first_iterate.declare(*this,
-                          "First iterate",
-                          std::string(": what makes the start of the "
-                                      "formulations 'return map' and 'natural "
-                                      "map' from the velocities of t_n. "
-                                      "Fixed point: iterations with the "
-                                      "elastic stiffness, factorised once.") +
-                            others.first_iterate_help);
-    add_parameter("First iterate sweeps",
-                  first_iterate_sweeps,
-                  "Number of these iterations or sweeps, 1 to 10000.",
-                  prm,
-                  Integer(1, 10000));
+    first_iterate.declare(
+      *this,
+      "First iterate",
+      std::string(
+        ". Initial guess of the formulations 'return map' and 'natural map', "
+        "from the velocities of the last step. None: these velocities. Fixed "
+        "point: iterations with the elastic stiffness, factorised once.") +
+        others.first_iterate_help);
+    add_parameter(
+      "First iterate sweeps",
+      first_iterate_sweeps,
+      "Number of iterations or sweeps of the first iterate, 1 to 10000.",
+      prm,
+      Integer(1, 10000));
     add_parameter(
       "Tolerance",
       relative_tolerance,
-      "A step is solved when the norm of the free residual is below this times "
-      "the norm of the internal (or external) forces, 1e-15 to 0.1; or when "
-      "the rest is rounding alone; 'newton/steps_at_rounding_floor' in "
-      "summary.json counts such steps.",
+      "Relative tolerance [-], 1e-15 to 0.1: norm of the residual of free "
+      "unknowns over the norm of the internal (or external) forces. A residual "
+      "at rounding level is accepted as well; 'newton/steps_at_rounding_floor' "
+      "in summary.json counts such steps.",
       prm,
       Double(1e-15, 0.1));
     add_parameter("Absolute tolerance",
                   absolute_tolerance,
-                  "... or below this (N/m), 0 to 1, which ends steps without "
-                  "load.",
+                  "Absolute tolerance of the norm of the residual [N/m], 0 to "
+                  "1, for steps without load.",
                   prm,
                   Double(0., 1.));
     add_parameter(
       "Maximum iterations",
       max_iterations,
-      "Linear systems to solve before an attempt at a step is given up, at "
-      "most 1000000; twice as many where it converges. 0: automatic, the "
-      "limits "
-      "of the plans of Newton's method, which 'geocone --help' lists.",
+      "Maximum number of linear solves of an attempt at a step, <= 1000000; "
+      "twice as many while it converges. 0: automatic, by the strategies of "
+      "Newton's method, which 'geocone --help Newton' lists.",
       prm,
       Integer(0, 1000000));
     globalisation.declare(
       *this,
       "Globalisation",
-      ". Automatic: the line search for the return map "
-      "and theta >= phi/2, otherwise the elastic blend; and the lag "
-      "continuation for what is not solved so. Lag continuation: where flow is "
-      "associated nothing can lag, and this is the line search. None: plastic "
-      "steps often fail. Line search, merit search and lag continuation need "
-      "the return map; choosing one of them selects it.");
+      ". Automatic: line search for the return map and theta >= phi/2, "
+      "otherwise elastic blend; lag continuation for steps that do not "
+      "converge. Lag continuation: line search if flow is associated, as "
+      "nothing can be lagged. None: plastic steps often fail. Line search, "
+      "merit search and lag continuation select the return map.");
   }
 
   void

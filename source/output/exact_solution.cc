@@ -42,11 +42,11 @@ namespace geocone::GEOCONE_DIM
         names_of_components[i],
         texts[i],
         (std::string("Formula in ") + coordinates +
-         " (m) and t (s) for the exact ") +
-          (i < dim ? "displacement (m)" : "stress (Pa)") +
-          " at the end of the run, or none. x, y is the place of a particle "
-          "before it moved. All or none are given; the relative L2 errors "
-          "go to summary.json.");
+         " [m] and t [s] of the exact ") +
+          (i < dim ? "displacement [m]" : "stress [Pa]") +
+          " at the end of the run, or none. Coordinates are initial positions "
+          "of particles. All components or none are given; relative L2 errors "
+          "are written to summary.json.");
   }
 
   void

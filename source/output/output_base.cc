@@ -49,46 +49,43 @@ namespace geocone::GEOCONE_DIM
   {
     add_parameter("Folder",
                   path,
-                  "Folder of the run; empty: results/NAME for NAME.prm. The "
-                  "option --output goes before it.");
+                  "Result folder; empty: results/NAME for NAME.prm. The option "
+                  "--output takes precedence.");
     if_exists.declare(
       *this,
       "If folder exists",
-      ". What to do if it is not empty. Number: take NAME-2, NAME-3, ... "
-      "Overwrite: delete the files that the files.txt of the run before names. "
-      "Automatic: refuse a folder that was named, number results/NAME.");
-    add_parameter("Fields",
-                  with_fields,
-                  "Whether fields are written (see Loading/.../Output "
-                  "every).");
+      ". How to treat a result folder that is not empty. Number: use NAME-2, "
+      "NAME-3, ... Overwrite: delete the files listed in its files.txt. "
+      "Automatic: refuse if the folder was named, number results/NAME.");
+    add_parameter(
+      "Fields",
+      with_fields,
+      "Whether fields are written (see 'Loading/NAME/Output every').");
     fields_format.declare(*this,
                           "Fields format",
-                          ". VTU: compressed, in single precision, a file per "
-                          "rank, with records PVD. HDF5: in double precision, "
-                          "with records VTKHDF (for ParaView from 5.12) and "
-                          "XDMF.");
-    add_parameter("Pictures",
-                  pictures,
-                  "Whether the pictures are drawn at the end, by "
-                  "scripts/plot.");
+                          ". VTU: compressed, single precision, a file per "
+                          "rank, with a PVD index. HDF5: double precision, "
+                          "with VTKHDF (ParaView >= 5.12) and XDMF indices.");
+    add_parameter(
+      "Pictures", pictures, "Whether scripts/plot draws pictures at the end.");
     add_parameter("Verbosity",
                   verbosity,
-                  "0: results only, 1: progress, 2: also the table of every "
-                  "Newton iteration, or each increment of a point.",
+                  "0: results only; 1: progress; 2: also each Newton "
+                  "iteration, or each increment of a material point.",
                   prm,
                   dealii::Patterns::Integer(0, 2));
-    add_parameter("Expectations",
-                  expectation_texts,
-                  "Comma-separated statements about summary.json that must "
-                  "hold at the end, else the exit code is 1: TOPIC/NAME <= "
-                  "NUMBER, >= NUMBER or = NUMBER +- NUMBER, e.g. "
-                  "newton/iterations_mean <= 7.");
+    add_parameter(
+      "Expectations",
+      expectation_texts,
+      "Comma-separated conditions on summary.json; if one is violated at the "
+      "end, the exit code is 1. TOPIC/NAME <= NUMBER, >= NUMBER or = NUMBER +- "
+      "NUMBER, e.g. newton/iterations_mean <= 7.");
     report_for_tests.declare(
       *this,
       "Report for tests",
-      ". Writes a file 'output' with results and expectations, or the latter "
-      "only, into the folder of the call. Loads and states are other names of "
-      "results.");
+      ". Writes a file 'output' with results and expectations, or with "
+      "expectations only, into the working folder. Loads and states are "
+      "aliases of results.");
   }
 
   void
@@ -131,9 +128,8 @@ namespace geocone::GEOCONE_DIM
   {
     description["name"] = name;
     if (writes)
-      write_file(path + "/" + model_file, [&](std::ostream &out) {
-        out << description.dump() << "\n";
-      });
+      write_file(path + "/" + model_file,
+                 [&](std::ostream &out) { out << description.dump() << "\n"; });
   }
 
   void

@@ -12,18 +12,16 @@ namespace geocone
   ReferenceCase::ReferenceCase()
     : dealii::ParameterAcceptor("/Reference")
   {
-    add_parameter(
-      "Quantity",
-      quantity,
-      "TOPIC/NAME of a number of summary.json that is known for this "
-      "case, e.g. limit_load/value; empty: none, or the limit load "
-      "where 'Observation/Reference' says what it should be.");
-    add_parameter(
-      "Expected",
-      expected,
-      "What it should be, in the unit of its name; not 0. The topic "
-      "'reference' of summary.json holds both and the relative "
-      "error.");
+    add_parameter("Quantity",
+                  quantity,
+                  "TOPIC/NAME of a number of summary.json with a known value, "
+                  "e.g. limit_load/value. Empty: none, or the limit load if "
+                  "'Observation/Reference' is set.");
+    add_parameter("Expected",
+                  expected,
+                  "Expected value, not 0, in the unit of the quantity. The "
+                  "topic 'reference' of summary.json contains both values and "
+                  "the relative error.");
   }
 
   void

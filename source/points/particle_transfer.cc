@@ -31,20 +31,20 @@ namespace geocone::GEOCONE_DIM
   ParticleTransfer::ParticleTransfer()
     : ParameterAcceptor("/Material point method")
   {
-    rule.declare(*this,
-                 "Transfer",
-                 ". FLIP: particles take the change of the nodes' velocities. "
-                 "APIC: they take the velocity and its affine part, which "
-                 "keeps angular momentum and damps vibrations. AFLIP: both the "
-                 "change and the affine part, which damps less. PIC: they take "
-                 "the velocity, which damps most.");
-    add_parameter(
-      "FLIP part",
-      part,
-      "For FLIP and AFLIP: the part of the new velocity that the "
-      "change gives, the rest is interpolated, which damps; 0 to 1.",
-      prm,
-      Patterns::Double(0., 1.));
+    rule.declare(
+      *this,
+      "Transfer",
+      ". Transfer of velocities from the grid to the particles. FLIP: adds the "
+      "increment of nodal velocities. APIC: interpolates the velocity and its "
+      "affine part; conserves angular momentum and damps vibrations. AFLIP: "
+      "FLIP with the affine part; damps less. PIC: interpolates the velocity; "
+      "damps most.");
+    add_parameter("FLIP part",
+                  part,
+                  "FLIP part of the new velocity for FLIP and AFLIP [-], 0 to "
+                  "1; the remainder is interpolated, which damps.",
+                  prm,
+                  Patterns::Double(0., 1.));
   }
 
   Tensor<2, dim>

@@ -26,12 +26,12 @@ namespace geocone::GEOCONE_DIM
   RankBalance::RankBalance()
     : ParameterAcceptor("/Material point method")
   {
-    add_parameter("Largest imbalance",
-                  largest,
-                  "On several ranks: cells are handed over between them where "
-                  "the fullest has more than so many times the mean number of "
-                  "particles; at least 1. (Explicit steps on a uniform grid "
-                  "share it out by columns whenever they sort.)");
+    add_parameter(
+      "Largest imbalance",
+      largest,
+      "Largest ratio of the particles of a rank to the mean over the ranks "
+      "[-], >= 1; beyond it cells are redistributed. (Explicit steps on a "
+      "uniform grid are rebalanced by columns whenever points are sorted.)");
   }
 
   void

@@ -130,35 +130,35 @@ namespace geocone::GEOCONE_DIM
     : ParameterAcceptor("/Particles")
     , folder_of_parameters(parameter_file.folder())
   {
-    layout.declare(*this,
-                   "Layout",
-                   ". Gauss: points of each cell. Sub-cells: their centres "
-                   "(not of tetrahedra). Lattice: squares or cubes, "
-                   "independent of the mesh.");
+    layout.declare(
+      *this,
+      "Layout",
+      ". Gauss: Gauss points of each cell. Sub-cells: centres of sub-cells "
+      "(not for tetrahedra). Lattice: squares or cubes, independent of the "
+      "mesh. Random: uniformly distributed. File: from 'File'.");
     add_parameter(
       "Points per direction",
       k,
       dim == 2 ? "Gauss and sub-cells: k for k x k points in each cell; in "
-                 "triangles k x k sub-cells, or 1, 3, 7, 15, 19 Gauss points."
+                 "triangles k x k sub-cells, or 1, 3, 7, 15 or 19 Gauss points."
                : "Gauss and sub-cells: k for k x k x k points in each cell; in "
                  "tetrahedra Gauss points of degree 2 k - 1.");
-    add_parameter("Spacing", spacing, "lattice: distance of points (m).");
-    add_parameter("Number", number, "random: number of points in the body.");
+    add_parameter("Spacing", spacing, "Lattice: spacing of the points [m].");
+    add_parameter("Number", number, "Random: number of points in the body.");
     add_parameter(
-      "Random seed", random_seed, "random: another number gives other points.");
-    add_parameter("File",
-                  file,
-                  std::string("file: a .csv file whose first line names its "
-                              "columns, or an .h5 file with a dataset for "
-                              "each: ") +
-                    (dim == 2 ? "x, y (m), volume (m^2); optionally material "
-                                "(name, or number from 0), vx, vy (m/s), sxx, "
-                                "syy, sxy (Pa)"
-                              : "x, y, z (m), volume (m^3); optionally "
-                                "material (name, or number from 0), vx, vy, vz "
-                                "(m/s), sxx, syy, sxy, szz, syz, szx (Pa)") +
-                    ". Relative to the folder of the parameter file, or else "
-                    "to that of the call.");
+      "Random seed", random_seed, "Random: seed of the random numbers.");
+    add_parameter(
+      "File",
+      file,
+      std::string("File: .csv file with the names of columns in the first "
+                  "line, or .h5 file with a dataset for each: ") +
+        (dim == 2
+           ? "x, y [m], volume [m^2]; optionally material (name, or number "
+             "from 0), vx, vy [m/s], sxx, syy, sxy [Pa]"
+           : "x, y, z [m], volume [m^3]; optionally material (name, or number "
+             "from 0), vx, vy, vz [m/s], sxx, syy, sxy, szz, syz, szx [Pa]") +
+        ". Paths are relative to the folder of the parameter file, or else to "
+        "the working folder.");
   }
 
   void

@@ -29,16 +29,17 @@ namespace geocone::GEOCONE_DIM
   Freezer::Freezer()
     : dealii::ParameterAcceptor("/Output")
   {
-    add_parameter("Freeze steps",
-                  steps,
-                  "Numbers of steps, from 1, whose incremental problems are "
-                  "written to frozen-STEP.h5, to be solved again with other "
-                  "options by geocone-lab. The first substep counts.",
-                  prm,
-                  dealii::Patterns::List(dealii::Patterns::Integer(1)));
+    add_parameter(
+      "Freeze steps",
+      steps,
+      "Numbers of steps, from 1, whose incremental problems are written to "
+      "frozen-STEP.h5, to be solved again by geocone-lab with other options. "
+      "Of a subdivided step the first substep is written.",
+      prm,
+      dealii::Patterns::List(dealii::Patterns::Integer(1)));
     add_parameter("Freeze failures",
                   failures,
-                  "Whether problems that were not solved are written to "
+                  "Whether problems that did not converge are written to "
                   "failed-STEP-NUMBER.h5, at most 100.");
   }
 

@@ -64,12 +64,11 @@ namespace geocone::GEOCONE_DIM
       reduced("reduced with multipliers", Solver::newton_with_multipliers, 60),
       reduced(gauss_seidel, Solver::gauss_seidel, 100000)};
     result.formulation_help =
-      " Reduced: the "
-      "stresses alone, by Newton's method; constraints on particles are "
-      "eliminated or kept with multipliers. Gauss-Seidel: the stresses alone, "
-      "point by point. What is reduced needs a lumped mass and one rank, and "
-      "at most 3000 points where constraints are eliminated. All but the "
-      "first are there to be compared with it.";
+      " For comparison: Reduced: stresses only, by Newton's method; "
+      "constraints on particles are eliminated, or enforced by multipliers. "
+      "Gauss-Seidel: stresses only, point by point. These three need a lumped "
+      "mass and one rank, and at most 3000 points if constraints are "
+      "eliminated.";
     result.first_iterates = {
       {gauss_seidel,
        [](const IncrementalProblem &problem) {
@@ -77,8 +76,8 @@ namespace geocone::GEOCONE_DIM
        },
        gauss_seidel_iterate}};
     result.first_iterate_help =
-      " Gauss-Seidel: sweeps over the stresses, under the conditions of the "
-      "formulation of that name.";
+      " Gauss-Seidel: sweeps over the stresses, with the restrictions of the "
+      "formulation of this name.";
     return result;
   }
 } // namespace geocone::GEOCONE_DIM

@@ -67,18 +67,17 @@ namespace geocone
   {
     add_parameter("Every steps",
                   every_steps,
-                  "A checkpoint after so many steps of the programme, from "
-                  "which 'geocone --resume FOLDER' goes on; 0: none. A run "
-                  "that is stopped by Ctrl-C or SIGTERM writes one, too.");
+                  "Number of steps between checkpoints, from which 'geocone "
+                  "--resume FOLDER' continues; 0: none. A run stopped by "
+                  "Ctrl-C or SIGTERM also writes one.");
     add_parameter("Every minutes",
                   every_minutes,
-                  "A checkpoint at the first step after so many minutes; 0: "
-                  "none.",
+                  "Time between checkpoints [min]; 0: none.",
                   prm,
                   dealii::Patterns::Double(0.));
     add_parameter("Keep",
                   keep,
-                  "How many are kept: the older ones are deleted.",
+                  "Number of checkpoints kept; older ones are deleted.",
                   prm,
                   dealii::Patterns::Integer(1));
   }

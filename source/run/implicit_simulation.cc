@@ -109,21 +109,19 @@ namespace geocone::GEOCONE_DIM
   {
     add_parameter("Maximum halvings",
                   max_halvings,
-                  "How often a step may be halved before the run gives up.");
-    add_parameter(
-      "Easy iterations",
-      easy_iterations,
-      "After a substep with at most so many iterations the next one "
-      "is half as long again, up to the whole step.");
+                  "Maximum number of successive halvings of a step; beyond it "
+                  "the run fails.");
+    add_parameter("Easy iterations",
+                  easy_iterations,
+                  "Number of iterations up to which the next substep is 1.5 "
+                  "times as long, up to the full step.");
     add_parameter(
       "Accepted excess",
       accepted_excess,
-      "Where 'Friction' = automatic lags: the plastic work by which the "
-      "strength may "
-      "differ from the exact one, over the plastic work of the substep, above "
-      "0 to 1. "
-      "A substep beyond it is halved, up to three times in a row; then it is "
-      "accepted, with a warning.",
+      "Tolerance of lagged friction [-], > 0 and <= 1, with 'Friction' = "
+      "automatic: plastic work due to the difference from the exact strength "
+      "over the plastic work of the substep. Substeps beyond it are halved up "
+      "to three times in a row, then accepted with a warning.",
       prm,
       Patterns::Double(0., 1.));
   }
@@ -150,11 +148,11 @@ namespace geocone::GEOCONE_DIM
     add_parameter(
       "Run",
       folder,
-      "FEM and MPM: folder of another run of the same mesh and the same "
-      "materials in their order (whose parameters may differ), with a "
-      "checkpoint ('Checkpoint/Every steps'). The points begin as they were "
-      "at its last one, at rest, in place of 'Type': where they are, their "
-      "stress and history. What moved them begins as this file says.");
+      "FEM and MPM: folder of another run with a checkpoint ('Checkpoint/Every "
+      "steps'), the same mesh and the same materials in the same order (their "
+      "parameters may differ). Positions, stresses and histories of the points "
+      "are those of its last checkpoint, at rest, instead of 'Type'. Boundary "
+      "conditions and loads are those of this file.");
   }
 
   ImplicitSimulation::ImplicitSimulation(const MPI_Comm       comm,

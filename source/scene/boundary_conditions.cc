@@ -44,25 +44,24 @@ namespace geocone::GEOCONE_DIM
     , folder(folder)
   {
     texts.fill(unset);
-    add_parameter("Sides",
-                  sides,
-                  "Comma-separated names of the sides of the domain, or all.");
+    add_parameter(
+      "Sides", sides, "Names of sides of the domain, comma-separated, or all.");
     add_parameter("Box",
                   box,
                   "Restricts the condition to the part of the sides inside the "
-                  "box with these two corners (m): lowest coordinates; highest "
-                  "ones. Empty: the whole sides.");
-    add_parameter("Where",
-                  where_text,
-                  std::string("Formula in ") + coordinates +
-                    " (m): restricts the condition to where it is > 0, e.g. "
-                    "0.25 - x^2 within half a metre of x = 0. Empty: "
-                    "everywhere. Nodes and faces on its border should not be "
-                    "left to rounding.");
+                  "box with these two corners [m]: lowest coordinates; highest "
+                  "coordinates. Empty: entire sides.");
+    add_parameter(
+      "Where",
+      where_text,
+      std::string("Formula in ") + coordinates +
+        " [m] that restricts the condition to where it is > 0, e.g. 0.25 - x^2 "
+        "for |x| < 0.5 m. Empty: everywhere. Nodes and faces should not lie on "
+        "its zero line, where rounding decides.");
     const std::string documentation =
       unit + " as a formula in " + coordinates +
-      " (m) and t (s), or 'record FILE.csv' with the "
-      "columns t (s) and v, or t and a, whose integral it is; '" +
+      " [m] and t [s], or 'record FILE.csv' with the columns t [s] and v, or t "
+      "and a, which is integrated; '" +
       unset + "': none.";
     for (unsigned int c = 0; c < dim; ++c)
       add_parameter(quantity + " " + coordinate[c], texts[c], documentation);
@@ -71,39 +70,40 @@ namespace geocone::GEOCONE_DIM
         quantity + " normal",
         texts[dim],
         quantity == "Velocity"
-          ? "FEM: velocity (m/s) along the outward normal of the "
-            "sides, instead of those along coordinates; what is across it is "
-            "free."
-          : "Traction (Pa) along the outward normal of the sides, -p "
-            "for a pressure p; with tangential instead of x and y. "
-            "MPM: it follows the side as it turns and stretches.");
+          ? "FEM: velocity [m/s] along the outward normal of the sides, "
+            "instead of along coordinates; tangential motion is free."
+          : "Traction [Pa] along the outward normal of the sides, -p for a "
+            "pressure p; with 'Traction tangential' instead of x and y. MPM: "
+            "it follows the rotation and stretch of the side.");
     if (quantity == "Traction" && dim == 2)
       add_parameter(
         quantity + " tangential",
         texts[dim + 1],
-        "Traction (Pa) along the sides, with the body to the left.");
+        "Traction [Pa] along the sides, positive with the body to the left.");
     if (quantity == "Velocity")
       {
         imposition.declare(
           *this,
           "Imposed on",
-          ". FEM knows nodes only. MPM: nodes of sides of the background mesh "
-          "(bottom, right, top, left), or, of sides of the body, its first row "
-          "of particles one by one (by the velocity of the grid there, or by "
-          "the particle's own that FLIP makes of it), averaged per cell, or "
-          "averaged over all, or the averages over parts (segments) of the "
-          "side, which moves as prescribed.");
-        add_parameter("Segments",
-                      n_segments,
-                      "Number of equal parts of the side for 'segments', in "
-                      "three dimensions along each of its edges; 2 "
-                      "hold translation and tilt and converge to a uniform "
-                      "pressure's limit load.");
-        add_parameter("Segment shortening",
-                      shortening,
-                      "For 'segments': the side is taken so many cell sizes "
-                      "shorter. A calibration, not a theory: 0.3 makes cubic "
-                      "splines exact to 2 % for footings of four cells.");
+          ". Points at which velocities are imposed. FEM: nodes. MPM: nodes: "
+          "nodes on sides of the background mesh (bottom, right, top, left). "
+          "The others apply to the first row of particles of sides of the "
+          "body. Points: each particle, by the grid velocity there; particles "
+          "(FLIP): by its own FLIP velocity; cell averages; mean of points: "
+          "average over all; segments: averages over segments of the side, "
+          "which moves as prescribed.");
+        add_parameter(
+          "Segments",
+          n_segments,
+          "Number of equal segments of the side, in three dimensions along "
+          "each of its edges. 2 prescribe translation and rotation and "
+          "converge to the limit load of a uniform pressure.");
+        add_parameter(
+          "Segment shortening",
+          shortening,
+          "Reduction of the length of the side for 'segments', in cell sizes "
+          "[-]. A calibration without theory: 0.3 makes cubic splines accurate "
+          "to 2 % for footings of four cells.");
       }
   }
 

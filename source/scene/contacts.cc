@@ -13,18 +13,17 @@ namespace geocone
     : dealii::ParameterAcceptor("/Contacts/" + name)
     , name(name)
   {
-    add_parameter("Body",
-                  first,
-                  "Materials, comma-separated, that are the first body: the "
-                  "laws of contact hold at its nodes. With FEM take the one "
-                  "with the finer cells, or else the softer or the smaller "
-                  "one; with MPM either.");
     add_parameter(
-      "Other body",
-      other,
-      "Materials, comma-separated, of the body that it touches. "
-      "With FEM their common edges part the mesh, which need not fit there; "
-      "with MPM each body has a mesh of its own in the same place.");
+      "Body",
+      first,
+      "Materials of the first body, comma-separated; contact conditions hold "
+      "at its nodes. FEM: choose the body with the finer cells, or else the "
+      "softer or smaller one. MPM: either.");
+    add_parameter("Other body",
+                  other,
+                  "Materials of the other body, comma-separated. FEM: the "
+                  "bodies are separated along their common edges, where their "
+                  "meshes need not match. MPM: each body has its own grid.");
     law.declare(*this);
   }
 
@@ -67,9 +66,9 @@ namespace geocone
   Contacts::Contacts(const ParameterFile &file)
     : NamedList(file,
                 "Contacts",
-                "Names of pairs of bodies that touch, rub and part, "
-                "comma-separated; each has a subsection of that name. FEM "
-                "and implicit MPM.")
+                "Names of contacts of two bodies with friction and separation, "
+                "comma-separated; each has a subsection of its name. FEM and "
+                "implicit MPM.")
   {
     make();
   }

@@ -254,58 +254,56 @@ namespace geocone::GEOCONE_DIM
     polygon.back()[1] = 1.;
     shape.declare(*this,
                   "Shape",
-                  dim == 2 ? ". Discs are for MPM only."
-                           : ". Discs are balls, for MPM only.");
+                  dim == 2 ? ". Discs: MPM only."
+                           : ". Discs are balls, MPM only.");
     symmetry.declare(*this,
                      "Symmetry",
-                     ": what the scene is a section of. Axisymmetric: a round "
-                     "body, x >= 0 the radius and y its axis; forces are those "
-                     "of the whole body (N). FEM and MPM, with laws that are "
-                     "spatial.");
+                     ". Axisymmetric: x >= 0 is the radius and y the axis; "
+                     "forces are those of the full circumference [N]. For FEM "
+                     "and MPM, with laws of the full stress tensor.");
     add_parameter("Dimension",
                   dimension,
-                  "2, or 3: then points have coordinates x, y, z (y upwards), "
-                  "polygons of regions are boxes given by two corners, and "
-                  "forces are in N. Three dimensions are for FEM and MPM.",
+                  "Dimension of the scene, 2 or 3. 3: points have coordinates "
+                  "x, y, z (y upwards), polygons of regions are boxes given by "
+                  "two corners, and forces are in N. For FEM and MPM.",
                   prm,
                   dealii::Patterns::Integer(2, 3));
-    add_parameter(
-      "Box",
-      box,
-      dim == 2 ? "Lower left and upper right corner x, y; x, y (m). Its "
-                 "sides are called bottom, right, top, left."
-               : "Lowest and highest corner x, y, z; x, y, z (m). Its sides "
-                 "are called left and right (least and largest x), bottom "
-                 "and top (y), back and front (z).");
+    add_parameter("Box",
+                  box,
+                  dim == 2
+                    ? "Lower left and upper right corner x, y; x, y [m]. Its "
+                      "sides are named bottom, right, top, left."
+                    : "Lowest and highest corner x, y, z; x, y, z [m]. Its "
+                      "sides are named left and right (lowest and highest x), "
+                      "bottom and top (y), back and front (z).");
     add_parameter("Where",
                   where_text,
-                  std::string("MPM: of the shape, the body is where this "
-                              "formula in ") +
-                    coordinates + " (m) is > 0, e.g. " +
+                  std::string("MPM: restricts the body to the part of the "
+                              "shape where this formula in ") +
+                    coordinates + " [m] is > 0, e.g. " +
                     (dim == 2 ? "0.25 - x^2 - y^2" : "0.25 - x^2 - z^2") +
                     " for a " + (dim == 2 ? "disc" : "cylinder") +
-                    " of radius 0.5 m. Empty: all of it.");
+                    " of radius 0.5 m. Empty: entire shape.");
     add_parameter("Polygon",
                   polygon,
-                  "Vertices x, y; x, y; ... (m) in order. Side i runs from "
-                  "vertex i to the next and is called i (0, 1, ...).");
-    add_parameter("Centres", centres, "Centres x, y; x, y; ... of discs (m).");
+                  "Vertices x, y; x, y; ... [m] in order. Side i connects "
+                  "vertex i and the next one, and is named i (0, 1, ...).");
+    add_parameter(
+      "Centres", centres, "Centres of the discs x, y; x, y; ... [m].");
     add_parameter("Radii",
                   radii,
-                  "Radii of the discs (m), comma-separated; one for all or one "
+                  "Radii of the discs [m], comma-separated; one for all or one "
                   "per centre.");
-    add_parameter("File",
-                  file,
-                  "A gmsh .msh file (relative to the folder of the parameter "
-                  "file, or else to that of the call) of version 2.2 or 4.1, "
-                  "ASCII or binary, up to 512 MB, in the plane z = 0 and "
-                  "with triangles or quadrilaterals of first order. Sides have "
-                  "the numbers or "
-                  "names of its physical curves. It is read as data: nothing "
-                  "in it is run. Or a geo script (NAME.geo) of gmsh: a "
-                  "program, which can run commands and write files with your "
-                  "rights. It is run only if the command line says so: "
-                  "--run-gmsh-script.");
+    add_parameter(
+      "File",
+      file,
+      "gmsh mesh file (.msh, version 2.2 or 4.1, ASCII or binary, up to 512 "
+      "MB) in the plane z = 0, with triangles or quadrilaterals of first "
+      "order; its path is relative to the folder of the parameter file, or "
+      "else to the working folder. Sides have the numbers or names of its "
+      "physical curves. It is read as data; nothing in it is executed. Or a "
+      "gmsh script (.geo), which can run commands and write files with your "
+      "rights; it is executed only with the option --run-gmsh-script.");
   }
 
   void
@@ -585,28 +583,28 @@ namespace geocone::GEOCONE_DIM
     add_parameter(
       "Region polygon",
       polygon,
-      std::string(dim == 2 ? "Vertices x, y; x, y; ... (m)"
-                           : "Lowest and highest corner x, y, z; x, y, z of "
-                             "a box (m)") +
-        ": the part of the domain that this material fills. Empty: the first "
-        "material fills what no other one does.");
+      std::string(
+        dim == 2 ? "Vertices x, y; x, y; ... [m]"
+                 : "Lowest and highest corner x, y, z; x, y, z of a box [m]") +
+        " of the region of this material. Empty: the first material fills the "
+        "rest of the domain.");
     if (dim == 2)
       add_parameter("Region below",
                     below,
-                    "Points x, y; x, y; ... (m), x ascending, of a line: this "
-                    "material fills the domain below it. Beyond its ends the "
-                    "line is level; one point is a level. Layers are listed "
-                    "from the top: each covers those before it.");
+                    "Points x, y; x, y; ... [m] of a line, x ascending: this "
+                    "material fills the domain below it. The line is extended "
+                    "horizontally; one point is a level. Layers are listed "
+                    "from the top: each overrides those before it.");
     add_parameter("Region number",
                   group,
                   "Number or name of the physical surface of the .msh file "
-                  "that this material fills, or -1.");
+                  "that is the region of this material; -1: none.");
     points.declare(
       *this,
       "Points",
-      " of this material with implicit MPM. Fixed: they stay in the "
-      "background mesh and strains are small, as with finite "
-      "elements, beside material that moves.");
+      " of this material with implicit MPM. Fixed: fixed quadrature points of "
+      "the background mesh with small strains, as with finite elements, beside "
+      "moving materials.");
   }
 
   void

@@ -78,11 +78,11 @@ namespace geocone::GEOCONE_DIM
   {
     texts.fill("0");
     for (unsigned int c = 0; c < dim; ++c)
-      add_parameter(std::string("Velocity ") + coordinate[c],
-                    texts[c],
-                    std::string("Formula in ") + coordinates +
-                      " (m) for the velocity (m/s) at t = 0, which only a body "
-                      "with inertia can have.");
+      add_parameter(
+        std::string("Velocity ") + coordinate[c],
+        texts[c],
+        std::string("Formula in ") + coordinates +
+          " [m] of the initial velocity [m/s]. Only for bodies with inertia.");
   }
 
   void
@@ -131,34 +131,37 @@ namespace geocone::GEOCONE_DIM
   InitialStress::InitialStress()
     : dealii::ParameterAcceptor("/Initial stress")
   {
-    type.declare(*this, "Type", ": the stress before the first step.");
+    type.declare(*this, "Type", ": stress before the first step.");
     texts.fill("0");
     for (unsigned int i = 0; i < texts.size(); ++i)
       add_parameter(name_of_stress(i),
                     texts[i],
-                    i == 0 ? std::string("For 'given': formula in ") +
-                               coordinates + " (Pa, tension positive)."
-                           : std::string("As Stress xx."));
+                    i == 0
+                      ? std::string("For 'given': formula in ") + coordinates +
+                          " [m] of the stress [Pa], tension positive."
+                      : std::string("As Stress xx."));
     of_added.declare(
       *this,
       "Of added materials",
-      ": the stress of what stages add ('Added materials'). Geostatic: of the "
-      "weight of what comes at the same time, and K0.");
+      ": stress of materials that stages add ('Added materials'). Geostatic: "
+      "from the weight of the materials added at the same time, and K0.");
     if (dim == 2)
-      add_parameter(
-        "Stress zz", text_zz, "For 'given': as Stress xx; empty: equal to it.");
-    add_parameter("K0",
-                  k0_text,
-                  "For 'geostatic': horizontal over vertical stress (-), > 0, "
-                  "or automatic: of each material's own, Jaky's 1 - sin(phi), "
-                  "which its strength always bears, or nu/(1 - nu) of a "
-                  "linear elastic one.");
+      add_parameter("Stress zz",
+                    text_zz,
+                    "For 'given': as Stress xx; empty: equal to Stress xx.");
+    add_parameter(
+      "K0",
+      k0_text,
+      "For 'geostatic': ratio of horizontal to vertical effective stress [-], "
+      "> 0, or automatic: for each material Jaky's 1 - sin(phi), which is "
+      "always admissible, or nu/(1 - nu) if it is linear elastic.");
     add_parameter("Surface level",
                   surface,
-                  "For 'geostatic': y of the ground surface (m).");
-    add_parameter("Surcharge",
-                  surcharge,
-                  "For 'geostatic': vertical pressure on the surface (Pa).");
+                  "For 'geostatic': level y of the ground surface [m].");
+    add_parameter(
+      "Surcharge",
+      surcharge,
+      "For 'geostatic': vertical pressure on the ground surface [Pa].");
   }
 
   bool

@@ -13,22 +13,24 @@ namespace geocone
   InterfaceLaw::declare(dealii::ParameterAcceptor &section)
   {
     section.add_parameter(
-      "Friction coefficient", friction, "mu of Coulomb's law; 0: smooth.");
-    section.add_parameter(
-      "Adhesion",
-      adhesion,
-      "Shear stress (Pa) that the interface bears besides friction "
-      "while it is closed.");
+      "Friction coefficient",
+      friction,
+      "Coefficient mu of Coulomb friction [-], >= 0; 0: smooth.");
+    section.add_parameter("Adhesion",
+                          adhesion,
+                          "Adhesion of the closed interface [Pa], >= 0: shear "
+                          "strength in addition to friction.");
     section.add_parameter(
       "Tensile strength",
       tension,
-      "Pull (Pa) that the interface bears where it is closed; what has parted "
-      "bears none until it touches again. From 1e9 on it never parts.");
-    section.add_parameter(
-      "Restitution",
-      restitution,
-      "Part of the normal velocity with which a node rebounds that "
-      "would hit in a step (Newton's law); 0: it stays, and closes exactly.");
+      "Tensile strength of the closed interface [Pa], >= 0, lost after "
+      "separation until contact is re-established. From 1e9 on the interface "
+      "never separates.");
+    section.add_parameter("Restitution",
+                          restitution,
+                          "Coefficient of restitution [-], 0 to 1 (Newton's "
+                          "law): ratio of normal velocities after and before "
+                          "an impact. 0: no rebound, the gap closes exactly.");
   }
 
   void

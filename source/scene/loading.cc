@@ -42,36 +42,36 @@ namespace geocone::GEOCONE_DIM
       stage.add_parameter(
         "Strength factor",
         stage.strength_factor,
-        "FEM and MPM: by what c and tan(phi) of all materials are divided at "
-        "the end of the stage, linear in time from what they were before; "
-        "theta is at most the reduced phi. 0: as before. With 'Until failure' "
-        "= true the factor at which no equilibrium is found is the factor of "
-        "safety.");
+        "FEM and MPM: strength reduction factor at the end of the stage [-], "
+        "by which c and tan(phi) of all materials are divided, linear in time "
+        "from its previous value; theta is limited to the reduced phi. 0: "
+        "unchanged. With 'Until failure' = true the factor of safety is the "
+        "factor at which no equilibrium is found.");
       stage.add_parameter(
         "Water table",
         stage.water_table,
-        "FEM and MPM: the piezometric line at the end of the stage, as "
-        "'Water/Table'; pressures go there from those before in proportion to "
-        "time (a drawdown, a pit that is pumped dry). Empty: as before.");
+        "FEM and MPM: piezometric line at the end of the stage [m], as "
+        "'Water/Table'; pore pressures change linearly in time (drawdown, "
+        "dewatering). Empty: unchanged.");
       stage.add_parameter(
         "Until failure",
         stage.until_failure,
-        "FEM and MPM: the first step that cannot be solved, however it is cut, "
-        "ends the stage and the run as wanted: loads that grow in time are "
-        "raised until the body carries no more. summary.json tells until when "
-        "it did (topic 'failure').");
+        "FEM and MPM: whether the stage and the run end as intended at the "
+        "first step that does not converge even after subdivision: loads that "
+        "grow in time are increased to failure. summary.json reports the time "
+        "of failure (topic 'failure').");
       stage.add_parameter(
         "Raised loads",
         stage.raised_loads,
-        "FEM and MPM: names in 'Tractions/Names', and 'weight': what they "
-        "exert is multiplied by a load factor which is found in each step, so "
-        "that they move the body at the 'Raising velocity', also where they "
-        "can grow no more. Other loads are as given.");
+        "FEM and MPM: loads multiplied by a load factor: names in "
+        "'Tractions/Names', or 'weight'. The factor is found in each step so "
+        "that the body moves at the 'Raising velocity', also past the peak "
+        "load. Other loads are not scaled.");
       stage.add_parameter(
         "Raising velocity",
         stage.raising_velocity,
-        "Mean velocity (m/s) along the raised loads, F.v/sum |F| with their "
-        "forces F on the nodes; > 0, or < 0 to take them back.");
+        "Mean velocity along the raised loads [m/s], F.v/sum |F| with their "
+        "nodal forces F; > 0 to load, < 0 to unload.");
     }
 
     /** Parameters of explicit MPM: relaxation to a state of rest, and
@@ -79,40 +79,37 @@ namespace geocone::GEOCONE_DIM
     void
     declare_explicit_only(Stage &stage)
     {
-      stage.add_parameter(
-        "Damping",
-        stage.damping,
-        "Explicit MPM: local damping, the part (0 to 1) of each node's "
-        "unbalanced force that opposes its velocity; 0.5 to 0.75 where a state "
-        "of rest is looked for.");
-      stage.add_parameter(
-        "Kinetic damping",
-        stage.kinetic_damping,
-        "Explicit MPM: set all velocities to zero at each peak of the kinetic "
-        "energy.");
-      stage.add_parameter(
-        "Largest unbalanced force",
-        stage.largest_unbalanced_force,
-        "Explicit MPM: the stage must end in equilibrium, with no node's "
-        "unbalanced force larger than this part of the weight of the body, "
-        "e.g. 1e-3; 0: not tested.");
+      stage.add_parameter("Damping",
+                          stage.damping,
+                          "Explicit MPM: local damping [-], 0 to 1: part of "
+                          "the unbalanced force of each node that opposes its "
+                          "velocity; 0.5 to 0.75 to reach equilibrium.");
+      stage.add_parameter("Kinetic damping",
+                          stage.kinetic_damping,
+                          "Explicit MPM: whether all velocities are set to "
+                          "zero at each peak of the kinetic energy.");
+      stage.add_parameter("Largest unbalanced force",
+                          stage.largest_unbalanced_force,
+                          "Explicit MPM: convergence criterion of the stage: "
+                          "largest unbalanced nodal force at its end, relative "
+                          "to the weight of the body [-], e.g. 1e-3; 0: none.");
       stage.add_parameter(
         "Largest kinetic energy",
         stage.largest_kinetic_energy,
-        "Explicit MPM: the stage must end with a kinetic energy of at most "
-        "this part of the stress work of the stage, e.g. 1e-6; 0: not tested. "
-        "FEM and MPM with a 'Strength factor' and 'Until failure' = true: a "
-        "step in which more than this part of the plastic work becomes kinetic "
-        "energy is no equilibrium, as soil that flows ever faster is not "
-        "stable; 0: 3e-3.");
+        "Explicit MPM: convergence criterion of the stage: kinetic energy at "
+        "its end, relative to the stress work of the stage [-], e.g. 1e-6; 0: "
+        "none. FEM and MPM with 'Strength factor' and 'Until failure' = true: "
+        "criterion of failure, the part of the plastic work of a step that "
+        "becomes kinetic energy (accelerating flow); 0: 3e-3.");
       stage.add_parameter("Reset velocity",
                           stage.reset_velocity,
-                          "Explicit MPM: begin this stage at rest.");
+                          "Explicit MPM: whether velocities are set to zero at "
+                          "the beginning of this stage.");
       stage.add_parameter(
         "Reset history",
         stage.reset_history,
-        "Explicit MPM: at the beginning of this stage, set the internal "
-        "variables of the soil from its stress, as at the start of a run.");
+        "Explicit MPM: whether internal variables are initialised from the "
+        "stresses at the beginning of this stage, as at the start of a run.");
     }
 
     /** Parameters of removed parts. */
@@ -122,27 +119,28 @@ namespace geocone::GEOCONE_DIM
       stage.add_parameter(
         "Removed polygon",
         stage.removed_polygon,
-        std::string(dim == 2 ? "Vertices x, y; x, y; ... (m)"
-                             : "Lowest and highest corner x, y, z; x, y, z of "
-                               "a box (m)") +
-          "; the points (FEM: cells, by their centres) that lie in it when the "
-          "stage begins are taken away (a cut, an excavation)" +
+        std::string(
+          dim == 2
+            ? "Vertices x, y; x, y; ... [m]"
+            : "Lowest and highest corner x, y, z; x, y, z of a box [m]") +
+          " of an excavation: points in it (FEM: cells, by their centres) are "
+          "removed at the beginning of the stage" +
           (dim == 2 ? ". Unstructured meshes have edges along it." : "."));
       stage.add_parameter(
         "Removed where",
         text_of_where,
-        std::string("The points (FEM: cells, by their centres) where "
+        std::string("Excavation: points (FEM: cells, by their centres) where "
                     "this formula in ") +
           coordinates +
-          " (m) is > 0 when the stage begins are taken away, e.g. y - x above "
-          "a slope of 45 degrees; of those in 'Removed polygon' if that is "
-          "given, too.");
+          " [m] is > 0 are removed at the beginning of the stage, e.g. y - x "
+          "above a slope of 45 degrees; if 'Removed polygon' is given too, "
+          "only those in both.");
       stage.add_parameter(
         "Removal duration",
         stage.removal_duration,
-        "Time (s) over which the weight and the stress of the removed points "
-        "go to zero: with FEM and MPM, the forces that what is removed at once "
-        "exerted on the rest; 0: at once.");
+        "Time [s] over which weight and stress of the removed points decrease "
+        "to zero; with FEM and MPM, the forces that the removed soil exerted "
+        "on the remaining soil. 0: immediately.");
     }
 
     /** Parameters of added and changed materials. */
@@ -152,22 +150,22 @@ namespace geocone::GEOCONE_DIM
       stage.add_parameter(
         "Added materials",
         stage.added_materials,
-        "FEM and MPM: names of materials whose regions are empty before this "
-        "stage (an embankment, a backfill): they are there from its beginning "
-        "on, with what is elastic of them at once, and with the stress of "
-        "'Initial stress/Of added materials'.");
+        "FEM and MPM: names of materials added at the beginning of this stage "
+        "(embankment, backfill); their regions are empty before. Their initial "
+        "stress is 'Initial stress/Of added materials'; their elastic "
+        "stiffness acts immediately.");
       stage.add_parameter(
         "Addition duration",
         stage.addition_duration,
-        "FEM and MPM: time (s) over which the weight of the added materials "
-        "grows from zero; 0: at once.");
+        "FEM and MPM: time [s] over which the weight of the added materials "
+        "increases from zero; 0: immediately.");
       stage.add_parameter(
         "Changed materials",
         stage.changed_materials,
-        "FEM and MPM: OLD: NEW, ...: at the beginning of the stage all of the "
-        "material OLD becomes the material NEW, with its strength, stiffness "
-        "and density (ground that is improved, or softens); stresses stay. NEW "
-        "needs no region of its own.");
+        "FEM and MPM: OLD: NEW, ...: at the beginning of the stage the "
+        "material OLD is replaced by NEW, with its strength, stiffness and "
+        "density (ground improvement, weakening); stresses are kept. NEW needs "
+        "no region.");
     }
   } // namespace
 
@@ -175,24 +173,24 @@ namespace geocone::GEOCONE_DIM
     : dealii::ParameterAcceptor("/Loading/" + name)
     , name(name)
   {
-    add_parameter("Duration", duration, "Duration of the stage (s), > 0.");
-    add_parameter("Step size", step_size, "Time step h (s), > 0.");
+    add_parameter("Duration", duration, "Duration of the stage [s], > 0.");
+    add_parameter("Step size", step_size, "Time step h [s], > 0.");
     add_parameter("First step size",
                   first_step_size,
-                  "Size of the first step (s); 0: the step size. Later steps "
-                  "grow from it up to the step size by the growth factor.");
+                  "Size of the first step [s]; later steps grow to the step "
+                  "size by the growth factor. 0: the step size.");
     add_parameter("Growth factor",
                   growth,
-                  "Ratio of a step to the one before, >= 1, used while the "
-                  "steps are smaller than the step size.");
+                  "Ratio of a step to the previous one [-], >= 1, until the "
+                  "step size is reached.");
     add_parameter("Output every",
                   output_every,
-                  "Write fields every so many steps, and at the end of the "
-                  "stage; 0: at the end only.");
+                  "Number of steps between outputs of fields; 0: only at the "
+                  "end of the stage.");
     add_parameter("Reset displacement",
                   reset_displacement,
-                  "Count displacements and plastic strains from the beginning "
-                  "of this stage.");
+                  "Whether displacements and plastic strains are reset to zero "
+                  "at the beginning of this stage.");
     declare_failure(*this);
     declare_explicit_only(*this);
     declare_removal(*this, removed_where_text);
@@ -402,7 +400,7 @@ namespace geocone::GEOCONE_DIM
     : NamedList(file,
                 "Loading",
                 "Names of the stages in order, comma-separated; each has a "
-                "subsection of that name.",
+                "subsection of its name.",
                 "push",
                 "Stages")
   {
@@ -583,11 +581,12 @@ namespace geocone::GEOCONE_DIM
   {
     add_parameter("Acceleration",
                   acceleration,
-                  "g_x, g_y (m/s^2), e.g. 0, -9.81; 0, 0: no gravity.");
+                  "Acceleration of gravity g_x, g_y [m/s^2], e.g. 0, -9.81; 0, "
+                  "0: no gravity.");
     add_parameter("Ramp duration",
                   ramp_duration,
-                  "Time (s) over which gravity grows linearly from zero; 0: it "
-                  "acts fully from the first step.");
+                  "Time [s] over which gravity grows linearly from zero; 0: "
+                  "full gravity from the first step.");
   }
 
   void

@@ -62,49 +62,48 @@ namespace geocone::GEOCONE_DIM
   {
     add_parameter("Conditions",
                   names,
-                  "Boundary conditions, obstacles and contacts (their force on "
-                  "'Body') whose reactions are "
-                  "reported; the first "
-                  "one gives the load-displacement curve.");
+                  "Names of boundary conditions, obstacles and contacts (force "
+                  "on 'Body') whose reactions are reported; the first gives "
+                  "the load-displacement curve.");
     observed.declare(
-      *this, "Component", ": that of the reaction which is the load.");
-    add_parameter("Factor",
-                  factor,
-                  "Load = factor x reaction of the support on the body: -1 "
-                  "makes a downward load positive, -2 where only half of a "
-                  "symmetric body is modelled. Without 'Conditions', of loads "
-                  "that are raised: |factor| x load factor.");
-    add_parameter("Reference",
-                  value,
-                  "Load to compare with: none, a number (N/m), or Prandtl, the "
-                  "exact load width x (c Nc + surcharge x Nq) of a strip on "
-                  "weightless soil.");
+      *this, "Component", ": component of the reaction that is the load.");
+    add_parameter(
+      "Factor",
+      factor,
+      "Load = factor x reaction of the support on the body [-]: -1 for a "
+      "positive downward load, -2 if half of a symmetric body is modelled. "
+      "Without 'Conditions', for raised loads: |factor| x load factor.");
+    add_parameter(
+      "Reference",
+      value,
+      "Reference load: none, a number [N/m], or Prandtl: the exact load width "
+      "x (c Nc + surcharge x Nq) of a strip footing on weightless soil.");
     add_parameter("Reference material",
                   material,
-                  "Material whose c and phi enter Prandtl's load; empty: the "
-                  "first one.");
-    add_parameter(
-      "Reference width", width, "Width of the whole footing (m), for Prandtl.");
+                  "Material with the c and phi of Prandtl's load; empty: the "
+                  "first material.");
+    add_parameter("Reference width",
+                  width,
+                  "Full width of the footing for Prandtl's load [m].");
     add_parameter("Reference surcharge",
                   surcharge,
-                  "Pressure beside the footing (Pa), for Prandtl.");
+                  "Surcharge beside the footing for Prandtl's load [Pa].");
+    add_parameter("Points",
+                  points,
+                  "Initial positions [m] of points whose displacements are "
+                  "reported. FEM: displacement field at this position. MPM: "
+                  "nearest material point, which is tracked.");
+    add_parameter("Moment centre",
+                  centre,
+                  "Reference point of the moments of the reactions [m], about "
+                  "z, counterclockwise positive; in three dimensions about x, "
+                  "y and z. Empty: for each condition the centre of the "
+                  "initial bounding box of its points.");
     add_parameter(
-      "Points",
-      points,
-      "Places (m) in the body at the start whose "
-      "displacements are reported. FEM: that of the field there; "
-      "MPM: that of the nearest material point, which is followed.");
-    add_parameter(
-      "Moment centre",
-      centre,
-      "Point (m) that the moments of the reactions are about, around "
-      "z, counterclockwise positive, in three dimensions around x, y and z. "
-      "Empty: for each condition the "
-      "centre of the bounding box of what it holds at the start.");
-    add_parameter("Plateau tolerance",
-                  plateau_tolerance,
-                  "The limit load is the mean over the last part of the curve "
-                  "over which the load drifts by less than this (relative).");
+      "Plateau tolerance",
+      plateau_tolerance,
+      "Relative drift of the load [-] that defines the plateau: the limit load "
+      "is the mean over the last part of the curve with a smaller drift.");
   }
 
   void

@@ -58,49 +58,45 @@ namespace geocone::GEOCONE_DIM
       *this,
       "Shape",
       dim == 2
-        ? ". What is behind a line ('Point', 'Normal'), inside a circle "
-          "('Point' is its centre, 'Radius') or inside a convex polygon "
-          "('Vertices')."
-        : ". What is behind a plane ('Point', 'Normal'), inside a sphere "
-          "('Point' is its centre, 'Radius'), a convex polyhedron "
-          "('Vertices') or a cylinder ('Point' is its centre, 'Normal' "
-          "its axis, 'Radius', 'Height').");
-    sliding.declare(
-      *this,
-      "Sliding",
-      " along it. Small (FEM): nodes keep the place on its boundary that they "
-      "faced at the start, so that none slides off its edge, as strains are "
-      "small, too; its load on a smooth footing is that of its full width.");
-    add_parameter("Point",
-                  place,
-                  "A point " + coordinates_of +
-                    (dim == 2 ? " (m) of the line of a half-plane, or the "
-                                "centre of a disc, at the start."
-                              : " (m) of the plane of a half-space, or the "
-                                "centre of a ball or of a cylinder, at the "
-                                "start."));
-    add_parameter("Normal",
-                  normal,
-                  "Direction " + coordinates_of +
-                    (dim == 2 ? " out of a half-plane, towards the body; of "
-                                "any length."
-                              : " out of a half-space, towards the body, or of "
-                                "the axis of a cylinder; of any length."));
+        ? ". Half-plane: behind a line ('Point', 'Normal'). Disc: 'Point' is "
+          "its centre, with 'Radius'. Polygon: convex, with 'Vertices'."
+        : ". Half-space: behind a plane ('Point', 'Normal'). Ball: 'Point' is "
+          "its centre, with 'Radius'. Polyhedron: convex, with 'Vertices'. "
+          "Cylinder: 'Point' is its centre, 'Normal' its axis, with 'Radius' "
+          "and 'Height'.");
+    sliding.declare(*this,
+                    "Sliding",
+                    " sliding along its boundary. Small (FEM): nodes keep "
+                    "their initial projection on the boundary, consistent with "
+                    "small strains, so that none slides off its edge; the load "
+                    "of a smooth footing is that of its full width.");
+    add_parameter(
+      "Point",
+      place,
+      "Initial position: a point " + coordinates_of +
+        (dim == 2 ? " [m] of the line of a half-plane, or the centre of a disc."
+                  : " [m] of the plane of a half-space, or the centre of a "
+                    "ball or of a cylinder."));
+    add_parameter(
+      "Normal",
+      normal,
+      "Direction " + coordinates_of +
+        (dim == 2 ? " out of a half-plane, towards the body; of any length [-]."
+                  : " out of a half-space, towards the body, or of the axis of "
+                    "a cylinder; of any length [-]."));
     add_parameter("Radius",
                   radius,
-                  dim == 2 ? "Radius of a disc (m)."
-                           : "Radius of a ball or a cylinder (m).");
+                  dim == 2 ? "Radius of a disc [m]."
+                           : "Radius of a ball or a cylinder [m].");
     if (dim == 3)
-      add_parameter("Height",
-                    height,
-                    "Height of a cylinder, half of it on both sides of its "
-                    "centre (m).");
+      add_parameter(
+        "Height", height, "Height of a cylinder [m], centred at 'Point'.");
     add_parameter("Vertices",
                   vertices,
-                  dim == 2 ? "Vertices x, y; x, y; ... (m) of a convex polygon "
-                             "at the start, counterclockwise."
-                           : "Vertices x, y, z; x, y, z; ... (m) of a convex "
-                             "polyhedron at the start, in any order.");
+                  dim == 2 ? "Initial vertices x, y; x, y; ... [m] of a convex "
+                             "polygon, counterclockwise."
+                           : "Initial vertices x, y, z; x, y, z; ... [m] of a "
+                             "convex polyhedron, in any order.");
     declare_motions();
     law.declare(*this);
   }
@@ -111,37 +107,37 @@ namespace geocone::GEOCONE_DIM
     velocity_texts.fill("0");
     load_texts.fill("0");
     for (unsigned int k = 0; k < n_motions; ++k)
-      add_parameter(velocity_name(k),
-                    velocity_texts[k],
-                    std::string("Velocity of the obstacle") +
-                      (k < dim
-                         ? "'s centre (m/s)"
-                         : " about its centre (rad/s), counterclockwise,") +
-                      " as a formula in t (s); or free: it obeys the forces.");
+      add_parameter(
+        velocity_name(k),
+        velocity_texts[k],
+        std::string("Velocity of the obstacle") +
+          (k < dim ? "'s centre [m/s]"
+                   : " about its centre [rad/s], counterclockwise,") +
+          " as a formula in t [s]; or free: from the equations of motion.");
     for (unsigned int k = 0; k < n_motions; ++k)
       add_parameter(
         load_name(k),
         load_texts[k],
         std::string("Force on a free obstacle") +
           (k < dim ? ", at its centre" : ": moment about its centre") +
-          (dim == 2 ? (k < dim ? " (N/m)" : " (N)")
-                    : (k < dim ? " (N)" : " (N m)")) +
-          ", beside its weight, as a formula in t (s).");
+          (dim == 2 ? (k < dim ? " [N/m]" : " [N]")
+                    : (k < dim ? " [N]" : " [N m]")) +
+          ", in addition to its weight, as a formula in t [s].");
     add_parameter("Mass",
                   mass,
                   dim == 2
-                    ? "Mass of a free obstacle (kg/m; kg around an axis)."
-                    : "Mass of a free obstacle (kg).");
-    add_parameter(
-      "Moment of inertia",
-      moment_of_inertia,
-      dim == 2
-        ? "About the centre, of an obstacle that is free to turn (kg m); "
-          "of a rectangle M (a^2 + b^2)/12."
-        : "About each axis through the centre, of an obstacle that is "
-          "free to turn (kg m^2); of a cube M a^2/6, of a ball 2/5 M R^2. "
-          "One number for all axes: bodies that are long or flat spin "
-          "differently, and rest alike.");
+                    ? "Mass of a free obstacle [kg/m]; in kg if axisymmetric."
+                    : "Mass of a free obstacle [kg].");
+    add_parameter("Moment of inertia",
+                  moment_of_inertia,
+                  dim == 2
+                    ? "Moment of inertia about the centre of an obstacle that "
+                      "rotates freely [kg m]; M (a^2 + b^2)/12 for a rectangle."
+                    : "Moment of inertia about each axis through the centre of "
+                      "an obstacle that rotates freely [kg m^2]; M a^2/6 for a "
+                      "cube, 2/5 M R^2 for a ball. It is the same for all "
+                      "axes, so that the rotation of elongated or flat bodies "
+                      "is approximate; their equilibrium is not affected.");
   }
 
   void
@@ -446,9 +442,9 @@ namespace geocone::GEOCONE_DIM
   Obstacles::Obstacles(const ParameterFile &file)
     : NamedList(file,
                 "Obstacles",
-                "Names of rigid bodies that the soil touches, rubs on and may "
-                "leave, comma-separated; each has a subsection of that name. "
-                "Implicit FEM and MPM.")
+                "Names of rigid bodies in frictional contact with the soil, "
+                "comma-separated; each has a subsection of its name. FEM and "
+                "implicit MPM.")
   {
     make();
   }

@@ -113,31 +113,28 @@ namespace geocone::GEOCONE_DIM
         file,
         "Boundary conditions",
         "Velocity",
-        "Prescribed velocity (m/s)",
+        "Prescribed velocity [m/s]",
         "free",
-        "Names of the conditions with prescribed velocities, "
-        "comma-separated; each has a subsection of that name. Where two "
-        "of them prescribe the same component of a node, the later one "
-        "holds.")
+        "Names of the conditions with prescribed velocities, comma-separated; "
+        "each has a subsection of its name. Later conditions override earlier "
+        "ones at the same component of a node.")
     , tractions(
         file,
         "Tractions",
         "Traction",
-        "Traction (Pa)",
+        "Traction [Pa]",
         "none",
-        "Names of the conditions with given tractions, comma-separated; "
-        "each has a subsection of that name. They add up.")
-    , absorbing(
-        file,
-        "Absorbing boundaries",
-        "Incoming velocity",
-        "Velocity (m/s) of the wave that comes in through the sides (the "
-        "ground "
-        "of a free surface moves twice as much)",
-        "0",
-        "Names of the parts of the boundary that waves leave through "
-        "(dashpots of Lysmer and Kuhlemeyer), comma-separated; each has a "
-        "subsection of that name. Runs with inertia.")
+        "Names of the conditions with prescribed tractions, comma-separated; "
+        "each has a subsection of its name. Tractions are added.")
+    , absorbing(file,
+                "Absorbing boundaries",
+                "Incoming velocity",
+                "Velocity [m/s] of the incoming wave (a free surface moves "
+                "twice as much)",
+                "0",
+                "Names of absorbing boundaries (dashpots of Lysmer and "
+                "Kuhlemeyer), comma-separated; each has a subsection of its "
+                "name. For runs with inertia.")
     , obstacles(file)
     , contacts(file)
     , loading(file)

@@ -17,23 +17,22 @@ namespace geocone::GEOCONE_DIM
     : dealii::ParameterAcceptor("/Water")
     , folder(parameters.folder())
   {
-    add_parameter("Table",
-                  table,
-                  "Piezometric line x, y; x, y; ... (m) from left to right, "
-                  "level beyond its ends; one point: level everywhere. Below "
-                  "it the pressure of the water grows with depth, and stresses "
-                  "are effective ones; where it is above the ground there is "
-                  "water outside. Densities are those of the soil with its "
-                  "water. In three dimensions it is alike along z. Empty: no "
-                  "water.");
-    add_parameter("File",
-                  file,
-                  "A .csv file of pore pressures instead of a table, with the "
-                  "columns x, y (m) and u (Pa), a row for each place of a "
-                  "rectangular grid around the body, e.g. of a program of "
-                  "seepage. At the ground it is the pressure of the water "
-                  "outside.");
-    add_parameter("Unit weight", unit_weight, "Of water (N/m^3).");
+    add_parameter(
+      "Table",
+      table,
+      "Piezometric line x, y; x, y; ... [m] from left to right, extended "
+      "horizontally; one point: horizontal everywhere. Pore pressures are "
+      "hydrostatic below it, and stresses are effective; above the ground it "
+      "is the level of open water. Densities are those of saturated soil. In "
+      "three dimensions it is constant along z. Empty: no water.");
+    add_parameter(
+      "File",
+      file,
+      ".csv file of pore pressures instead of a table, e.g. of a seepage "
+      "analysis, with the columns x, y [m] and u [Pa], a row for each point of "
+      "a rectangular grid around the body. At the ground surface it is the "
+      "pressure of the open water.");
+    add_parameter("Unit weight", unit_weight, "Unit weight of water [N/m^3].");
   }
 
   void

@@ -56,27 +56,25 @@ namespace geocone::GEOCONE_DIM
       "Element",
       dim == 2
         ? ". P1 to P3 on triangles, Q1 to Q3 on quadrilaterals, B-splines on "
-          "uniform and graded grids of them. Automatic: P3 or Q3 for FEM, but "
-          "P2 on triangles where a soil has (a - b)/a > 0.51, a = sin(phi), b "
-          "= "
-          "sin(theta), and its friction no memory; for MPM "
-          "B-spline 3 on grids, P3 on triangles, Q1 on other meshes; for "
-          "explicit "
-          "MPM B-spline 2, P1 or Q1."
+          "uniform and graded grids of quadrilaterals. Automatic: for FEM P3 "
+          "or Q3, but P2 on triangles if a soil without friction memory has (a "
+          "- b)/a > 0.51 with a = sin(phi), b = sin(theta); for MPM B-spline 3 "
+          "on grids, P3 on triangles, Q1 on other meshes; for explicit MPM "
+          "B-spline 2, P1 or Q1."
         : ". P1 and P2 on tetrahedra, Q1 to Q3 on hexahedra, B-splines on "
-          "grids of "
-          "them. Automatic: P2 or Q2 for FEM; for MPM B-spline 2, P2 or Q1.");
+          "grids of hexahedra. Automatic: P2 or Q2 for FEM; B-spline 2, P2 or "
+          "Q1 for MPM.");
     basis.declare(*this,
                   "Basis",
-                  ", of P2, P3, Q2 and Q3. Automatic: Lagrange's for FEM, "
-                  "Bernstein's, which are not negative, for MPM.");
-    add_parameter(
-      "B-bar",
-      b_bar,
-      "Against locking, for Q1 to Q3 and splines: of the volumetric strain "
-      "of a cell only its mean over the cell's points counts, of Q2 and Q3 "
-      "its projection onto polynomials of one degree less; in implicit steps "
-      "the pressure of a cell where soil dilates is such a polynomial, too.");
+                  ". Basis of P2, P3, Q2 and Q3. Automatic: Lagrange for FEM; "
+                  "Bernstein, which is non-negative, for MPM.");
+    add_parameter("B-bar",
+                  b_bar,
+                  "Whether B-bar prevents volumetric locking, for Q1 to Q3 and "
+                  "B-splines: the volumetric strain of a cell is its mean over "
+                  "the points of the cell, or for Q2 and Q3 its projection "
+                  "onto polynomials of one degree less. In implicit steps of "
+                  "dilatant soil the pressure is projected in the same way.");
   }
 
   std::string

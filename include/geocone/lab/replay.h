@@ -46,8 +46,9 @@ namespace geocone::GEOCONE_DIM
       : dealii::ParameterAcceptor("/Output")
       , path(path)
     {
-      if_exists.declare(
-        *this, "If folder exists", ". What to do if it is not empty.");
+      if_exists.declare(*this,
+                        "If folder exists",
+                        ". How to treat a folder that is not empty.");
     }
 
     /** Makes the folder, if requested. @throws InputError */

@@ -155,11 +155,11 @@ namespace geocone::GEOCONE_DIM
     declare_places()
     {
       given.declare_growth(*this);
-      this->add_parameter("Cohesion formula",
-                          profile_text,
-                          "Cohesion (Pa) as a formula in the coordinates of "
-                          "the place where a point begins, in place of "
-                          "'Cohesion'. Empty: none.");
+      this->add_parameter(
+        "Cohesion formula",
+        profile_text,
+        "Cohesion [Pa] as a formula in the initial coordinates of a point, "
+        "instead of 'Cohesion'. Empty: not used.");
     }
 
     std::string               profile_text;

@@ -17,11 +17,11 @@ namespace geocone
     Outflow()
       : dealii::ParameterAcceptor("/Particles")
     {
-      kind.declare(*this,
-                   "Outflow",
-                   ": what becomes of a particle that leaves the background "
-                   "mesh. Error: the run ends and names it. Count: it is "
-                   "removed and counted.");
+      kind.declare(
+        *this,
+        "Outflow",
+        ": treatment of a particle that leaves the background mesh. Error: the "
+        "run ends and names it. Count: it is removed and counted.");
     }
 
     bool
