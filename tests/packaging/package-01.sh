@@ -34,7 +34,8 @@ assert geocone.example("footing_fem.prm").is_relative_to(tree)'
 /usr/bin/python3 - <<'PYTHON'
 import pathlib, re
 folder = pathlib.Path("tree/usr/share/doc/geocone")
-pages = [*folder.glob("cookbook/*.md"), *folder.glob("theory/*.md"), *folder.glob("*.md"),
+pages = [*folder.glob("cookbook/*.md"), *folder.glob("theory/*.md"),
+         *folder.glob("tutorials/*.md"), *folder.glob("*.md"),
          *folder.glob("notebooks/*.ipynb")]
 seen = 0
 for page in pages:
