@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
+#include <geocone/base/parameter_reference.h>
 #include <geocone/base/unused_parameters.h>
 
 #include <algorithm>
@@ -161,7 +162,10 @@ namespace geocone
         if (std::string star; matches(rule.parameter, path, star))
           all.push_back(
             needed(rule, with_star(rule.chooser, star)) +
-            (rule.other.empty() ? "" : " or " + with_star(rule.other, star)));
+            (rule.other.empty()
+               ? ""
+               : " or " +
+                   with_star(rule.other, star.empty() ? any_name : star)));
       return all;
     };
     return {of(declared_rules().of_sections),
