@@ -156,8 +156,11 @@ namespace geocone
           return "three numbers x, y, z";
         if (pattern.find("length 2...2 ") != std::string::npos)
           return "two numbers x, y";
-        return doubles ? "numbers, separated by commas"
-                       : "names, separated by commas";
+        const bool integers = pattern.find("[Integer") != std::string::npos;
+        return std::string(doubles    ? "numbers"
+                           : integers ? "whole numbers"
+                                      : "names") +
+               ", separated by commas";
       }
     return "text";
   }
