@@ -224,7 +224,7 @@ namespace geocone
       return list;
     }
 
-    /** The unit that a text has in brackets; empty: none. */
+    /** The unit of a value, which its text has in brackets; empty: none. */
     std::string
     unit_in(const std::string &documentation)
     {

@@ -228,7 +228,7 @@ namespace geocone::GEOCONE_DIM
     add_parameter("Show tensors",
                   show_tensors,
                   "Whether fields and tables also contain the components of "
-                  "the similarity centre a [Pa] and the inclination beta [-].");
+                  "the similarity centre a (Pa) and the inclination beta (-).");
     if_outside.declare(
       *this,
       "Stress outside",

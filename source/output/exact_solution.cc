@@ -38,15 +38,14 @@ namespace geocone::GEOCONE_DIM
   {
     texts.fill("none");
     for (unsigned int i = 0; i < names_of_components.size(); ++i)
-      add_parameter(
-        names_of_components[i],
-        texts[i],
-        (std::string("Formula in ") + coordinates +
-         " [m] and t [s] of the exact ") +
-          (i < dim ? "displacement [m]" : "stress [Pa]") +
-          " at the end of the run, or none. Coordinates are initial positions "
-          "of particles. All components or none are given; relative L2 errors "
-          "are written to summary.json.");
+      add_parameter(names_of_components[i],
+                    texts[i],
+                    std::string("Exact ") +
+                      (i < dim ? "displacement [m]" : "stress [Pa]") +
+                      " at the end of the run as a formula in " + coordinates +
+                      " (m) and t (s), or none. Coordinates are initial "
+                      "positions of particles. All components or none are "
+                      "given; relative L2 errors are written to summary.json.");
   }
 
   void

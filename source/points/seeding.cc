@@ -153,10 +153,10 @@ namespace geocone::GEOCONE_DIM
       std::string("File: .csv file with the names of columns in the first "
                   "line, or .h5 file with a dataset for each: ") +
         (dim == 2
-           ? "x, y [m], volume [m^2]; optionally material (name, or number "
-             "from 0), vx, vy [m/s], sxx, syy, sxy [Pa]"
-           : "x, y, z [m], volume [m^3]; optionally material (name, or number "
-             "from 0), vx, vy, vz [m/s], sxx, syy, sxy, szz, syz, szx [Pa]") +
+           ? "x, y (m), volume (m^2); optionally material (name, or number "
+             "from 0), vx, vy (m/s), sxx, syy, sxy (Pa)"
+           : "x, y, z (m), volume (m^3); optionally material (name, or number "
+             "from 0), vx, vy, vz (m/s), sxx, syy, sxy, szz, syz, szx (Pa)") +
         ". Paths are relative to the folder of the parameter file, or else to "
         "the working folder.");
   }

@@ -55,12 +55,12 @@ namespace geocone::GEOCONE_DIM
       "Where",
       where_text,
       std::string("Formula in ") + coordinates +
-        " [m] that restricts the condition to where it is > 0, e.g. 0.25 - x^2 "
+        " (m) that restricts the condition to where it is > 0, e.g. 0.25 - x^2 "
         "for |x| < 0.5 m. Empty: everywhere. Nodes and faces should not lie on "
         "its zero line, where rounding decides.");
     const std::string documentation =
       unit + " as a formula in " + coordinates +
-      " [m] and t [s], or 'record FILE.csv' with the columns t [s] and v, or t "
+      " (m) and t (s), or 'record FILE.csv' with the columns t (s) and v, or t "
       "and a, which is integrated; '" +
       unset + "': none.";
     for (unsigned int c = 0; c < dim; ++c)
@@ -85,13 +85,13 @@ namespace geocone::GEOCONE_DIM
         imposition.declare(
           *this,
           "Imposed on",
-          ". Points at which velocities are imposed. FEM: nodes. MPM: nodes: "
-          "nodes on sides of the background mesh (bottom, right, top, left). "
-          "The others apply to the first row of particles of sides of the "
-          "body. Points: each particle, by the grid velocity there; particles "
-          "(FLIP): by its own FLIP velocity; cell averages; mean of points: "
-          "average over all; segments: averages over segments of the side, "
-          "which moves as prescribed.");
+          ". Where velocities are imposed. FEM: nodes. MPM: nodes on sides of "
+          "the background mesh (bottom, right, top, left); all others on the "
+          "first row of particles of sides of the body. Points: each particle, "
+          "by the grid velocity there. Particles (FLIP): each particle, by its "
+          "FLIP velocity. Cell averages. Mean of points: average over all. "
+          "Segments: averages over segments of the side, which moves as "
+          "prescribed.");
         add_parameter(
           "Segments",
           n_segments,

@@ -259,7 +259,7 @@ namespace geocone::GEOCONE_DIM
     symmetry.declare(*this,
                      "Symmetry",
                      ". Axisymmetric: x >= 0 is the radius and y the axis; "
-                     "forces are those of the full circumference [N]. For FEM "
+                     "forces are those of the full circumference (N). For FEM "
                      "and MPM, with laws of the full stress tensor.");
     add_parameter("Dimension",
                   dimension,
@@ -280,7 +280,7 @@ namespace geocone::GEOCONE_DIM
                   where_text,
                   std::string("MPM: restricts the body to the part of the "
                               "shape where this formula in ") +
-                    coordinates + " [m] is > 0, e.g. " +
+                    coordinates + " (m) is > 0, e.g. " +
                     (dim == 2 ? "0.25 - x^2 - y^2" : "0.25 - x^2 - z^2") +
                     " for a " + (dim == 2 ? "disc" : "cylinder") +
                     " of radius 0.5 m. Empty: entire shape.");
@@ -602,9 +602,9 @@ namespace geocone::GEOCONE_DIM
     points.declare(
       *this,
       "Points",
-      " of this material with implicit MPM. Fixed: fixed quadrature points of "
-      "the background mesh with small strains, as with finite elements, beside "
-      "moving materials.");
+      ". Points of this material with implicit MPM. Fixed: fixed quadrature "
+      "points of the background mesh with small strains, as with finite "
+      "elements, beside moving materials.");
   }
 
   void

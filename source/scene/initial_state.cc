@@ -78,11 +78,10 @@ namespace geocone::GEOCONE_DIM
   {
     texts.fill("0");
     for (unsigned int c = 0; c < dim; ++c)
-      add_parameter(
-        std::string("Velocity ") + coordinate[c],
-        texts[c],
-        std::string("Formula in ") + coordinates +
-          " [m] of the initial velocity [m/s]. Only for bodies with inertia.");
+      add_parameter(std::string("Velocity ") + coordinate[c],
+                    texts[c],
+                    std::string("Initial velocity [m/s] as a formula in ") +
+                      coordinates + " (m). Only for bodies with inertia.");
   }
 
   void
@@ -134,12 +133,14 @@ namespace geocone::GEOCONE_DIM
     type.declare(*this, "Type", ": stress before the first step.");
     texts.fill("0");
     for (unsigned int i = 0; i < texts.size(); ++i)
-      add_parameter(name_of_stress(i),
-                    texts[i],
-                    i == 0
-                      ? std::string("For 'given': formula in ") + coordinates +
-                          " [m] of the stress [Pa], tension positive."
-                      : std::string("As Stress xx."));
+      add_parameter(
+        name_of_stress(i),
+        texts[i],
+        i == 0
+          ? std::string(
+              "For 'given': stress [Pa], tension positive, as a formula in ") +
+              coordinates + " (m)."
+          : std::string("Stress [Pa], as 'Stress xx'."));
     of_added.declare(
       *this,
       "Of added materials",
@@ -148,7 +149,8 @@ namespace geocone::GEOCONE_DIM
     if (dim == 2)
       add_parameter("Stress zz",
                     text_zz,
-                    "For 'given': as Stress xx; empty: equal to Stress xx.");
+                    "For 'given': stress [Pa], as 'Stress xx'. Empty: equal to "
+                    "'Stress xx'.");
     add_parameter(
       "K0",
       k0_text,

@@ -132,7 +132,7 @@ namespace geocone::GEOCONE_DIM
         std::string("Excavation: points (FEM: cells, by their centres) where "
                     "this formula in ") +
           coordinates +
-          " [m] is > 0 are removed at the beginning of the stage, e.g. y - x "
+          " (m) is > 0 are removed at the beginning of the stage, e.g. y - x "
           "above a slope of 45 degrees; if 'Removed polygon' is given too, "
           "only those in both.");
       stage.add_parameter(

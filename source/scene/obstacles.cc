@@ -66,7 +66,7 @@ namespace geocone::GEOCONE_DIM
           "and 'Height'.");
     sliding.declare(*this,
                     "Sliding",
-                    " sliding along its boundary. Small (FEM): nodes keep "
+                    ": sliding along the boundary. Small (FEM): nodes keep "
                     "their initial projection on the boundary, consistent with "
                     "small strains, so that none slides off its edge; the load "
                     "of a smooth footing is that of its full width.");
@@ -113,7 +113,7 @@ namespace geocone::GEOCONE_DIM
         std::string("Velocity of the obstacle") +
           (k < dim ? "'s centre [m/s]"
                    : " about its centre [rad/s], counterclockwise,") +
-          " as a formula in t [s]; or free: from the equations of motion.");
+          " as a formula in t (s); or free: from the equations of motion.");
     for (unsigned int k = 0; k < n_motions; ++k)
       add_parameter(
         load_name(k),
@@ -122,7 +122,7 @@ namespace geocone::GEOCONE_DIM
           (k < dim ? ", at its centre" : ": moment about its centre") +
           (dim == 2 ? (k < dim ? " [N/m]" : " [N]")
                     : (k < dim ? " [N]" : " [N m]")) +
-          ", in addition to its weight, as a formula in t [s].");
+          ", in addition to its weight, as a formula in t (s).");
     add_parameter("Mass",
                   mass,
                   dim == 2

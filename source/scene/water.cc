@@ -29,7 +29,7 @@ namespace geocone::GEOCONE_DIM
       "File",
       file,
       ".csv file of pore pressures instead of a table, e.g. of a seepage "
-      "analysis, with the columns x, y [m] and u [Pa], a row for each point of "
+      "analysis, with the columns x, y (m) and u (Pa), a row for each point of "
       "a rectangular grid around the body. At the ground surface it is the "
       "pressure of the open water.");
     add_parameter("Unit weight", unit_weight, "Unit weight of water [N/m^3].");

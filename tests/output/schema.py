@@ -63,7 +63,9 @@ assert found[*material, "Cohesion"]["x-unit"] == "Pa"
 assert found[*material, "Cohesion"]["type"] == "number"
 assert found["Loading", "NAME", "Strength factor"]["x-used-with"][-1] == (
     "Discretisation/Method = FEM or MPM")
-assert found["Geometry", "Polygon"]["default"][1] == [1, 0]
+assert found["Geometry", "Polygon"]["default"][1][:2] == [1, 0]
+assert found["Boundary conditions", "NAME", "Velocity x"]["x-unit"] == "m/s"
+assert "x-unit" not in found["Particles", "File"]
 try:
     import jsonschema
 except ImportError:
