@@ -20,13 +20,14 @@ namespace geocone::GEOCONE_DIM
   void
   BoundScene::change(const unsigned int material,
                      const double       tan_phi,
-                     const double       k_factor)
+                     const double       k_factor,
+                     const double       tension_factor)
   {
     const double cos_phi = 1. / std::sqrt(1. + tan_phi * tan_phi);
     PointCone   &cone    = cones[material];
     cone.a               = tan_phi * cos_phi;
     cone.k *= k_factor * cos_phi;
-    cone.opening *= k_factor;
+    cone.opening *= tension_factor;
     growth[material].slope *= k_factor * cos_phi;
   }
 

@@ -355,7 +355,7 @@ namespace geocone::GEOCONE_DIM
       for (const double y : {lowest, highest})
         units.stress =
           std::max(units.stress, flow_cones[m].k + growth[m].at(y));
-    double dead = 0.; // sum of the dead loads
+    double dead = 0.; // the largest dead load
     for (unsigned int m = 0; m < scene.materials.size(); ++m)
       dead =
         std::max(dead,
@@ -414,7 +414,7 @@ namespace geocone::GEOCONE_DIM
       if (scene.materials[m].is_reduced())
         {
           const double a = flow_cones[m].a, cos_phi = std::sqrt(1. - a * a);
-          bound.change(m, a / cos_phi / F, 1. / cos_phi / F);
+          bound.change(m, a / cos_phi / F, 1. / cos_phi / F, 1. / F);
         }
     return bound;
   }
@@ -431,7 +431,7 @@ namespace geocone::GEOCONE_DIM
         const double    cos_theta = std::sqrt(1. - cone.b * cone.b),
                      by           = scene.materials[m].is_reduced() ? F : 1.,
                      reduction    = cos_theta / (1. - cone.a * cone.b) / by;
-        bound.change(m, reduction * cone.a, reduction);
+        bound.change(m, reduction * cone.a, reduction, 1. / by);
       }
     return bound;
   }

@@ -162,11 +162,13 @@ namespace geocone::GEOCONE_DIM
       return cone;
     }
 
-    /** Changes a material's strength: tan(phi), and k over cos(phi) times a factor. */
+    /** Changes a material's strength: tan(phi), k over cos(phi) times a factor, and the
+     *  tensile strength times another one. */
     void
     change(const unsigned int material,
            const double       tan_phi,
-           const double       k_factor);
+           const double       k_factor,
+           const double       tension_factor);
   };
 
   /**
