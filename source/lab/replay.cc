@@ -6,7 +6,7 @@
 #include <geocone/lab/replay.h>
 #include <geocone/problem/frozen_problem.h>
 #include <geocone/reduced/stress_methods.h>
-#include <geocone/scene/geometry.h>
+#include <geocone/scene/regions.h>
 
 #include <deal.II/base/timer.h>
 

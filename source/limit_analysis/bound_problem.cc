@@ -519,6 +519,8 @@ namespace geocone::GEOCONE_DIM
      * Upper estimate of the dissipation: for linear strength and a convex function D of
      * linear rates, the integrand is at most sum_ij l_i l_j k_i D(e_j), l_i the
      * barycentric coordinates, whose integral is A/3 sum_j D(e_j) (k_j + sum_i k_i)/4.
+     * With a cut-off, D has the factor k - a opening, which must not be negative: where
+     * the cone is smaller than the cut-off, it is enlarged to it.
      */
     void
     bound_dissipation_from_above(BoundProblem &problem)
@@ -526,9 +528,13 @@ namespace geocone::GEOCONE_DIM
       for (unsigned int c = 0; c < problem.n_triangles; ++c)
         {
           PointCone *const cone = &problem.cone[3 * c];
-          const double     k[3] = {cone[0].k, cone[1].k, cone[2].k};
-          if (k[0] == k[1] && k[1] == k[2])
+          if (cone[0].k == cone[1].k && cone[1].k == cone[2].k)
             continue;
+          double k[3];
+          for (unsigned int i = 0; i < 3; ++i)
+            k[i] = cone[i].is_cut()
+                     ? std::max(cone[i].k, cone[i].a * cone[i].opening)
+                     : cone[i].k;
           for (unsigned int i = 0; i < 3; ++i)
             cone[i].k = (k[i] + k[0] + k[1] + k[2]) / 4.;
         }

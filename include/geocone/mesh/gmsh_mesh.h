@@ -7,6 +7,7 @@
 #include <geocone/mesh/coarse_mesh.h>
 #include <geocone/mesh/mesh_parameters.h>
 #include <geocone/scene/contacts.h>
+#include <geocone/scene/regions.h>
 
 #include <array>
 #include <vector>

@@ -7,7 +7,7 @@
 #include <geocone/mesh/coarse_mesh.h>
 #include <geocone/mesh/msh_file.h>
 #include <geocone/scene/contacts.h>
-#include <geocone/scene/geometry.h>
+#include <geocone/scene/regions.h>
 
 #include <string>
 

@@ -6,7 +6,7 @@
 
 #include <geocone/base/choice.h>
 #include <geocone/functions/expression.h>
-#include <geocone/scene/geometry.h>
+#include <geocone/scene/regions.h>
 #include <geocone/scene/loading.h>
 
 #include <deal.II/base/parameter_acceptor.h>

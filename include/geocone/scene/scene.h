@@ -6,7 +6,7 @@
 
 #include <geocone/scene/boundary_conditions.h>
 #include <geocone/scene/contacts.h>
-#include <geocone/scene/geometry.h>
+#include <geocone/scene/regions.h>
 #include <geocone/scene/initial_state.h>
 #include <geocone/scene/loading.h>
 #include <geocone/scene/observation.h>
