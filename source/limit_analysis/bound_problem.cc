@@ -4,6 +4,7 @@
 #include <geocone/base/exceptions.h>
 #include <geocone/cone/second_order_cone.h>
 #include <geocone/limit_analysis/bound_problem.h>
+#include <geocone/limit_analysis/interface_cells.h>
 
 #include <algorithm>
 #include <array>
@@ -31,6 +32,13 @@ namespace geocone::GEOCONE_DIM
     growth[material].slope *= k_factor * cos_phi;
   }
 
+  Eigen::VectorXd &
+  BoundScene::loads(BoundProblem &problem, const LoadFactor kind) const
+  {
+    return factor == kind || factor == LoadFactor::all ? problem.live
+                                                       : problem.dead;
+  }
+
   bool
   BoundProblem::has_incompressible() const
   {
@@ -56,9 +64,6 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    /** Cone of an excluded point, whose B is zero. */
-    constexpr PointCone nothing = {0., 1.};
-
     /** sym(b x g) of the unit vector b along a component, in cone axes. */
     Mandel
     symmetric_part(const unsigned int component, const Tensor<1, dim> &g)
@@ -69,10 +74,8 @@ namespace geocone::GEOCONE_DIM
       return to_cone_axes(e);
     }
 
-    using Strains = Eigen::Matrix<double, 3, Eigen::Dynamic>;
-
-    /** The triangles with a point whose cone a cut-off reduces; that of others is left
-     *  out. */
+    /** Finds the triangles where a cut-off reduces the cone of a point, and removes the
+     *  cut-off of the others. */
     std::vector<unsigned int>
     cut_triangles(std::vector<PointCone> &cone)
     {
@@ -91,8 +94,9 @@ namespace geocone::GEOCONE_DIM
       return all;
     }
 
-    /** What all spaces share: points, cones, and room for n dofs and those of cut-offs.
-     *  @param n_columns the most dofs that a point knows but those of its cut-off */
+    /** Problem with points, cones and zero vectors, and dofs for the cut-offs.
+     *  @param n_columns largest number of dofs of a point, without its cut-off
+     *  @param n_dofs without cut-offs */
     BoundProblem
     begin_problem(const BoundScene &bound,
                   unsigned int      n_columns,
@@ -124,7 +128,7 @@ namespace geocone::GEOCONE_DIM
       return problem;
     }
 
-    /** The dofs of the rate w of a point of a cut-off. @param c its place in
+    /** Dofs of the rate w of a point of a cut-off. @param c index in
      *  BoundProblem::cut */
     std::vector<unsigned int>
     cut_dofs(const BoundProblem &problem,
@@ -140,7 +144,7 @@ namespace geocone::GEOCONE_DIM
     add_point_of_triangle(BoundProblem             &problem,
                           const unsigned int        triangle,
                           const unsigned int        i,
-                          Strains                   B,
+                          StrainMatrix              B,
                           std::vector<unsigned int> dofs)
     {
       const auto cut =
@@ -159,7 +163,6 @@ namespace geocone::GEOCONE_DIM
     void
     add_cut_offs(BoundProblem &problem)
     {
-      problem.n_interfaces = problem.owner.size();
       for (unsigned int c = 0; c < problem.cut.size(); ++c)
         {
           const unsigned int triangle = problem.cut[c];
@@ -173,15 +176,6 @@ namespace geocone::GEOCONE_DIM
                             cut_dofs(problem, c, i));
             }
         }
-    }
-
-    /** The vector to which tractions or weight are added. */
-    Eigen::VectorXd &
-    loads(BoundProblem &problem, const BoundScene &bound, const LoadFactor kind)
-    {
-      return bound.factor == kind || bound.factor == LoadFactor::all
-               ? problem.live
-               : problem.dead;
     }
 
     /** Weight of a cell per area, in units. */
@@ -206,17 +200,11 @@ namespace geocone::GEOCONE_DIM
                     const unsigned int cell,
                     const Function    &add)
     {
-      add(loads(problem, bound, LoadFactor::weight), weight(bound, cell));
+      add(bound.loads(problem, LoadFactor::weight), weight(bound, cell));
       if (bound.scene.water.acts())
-        {
-          const Triangles &triangles = bound.triangles;
-          Point<dim>       centre;
-          for (const unsigned int v : triangles.cells[cell])
-            centre += triangles.vertices[v] / 3.;
-          add(loads(problem, bound, LoadFactor::all),
-              bound.scene.water.force(centre) *
-                (bound.units.length / bound.units.stress));
-        }
+        add(bound.loads(problem, LoadFactor::all),
+            bound.scene.water.force(bound.triangles.centre(cell)) *
+              (bound.units.length / bound.units.stress));
     }
 
     /** The outward normal of a boundary edge. */
@@ -291,7 +279,7 @@ namespace geocone::GEOCONE_DIM
                 problem.is_prescribed[node.dof + d] = true;
                 problem.prescribed[node.dof + d]    = value;
               });
-      Eigen::VectorXd &F = loads(problem, bound, LoadFactor::tractions);
+      Eigen::VectorXd &F = bound.loads(problem, LoadFactor::tractions);
       for (const auto &load : bound.scene.tractions.list)
         for (const auto &held : triangles.held_edges(*load))
           {
@@ -312,188 +300,13 @@ namespace geocone::GEOCONE_DIM
           }
     }
 
-    /** Point of an interface. */
-    struct InterfacePoint
-    {
-      double part = 0.; ///< share of the edge's length
-
-      /** The x dofs of the edge's nodes, with their weights in the velocity. */
-      std::vector<std::pair<unsigned int, double>> nodes;
-
-      /** Point where the obstacle's linear velocity is evaluated. */
-      Point<dim> place;
-    };
-
-    /** Number of dofs of the obstacles' motions and of the openings, three per
-     *  interface. */
-    unsigned int
-    n_dofs_of_interfaces(const BoundScene &bound)
-    {
-      unsigned int n =
-        RigidMotion::n_components * bound.scene.obstacles.list.size();
-      for (const Interface &interface : bound.interfaces)
-        n += interface.opens() ? 3 : 0;
-      return n;
-    }
-
-    /** Prescribes the velocities of obstacles, or loads those that are free.
-     *  @param first_dof of n_dofs_of_interfaces() */
-    void
-    move_obstacles(const BoundScene  &bound,
-                   const unsigned int first_dof,
-                   BoundProblem      &problem)
-    {
-      const Obstacles &obstacles = bound.scene.obstacles;
-      const double     L         = bound.units.length;
-      for (unsigned int o = 0; o < obstacles.list.size(); ++o)
-        {
-          const Obstacle   &obstacle = *obstacles.list[o];
-          const RigidMotion velocity = obstacle.velocity(0.),
-                            force    = obstacle.load(0.);
-          const Tensor<1, dim> weight =
-            obstacle.inertia(0) *
-            bound.scene.gravity.at(std::numeric_limits<double>::max());
-          for (unsigned int k = 0; k < n_motions; ++k)
-            {
-              const unsigned int dof     = first_dof + n_motions * o + k;
-              const double       turn    = k < dim ? 1. : L;
-              problem.is_prescribed[dof] = !obstacle.is_free(k);
-              problem.prescribed[dof] =
-                velocity[k] * turn / bound.units.velocity;
-              if (!obstacle.is_free(k))
-                continue;
-              const double unit = bound.units.stress * L * turn;
-              loads(problem, bound, LoadFactor::tractions)[dof] +=
-                force[k] / unit;
-              if (k < dim)
-                loads(problem, bound, LoadFactor::weight)[dof] +=
-                  weight[k] / unit;
-            }
-        }
-    }
-
-    /**
-     * Relative velocity across an interface at a point, for a unit value of each dof.
-     */
-    struct PassingVelocity
-    {
-      std::vector<unsigned int>   dofs;
-      std::vector<Tensor<1, dim>> G;
-
-      void
-      add(const unsigned int dof, const Tensor<1, dim> &velocity)
-      {
-        dofs.push_back(dof);
-        G.push_back(velocity);
-      }
-
-      /** In cone axes, restricted to the components bounded by a face. @param N the
-       *  normal */
-      Strains
-      strains(const Interface::Face &face, const Tensor<1, dim> &N) const
-      {
-        const Tensor<1, dim> T({-N[1], N[0]});
-        Strains              B = Strains::Zero(3, dofs.size());
-        for (unsigned int j = 0; j < dofs.size(); ++j)
-          {
-            if (face.has_normal)
-              B(0, j) = -(G[j] * N);
-            if (face.has_tangential)
-              B(1, j) = -(G[j] * T);
-          }
-        return B;
-      }
-    };
-
-    /** Relative velocity of the nodes of an edge and of the obstacle, if any. */
-    PassingVelocity
-    velocity_past(const BoundScene     &bound,
-                  const Interface      &interface,
-                  const InterfacePoint &point,
-                  const unsigned int    first_dof)
-    {
-      PassingVelocity passing;
-      for (const auto &[dof, part] : point.nodes)
-        for (unsigned int d = 0; d < dim; ++d)
-          passing.add(dof + d, part * Point<dim>::unit_vector(d));
-      if (const int o = interface.obstacle; o >= 0)
-        for (unsigned int k = 0; k < n_motions; ++k)
-          passing.add(
-            first_dof + n_motions * o + k,
-            -1. * RigidMotion::of_point(
-                    k,
-                    (point.place - bound.scene.obstacles.list[o]->centre()) /
-                      bound.units.length));
-      return passing;
-    }
-
-    /**
-     * Adds the interfaces as cells; prescribes the obstacles' velocities, or loads free
-     * ones.
-     * @param points_of (edge) -> its three points
-     * @param first_dof of n_dofs_of_interfaces()
-     */
-    template <typename PointsOfEdge>
-    void
-    add_interfaces(const BoundScene   &bound,
-                   const PointsOfEdge &points_of,
-                   const unsigned int  first_dof,
-                   BoundProblem       &problem)
-    {
-      move_obstacles(bound, first_dof, problem);
-      unsigned int opening =
-        first_dof + n_motions * bound.scene.obstacles.list.size();
-      for (const Interface &interface : bound.interfaces)
-        {
-          const auto &ends =
-            bound.triangles.edges[interface.held.edge].vertices;
-          const double length = bound.triangles.vertices[ends[0]].distance(
-                                  bound.triangles.vertices[ends[1]]) /
-                                bound.units.length;
-          const std::array<InterfacePoint, 3> points =
-            points_of(interface.held.edge);
-          const Tensor<1, dim> &N = interface.normal;
-          for (const Interface::Face &face : interface.faces)
-            {
-              for (unsigned int i = 0; i < 3; ++i)
-                {
-                  const InterfacePoint &point = points[i];
-                  const bool            acts =
-                    !point.nodes.empty() &&
-                    !problem.has_no_force[point.nodes.front().first];
-                  problem.volume.push_back(length * point.part);
-                  problem.cone.push_back(
-                    acts ? PointCone{face.a, face.k / bound.units.stress}
-                         : nothing);
-                  PassingVelocity passing;
-                  if (acts)
-                    passing = velocity_past(bound, interface, point, first_dof);
-                  if (interface.opens())
-                    {
-                      const bool is_first = &face == &interface.faces.front();
-                      if (!is_first)
-                        passing = {};
-                      if (acts)
-                        passing.add(opening + i, is_first ? -1. * N : N);
-                      else
-                        problem.is_prescribed[opening + i] =
-                          problem.has_no_force[opening + i] = true;
-                    }
-                  problem.B.add(passing.strains(face, N), passing.dofs);
-                }
-              problem.owner.push_back(interface.held.cell);
-            }
-          opening += interface.opens() ? 3 : 0;
-        }
-    }
-
-    /** Strains at vertex i of a cell of quadratic velocities, in cone axes.
+    /** StrainMatrix at vertex i of a cell of quadratic velocities, in cone axes.
      *  @param g gradients of its barycentric coordinates */
-    Strains
+    StrainMatrix
     strains_of_quadratic(const std::array<Tensor<1, dim>, 3> &g,
                          const unsigned int                   i)
     {
-      Strains B = Strains::Zero(3, 12);
+      StrainMatrix B = StrainMatrix::Zero(3, 12);
       for (unsigned int f = 0; f < 6; ++f)
         {
           // Gradient of the function of vertex f, or of the edge opposite to vertex f -
@@ -575,7 +388,7 @@ namespace geocone::GEOCONE_DIM
         for (unsigned int i = 0; i < 3; ++i)
           if (const unsigned int v = triangles.cells[c][i]; is_apex[v])
             {
-              problem.cone[3 * c + i] = nothing;
+              problem.cone[3 * c + i] = inactive_cone;
               problem.B.remove(3 * c + i);
               for (const unsigned int e : {(i + 1) % 3, (i + 2) % 3})
                 for (unsigned int d = 0; d < dim; ++d)
@@ -605,7 +418,7 @@ namespace geocone::GEOCONE_DIM
             {
               // The translation, and the ends at this vertex of both edges e, opposite
               // to vertex e: L_e n_e = -2 A grad lambda_e.
-              Strains                   B(3, 6);
+              StrainMatrix              B(3, 6);
               std::vector<unsigned int> dofs;
               for (unsigned int d = 0; d < dim; ++d)
                 {

@@ -25,7 +25,7 @@ namespace geocone::GEOCONE_DIM
       // phi = 0.
       options.flow_tolerance = above.has_incompressible() ? 1e-6 : 1e-8;
       // No field is known that repairs what is missed beside obstacles.
-      if (above.n_interfaces > 0)
+      if (above.n_interfaces() > 0)
         options.flow_margin = 10. * options.flow_tolerance;
       CertifiedBounds::Side side;
       side.solution   = InteriorPoint::solve(above, options);

@@ -18,8 +18,8 @@ namespace geocone
   }
 
   void
-  PointStrains::add(const Eigen::Matrix<double, 3, Eigen::Dynamic> &B,
-                    const std::vector<unsigned int>                &dofs_of_B)
+  PointStrains::add(const StrainMatrix              &B,
+                    const std::vector<unsigned int> &dofs_of_B)
   {
     const std::size_t first = dofs.size();
     values.resize(values.size() + 3 * n_columns, 0.);

@@ -61,6 +61,9 @@ namespace geocone::GEOCONE_DIM
     }
   };
 
+  /** Cone of a point without dofs: its B is zero. */
+  constexpr PointCone inactive_cone = {0., 1.};
+
   /**
    * Rigid-plastic problem with associated flow in a discrete space of velocities q. The
    * points are the vertices of the triangles, with one third of the area each:
@@ -88,7 +91,7 @@ namespace geocone::GEOCONE_DIM
     std::vector<double>    volume; ///< of each point
     std::vector<PointCone> cone;   ///< of each point
 
-    unsigned int n_triangles = 0, n_interfaces = 0;
+    unsigned int n_triangles = 0;
     /** The triangle at each later cell, of interfaces and of cut-offs. */
     std::vector<unsigned int> owner;
     std::vector<unsigned int> cut;               ///< triangles with a cut-off
@@ -117,11 +120,18 @@ namespace geocone::GEOCONE_DIM
     bool
     has_incompressible() const;
 
+    /** Number of cells of interfaces. */
+    unsigned int
+    n_interfaces() const
+    {
+      return owner.size() - cut.size();
+    }
+
     /** The first point of the cut-offs. */
     unsigned int
     first_cut_point() const
     {
-      return 3 * (n_triangles + n_interfaces);
+      return 3 * (n_triangles + n_interfaces());
     }
 
     /** The point of the triangle that a point of its cut-off belongs to. */
@@ -161,6 +171,10 @@ namespace geocone::GEOCONE_DIM
       cone.k += growth[material].at(x[1]);
       return cone;
     }
+
+    /** Vector to which tractions or weight are added. */
+    Eigen::VectorXd &
+    loads(BoundProblem &problem, const LoadFactor kind) const;
 
     /** Changes a material's strength: tan(phi), k over cos(phi) times a factor, and the
      *  tensile strength times another one. */

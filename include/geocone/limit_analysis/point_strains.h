@@ -11,6 +11,9 @@
 
 namespace geocone
 {
+  /** B of a point: a column for each of its dofs. */
+  using StrainMatrix = Eigen::Matrix<double, 3, Eigen::Dynamic>;
+
   /**
    * Matrices B_p of the strain rates B_p q of points, restricted to the dofs that
    * contribute: 6 of the 14 of a cell for the dual of linear stresses, 10 of 12 for
@@ -30,8 +33,7 @@ namespace geocone
      * Adds a point. @param B a column for each of the dofs; zero columns are dropped
      */
     void
-    add(const Eigen::Matrix<double, 3, Eigen::Dynamic> &B,
-        const std::vector<unsigned int>                &dofs);
+    add(const StrainMatrix &B, const std::vector<unsigned int> &dofs);
 
     /** Excludes a point from all sums. */
     void
