@@ -204,7 +204,8 @@ namespace geocone::GEOCONE_DIM
       "three or more vertices x, y; x, y; ... of a polygon whose sides do not "
       "meet";
     if (n < 3)
-      throw InputError(parameter, text_of_polygon(polygon), allowed, "give its vertices");
+      throw InputError(
+        parameter, text_of_polygon(polygon), allowed, "give its vertices");
     check_coordinates(polygon, parameter);
     double size = 0.;
     for (const Point<dim> &x : polygon)
@@ -232,8 +233,10 @@ namespace geocone::GEOCONE_DIM
                                " meet; check the order of the vertices");
       }
     if (std::abs(signed_area(polygon)) < 1e-9 * size * size)
-      throw InputError(
-        parameter, text_of_polygon(polygon), allowed, "the vertices lie on one line");
+      throw InputError(parameter,
+                       text_of_polygon(polygon),
+                       allowed,
+                       "the vertices lie on one line");
   }
 
   Geometry::Geometry(const ParameterFile &parameter_file)

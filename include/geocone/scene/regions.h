@@ -1,0 +1,124 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_scene_regions_h
+#define geocone_scene_regions_h
+
+#include <geocone/base/choice.h>
+#include <geocone/scene/geometry.h>
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace geocone::GEOCONE_DIM
+{
+  /**
+   * Materials by region of the domain: for each material a polygon, the part
+   * below a line, or a physical surface of a .msh file.
+   */
+  class Regions
+  {
+  public:
+    /** @param materials their names */
+    explicit Regions(const std::vector<std::string> &materials);
+
+    /** @param may_be_empty by material: materials that others become, which
+     *  need no region */
+    void
+    prepare(const Geometry          &geometry,
+            const std::vector<bool> &may_be_empty = {});
+
+    /** Whether the region of a material can be empty. */
+    bool
+    may_be_empty(const unsigned int material) const
+    {
+      return material == 0 ||
+             (material < empty_ones.size() && empty_ones[material]);
+    }
+
+    /** The polygons, for mesh generators. */
+    std::vector<Polygon>
+    polygons() const;
+
+    /** Polygon of a material; empty if it has none. */
+    const Polygon &
+    polygon_of(const unsigned int material) const
+    {
+      return regions[material]->outline;
+    }
+
+    /** Whether a material is identified by a physical surface. */
+    bool
+    have_groups() const;
+
+    /** @throws InputError if a file has no physical surface of a material
+     *  @param groups numbers and names (possibly empty) of the file */
+    void
+    check_groups(const std::map<int, std::string> &groups) const;
+
+    /** The material at x, outside of all physical surfaces. */
+    unsigned int
+    material_at(const dealii::Point<dim> &x) const;
+
+    /** The material at x in a cell of a physical surface.
+     *  @param name empty: unnamed */
+    unsigned int
+    material_at(const dealii::Point<dim> &x,
+                const int                 group,
+                const std::string        &name) const;
+
+    /** Whether the points of a material are fixed, like quadrature points,
+     *  while others move. */
+    bool
+    are_fixed(const unsigned int material) const
+    {
+      return regions[material]->points == Points::fixed;
+    }
+
+    /** @throws InputError if the points of a material are fixed. @param method
+     *  that moves all */
+    void
+    refuse_fixed(const std::string &method) const;
+
+  private:
+    enum class Points
+    {
+      moving,
+      fixed
+    };
+
+    class Region : public dealii::ParameterAcceptor
+    {
+    public:
+      explicit Region(const std::string &name);
+
+      void
+      prepare(const Geometry &geometry);
+
+      bool
+      has_group() const
+      {
+        return group != "-1";
+      }
+
+      bool
+      is_group(const int number, const std::string &name) const
+      {
+        return has_group() &&
+               (group == std::to_string(number) || group == name);
+      }
+
+      std::vector<dealii::Point<dim>> polygon, below;
+      std::string                     group = "-1"; ///< number or name
+      Polygon        outline; ///< the polygon, or the part below the line
+      Choice<Points> points = {
+        {{"moving", Points::moving}, {"fixed", Points::fixed}}};
+    };
+    std::vector<std::unique_ptr<Region>> regions;
+    std::vector<bool>                    empty_ones; ///< see may_be_empty()
+  };
+} // namespace geocone::GEOCONE_DIM
+
+#endif
