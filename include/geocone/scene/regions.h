@@ -106,8 +106,8 @@ namespace geocone::GEOCONE_DIM
       bool
       is_group(const int number, const std::string &name) const
       {
-        return has_group() &&
-               (group == std::to_string(number) || group == name);
+        return has_group() && (group == std::to_string(number) ||
+                               (group == name && !name.empty()));
       }
 
       std::vector<dealii::Point<dim>> polygon, below;
