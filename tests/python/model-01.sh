@@ -37,6 +37,16 @@ assert not particles["material_of_cell"] and particles["cells"]
 footing, = (s for s in particles["supports"] if any(map(any, s["values"])))
 assert all(value == [0., -0.02] for value in footing["values"]), footing["values"]
 PYTHON
+
+# The table of the report has soil without tension, and a cohesion that is a formula.
+PYTHONPATH=$root/python /usr/bin/python3 -B - <<'PYTHON'
+from geocone.plots.scene_tables import soils_of
+
+table = soils_of({"Materials/a/Tensile strength": "0", "Materials/a/Cohesion formula": "1e3 + y",
+                  "Materials/b/Tensile strength": "none"}, ["a", "b"])
+assert table.head[2:] == ["c(x, y) (Pa)", "tension (kPa)"], table
+assert [row[2:] for row in table.rows] == [["1e3 + y", "0"], ["", ""]], table
+PYTHON
 fails "$program" "$root/prm/footing_mpm.prm" --picture 2>said
 grep -q -- '--picture goes with --dry-run' said
 fails "$program" "$root/prm/element/cyclic_shear.prm" --dry-run --picture 2>said

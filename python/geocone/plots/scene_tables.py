@@ -18,14 +18,15 @@ Table = namedtuple("Table", "title head rows swatches")
 CONSTANTS = {
     "Density": ("ρ", "kg/m³", 1.), "Unit weight": ("γ", "kN/m³", 1e3),
     "Saturated unit weight": ("γsat", "kN/m³", 1e3),
-    "Cohesion": ("c", "kPa", 1e3), "Cohesion gradient": ("dc/dz", "kPa/m", 1e3),
+    "Cohesion": ("c", "kPa", 1e3), "Cohesion formula": ("c(x, y)", "Pa", 1.),
+    "Cohesion gradient": ("dc/dz", "kPa/m", 1e3),
     "Cohesion level": ("c at y", "m", 1.), "Undrained strength": ("su", "kPa", 1e3),
     "Tensile strength": ("tension", "kPa", 1e3),
     "Friction angle": ("φ", "°", 1.), "Dilatancy angle": ("ψ", "°", 1.),
     "Young modulus": ("E", "MPa", 1e6), "Poisson ratio": ("ν", "-", 1.), "K0": ("K0", "-", 1.),
     "Pore fluid bulk modulus": ("Kw/n", "MPa", 1e6)}
 # Settings of a material that describe where it is or how it is computed.
-SETTINGS = ("Type", "Region polygon", "Region number", "Region below", "Region name", "Points",
+SETTINGS = ("Type", "Region polygon", "Region number", "Region below", "Points",
             "Friction memory", "Show tensors", "Stress outside", "Error tolerance",
             "Smallest substep", "Lowest pressure")
 
@@ -53,9 +54,12 @@ def soil_text(values, key):
 
 
 def soils_of(parameters, names, absent=()):
-    """The table of the soils; a constant is a column if it is not zero in all of them."""
+    """The table of the soils; a constant is a column if it is not zero in all of them, the
+    tensile strength if it is given: zero is soil without tension."""
     values = [constants_of(parameters, name) for name in names]
-    keys = [key for key in CONSTANTS if any(number(of.get(key, "0")) != 0. for of in values)]
+    keys = [key for key in CONSTANTS if any(
+        number(of.get(key, "0")) != 0. or (key == "Tensile strength" and key in of)
+        for of in values)]
     if "Cohesion gradient" not in keys and "Cohesion level" in keys:
         keys.remove("Cohesion level")
     rest = [", ".join(f"{key} {text}" for key, text in of.items()
