@@ -6,6 +6,7 @@
 #include <geocone/limit_analysis/bounded_load.h>
 #include <geocone/limit_analysis/certified_bounds.h>
 #include <geocone/limit_analysis/mesh_from_bounds.h>
+#include <geocone/mesh/adapted_sizes.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/timer.h>
@@ -72,7 +73,7 @@ namespace geocone::GEOCONE_DIM
                 fault = "the limit load of this scene has no finite bounds";
               else
                 {
-                  next = sizes_by_gap(triangles, bounds.uneven, n_asked);
+                  next = adapted_sizes(triangles, bounds.uneven, n_asked);
                   gap  = (upper - lower) / std::abs(lower);
                   bracket.take(
                     proven(bounds.lower.bound, load.value_of_unit()),

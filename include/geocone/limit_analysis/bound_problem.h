@@ -7,7 +7,7 @@
 #include <geocone/cone/second_order_cone.h>
 #include <geocone/limit_analysis/interfaces.h>
 #include <geocone/limit_analysis/point_strains.h>
-#include <geocone/limit_analysis/triangles.h>
+#include <geocone/mesh/triangles.h>
 #include <geocone/scene/scene.h>
 
 #include <Eigen/Dense>

@@ -63,18 +63,6 @@ namespace geocone::GEOCONE_DIM
                  const Scene       &scene,
                  const Triangles   &triangles,
                  const double       tolerance);
-
-  /**
-   * Sizes of the next mesh that equalise the contributions to the gap, which scale with
-   * the size to the power 3. Contributions are averaged with those of neighbouring
-   * cells: a coarse cell beside refined ones would otherwise be refined one mesh later.
-   * @param gap CertifiedBounds::uneven
-   * @param n_wanted approximate number of triangles
-   */
-  CellSizes
-  sizes_by_gap(const Triangles           &triangles,
-               const std::vector<double> &gap,
-               const double               n_wanted);
 } // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -4,7 +4,7 @@
 #ifndef geocone_limit_analysis_interfaces_h
 #define geocone_limit_analysis_interfaces_h
 
-#include <geocone/limit_analysis/triangles.h>
+#include <geocone/mesh/triangles.h>
 #include <geocone/scene/scene.h>
 
 #include <vector>

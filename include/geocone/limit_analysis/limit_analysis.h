@@ -26,7 +26,8 @@ namespace geocone::GEOCONE_DIM
   {
     steps,             ///< motion, step by step
     limit_load,        ///< strict bounds of the limit load
-    strength_reduction ///< strict bounds of the factor of safety
+    strength_reduction, ///< strict bounds of the factor of safety
+    seepage             ///< steady flow of water alone
   };
 
   /**
@@ -106,6 +107,11 @@ namespace geocone::GEOCONE_DIM
     std::array<double, 2>
     estimate_by_davis() const;
 
+    /** The bracket certified by meshes: by the last one of both bounds where water
+     *  pressures differ between the meshes, otherwise by all. */
+    LoadBracket
+    certified_by(const std::vector<BoundLevel> &levels) const;
+
     /** The bracket certified so far, with that estimate. */
     LoadBracket
     bracket() const;
@@ -148,7 +154,8 @@ namespace geocone::GEOCONE_DIM
     Choice<AnalysisKind> analysis = {
       {{"steps", AnalysisKind::steps},
        {"limit load", AnalysisKind::limit_load},
-       {"strength reduction", AnalysisKind::strength_reduction}}};
+       {"strength reduction", AnalysisKind::strength_reduction},
+       {"seepage", AnalysisKind::seepage}}};
     double       gap_tolerance = 0.01;
     double       growth        = 2.;
     unsigned int most_cells    = 20000;

@@ -3,8 +3,8 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
-#include <geocone/limit_analysis/triangles.h>
 #include <geocone/mesh/fitted_mesh.h>
+#include <geocone/mesh/triangles.h>
 
 #include <algorithm>
 #include <cmath>
@@ -17,38 +17,53 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
+    /** Rounding error of the corners of a box (m). */
+    double
+    rounding_of(const std::array<Point<dim>, 2> &corners)
+    {
+      return 1e-9 * (1. + corners[0].distance(corners[1]));
+    }
+
     /** Overlap of the edge from a to b with the box of a condition, snapped to all or
      *  nothing within rounding. */
     double
-    part_in_box(const BoundaryCondition &condition,
-                const Point<dim>        &a,
-                const Point<dim>        &b)
+    part_in_box(const BoundaryPart &condition,
+                const Point<dim>   &a,
+                const Point<dim>   &b)
     {
       const auto corners = condition.box_corners();
       if (!corners)
         return 1.;
-      double       from = 0., to = 1.;
-      const double tolerance =
-        1e-9 * (1. + (*corners)[0].distance((*corners)[1]));
-      for (unsigned int d = 0; d < dim; ++d)
-        {
-          const double low   = (*corners)[0][d] - tolerance - a[d],
-                       high  = (*corners)[1][d] + tolerance - a[d],
-                       along = b[d] - a[d];
-          if (std::abs(along) < tolerance)
-            {
-              if (low > 0. || high < 0.)
-                return 0.;
-              continue;
-            }
-          from = std::max(from, std::min(low / along, high / along));
-          to   = std::min(to, std::max(low / along, high / along));
-        }
+      const auto [from, to] = interval_in_box(*corners, a, b);
       const double part     = std::max(0., to - from);
-      const double rounding = 1e-6 + 3. * tolerance / a.distance(b);
+      const double rounding = 1e-6 + 3. * rounding_of(*corners) / a.distance(b);
       return part < rounding ? 0. : part > 1. - rounding ? 1. : part;
     }
   } // namespace
+
+  std::array<double, 2>
+  interval_in_box(const std::array<Point<dim>, 2> &corners,
+                  const Point<dim>                &a,
+                  const Point<dim>                &b)
+  {
+    double       from = 0., to = 1.;
+    const double tolerance = rounding_of(corners);
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        const double low   = corners[0][d] - tolerance - a[d],
+                     high  = corners[1][d] + tolerance - a[d],
+                     along = b[d] - a[d];
+        if (std::abs(along) < tolerance)
+          {
+            if (low > 0. || high < 0.)
+              return {{0., 0.}};
+            continue;
+          }
+        from = std::max(from, std::min(low / along, high / along));
+        to   = std::min(to, std::max(low / along, high / along));
+      }
+    return {{from, to}};
+  }
 
   Triangles::Triangles(const CoarseMesh &mesh)
     : vertices(mesh.points)
@@ -93,7 +108,7 @@ namespace geocone::GEOCONE_DIM
   }
 
   std::vector<Triangles::HeldEdge>
-  Triangles::held_edges(const BoundaryCondition &condition) const
+  Triangles::held_edges(const BoundaryPart &condition) const
   {
     std::set<dealii::types::boundary_id> all;
     for (const Edge &edge : edges)

@@ -1,8 +1,8 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-#ifndef geocone_limit_analysis_triangles_h
-#define geocone_limit_analysis_triangles_h
+#ifndef geocone_mesh_triangles_h
+#define geocone_mesh_triangles_h
 
 #include <geocone/mesh/coarse_mesh.h>
 #include <geocone/scene/boundary_conditions.h>
@@ -14,6 +14,13 @@
 
 namespace geocone::GEOCONE_DIM
 {
+  /** Part of the segment from a to b in a box with these corners, as coordinates from 0
+   *  at a to 1 at b; empty if the first one is not smaller. */
+  std::array<double, 2>
+  interval_in_box(const std::array<dealii::Point<dim>, 2> &corners,
+                  const dealii::Point<dim>                &a,
+                  const dealii::Point<dim>                &b);
+
   /** Triangles of a mesh as plain arrays. */
   struct Triangles
   {
@@ -41,7 +48,7 @@ namespace geocone::GEOCONE_DIM
       unsigned int edge, cell, opposite_vertex;
     };
     std::vector<HeldEdge>
-    held_edges(const BoundaryCondition &condition) const;
+    held_edges(const BoundaryPart &condition) const;
 
     /** All boundary edges. */
     std::vector<HeldEdge>

@@ -1,0 +1,28 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_mesh_adapted_sizes_h
+#define geocone_mesh_adapted_sizes_h
+
+#include <geocone/mesh/gmsh_mesh.h>
+#include <geocone/mesh/triangles.h>
+
+#include <vector>
+
+namespace geocone::GEOCONE_DIM
+{
+  /**
+   * Sizes of the next mesh that equalise the contributions of cells to an error, which
+   * scale with the size to the power 3. Contributions are averaged with those of
+   * neighbouring cells: a coarse cell beside refined ones would otherwise be refined one
+   * mesh later.
+   * @param error contribution of each cell
+   * @param n_wanted approximate number of triangles
+   */
+  CellSizes
+  adapted_sizes(const Triangles           &triangles,
+                const std::vector<double> &error,
+                const double               n_wanted);
+} // namespace geocone::GEOCONE_DIM
+
+#endif
