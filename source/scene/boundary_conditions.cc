@@ -31,19 +31,10 @@ namespace geocone::GEOCONE_DIM
        {"segments"}}};
   } // namespace
 
-  BoundaryCondition::BoundaryCondition(const std::string &name,
-                                       const std::string &list,
-                                       const std::string &quantity,
-                                       const std::string &unit,
-                                       const std::string &unset,
-                                       const std::string &folder)
+  BoundaryPart::BoundaryPart(const std::string &name, const std::string &list)
     : dealii::ParameterAcceptor("/" + list + "/" + name)
     , name(name)
-    , quantity(quantity)
-    , unset(unset)
-    , folder(folder)
   {
-    texts.fill(unset);
     add_parameter(
       "Sides", sides, "Names of sides of the domain, comma-separated, or all.");
     add_parameter("Box",
@@ -58,6 +49,20 @@ namespace geocone::GEOCONE_DIM
         " (m) that restricts the condition to where it is > 0, e.g. 0.25 - x^2 "
         "for |x| < 0.5 m. Empty: everywhere. Nodes and faces should not lie on "
         "its zero line, where rounding decides.");
+  }
+
+  BoundaryCondition::BoundaryCondition(const std::string &name,
+                                       const std::string &list,
+                                       const std::string &quantity,
+                                       const std::string &unit,
+                                       const std::string &unset,
+                                       const std::string &folder)
+    : BoundaryPart(name, list)
+    , quantity(quantity)
+    , unset(unset)
+    , folder(folder)
+  {
+    texts.fill(unset);
     const std::string documentation =
       unit + " as a formula in " + coordinates +
       " (m) and t (s), or 'record FILE.csv' with the columns t (s) and v, or t "
@@ -108,7 +113,7 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
-  BoundaryCondition::check_sides(
+  BoundaryPart::check_sides(
     const std::map<std::string, dealii::types::boundary_id> &known,
     const std::string                                       &what) const
   {
@@ -124,7 +129,7 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
-  BoundaryCondition::check_selection(const unsigned int n_nodes) const
+  BoundaryPart::check_selection(const unsigned int n_nodes) const
   {
     if (n_nodes == 0)
       throw InputError(parameter("Box"),
@@ -136,13 +141,13 @@ namespace geocone::GEOCONE_DIM
   }
 
   std::string
-  BoundaryCondition::parameter(const std::string &entry) const
+  BoundaryPart::parameter(const std::string &entry) const
   {
     return get_section_name().substr(1) + "/" + entry;
   }
 
   void
-  BoundaryCondition::prepare()
+  BoundaryPart::prepare()
   {
     if (sides.empty())
       throw InputError(parameter("Sides"),
@@ -163,6 +168,12 @@ namespace geocone::GEOCONE_DIM
                        dealii::Patterns::Tools::to_string(box),
                        "empty, or lower left; upper right corner",
                        "e.g. -0.1, -1; 0.1, 1");
+  }
+
+  void
+  BoundaryCondition::prepare()
+  {
+    BoundaryPart::prepare();
     if (n_segments == 0)
       throw InputError(parameter("Segments"), n_segments, ">= 1", "2 is usual");
     if (!(shortening >= 0.))
@@ -227,7 +238,7 @@ namespace geocone::GEOCONE_DIM
   }
 
   std::string
-  BoundaryCondition::part() const
+  BoundaryPart::part() const
   {
     return "Sides = " + dealii::Patterns::Tools::to_string(sides) + ", Box = " +
            (box.empty() ? "" : dealii::Patterns::Tools::to_string(box)) +
@@ -235,7 +246,7 @@ namespace geocone::GEOCONE_DIM
   }
 
   bool
-  BoundaryCondition::is_on_side(const std::string &side) const
+  BoundaryPart::is_on_side(const std::string &side) const
   {
     return std::any_of(sides.begin(), sides.end(), [&](const auto &listed) {
       return listed == side || listed == "all";
@@ -243,7 +254,7 @@ namespace geocone::GEOCONE_DIM
   }
 
   bool
-  BoundaryCondition::holds_at(const dealii::Point<dim> &x) const
+  BoundaryPart::holds_at(const dealii::Point<dim> &x) const
   {
     // The formula need be defined in the box only.
     if (const auto corners = wide_box())
@@ -254,13 +265,13 @@ namespace geocone::GEOCONE_DIM
   }
 
   bool
-  BoundaryCondition::formula_holds(const dealii::Point<dim> &x) const
+  BoundaryPart::formula_holds(const dealii::Point<dim> &x) const
   {
     return !where || where->value(x, 0.) > 0.;
   }
 
   std::optional<std::array<dealii::Point<dim>, 2>>
-  BoundaryCondition::reach(
+  BoundaryPart::reach(
     const std::vector<std::vector<dealii::Point<dim>>> &faces) const
   {
     using dealii::Point;
@@ -327,7 +338,7 @@ namespace geocone::GEOCONE_DIM
   }
 
   std::optional<std::array<dealii::Point<dim>, 2>>
-  BoundaryCondition::wide_box() const
+  BoundaryPart::wide_box() const
   {
     if (box.empty())
       return std::nullopt;
@@ -343,7 +354,7 @@ namespace geocone::GEOCONE_DIM
   }
 
   std::optional<std::array<dealii::Point<dim>, 2>>
-  BoundaryCondition::box_corners() const
+  BoundaryPart::box_corners() const
   {
     if (where)
       throw InputError(parameter("Where"),

@@ -19,27 +19,14 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /**
-   * A condition on a part of the boundary: some of its sides, restricted to a
-   * box or to the region with a positive formula, if given. Base of prescribed
-   * velocities and tractions.
-   */
-  class BoundaryCondition : public dealii::ParameterAcceptor
+  /** A part of the boundary: some of its sides, restricted to a box or to the region with
+   *  a positive formula, if given. Base of all conditions on the boundary. */
+  class BoundaryPart : public dealii::ParameterAcceptor
   {
   public:
-    /**
-     * @param name name of this condition
-     * @param list section of the list, e.g. "Boundary conditions"
-     * @param quantity "Velocity", "Traction" or "Incoming velocity"
-     * @param unit for the documentation
-     * @param folder to which names of records are relative
-     */
-    BoundaryCondition(const std::string &name,
-                      const std::string &list,
-                      const std::string &quantity,
-                      const std::string &unit,
-                      const std::string &unset,
-                      const std::string &folder);
+    /** @param name name of the condition
+     *  @param list section of the list, e.g. "Boundary conditions" */
+    BoundaryPart(const std::string &name, const std::string &list);
 
     void
     prepare();
@@ -89,14 +76,6 @@ namespace geocone::GEOCONE_DIM
     void
     check_selection(const unsigned int n_nodes) const;
 
-    /** Formula of a Cartesian, the normal (dim) or the tangential component,
-     *  for messages. */
-    const std::string &
-    formula(const unsigned int component) const
-    {
-      return texts[component];
-    }
-
     /** Full name of one of its parameters, for messages. */
     std::string
     parameter(const std::string &entry) const;
@@ -109,6 +88,42 @@ namespace geocone::GEOCONE_DIM
 
     /** Names of the sides. */
     std::vector<std::string> sides;
+
+  private:
+    std::vector<dealii::Point<dim>> box;
+    std::string                     where_text;
+    std::optional<Expression>       where;
+  };
+
+  /** A condition on a part of the boundary, with components. Base of prescribed
+   *  velocities and tractions. */
+  class BoundaryCondition : public BoundaryPart
+  {
+  public:
+    /**
+     * @param name name of this condition
+     * @param list section of the list, e.g. "Boundary conditions"
+     * @param quantity "Velocity", "Traction" or "Incoming velocity"
+     * @param unit for the documentation
+     * @param folder to which names of records are relative
+     */
+    BoundaryCondition(const std::string &name,
+                      const std::string &list,
+                      const std::string &quantity,
+                      const std::string &unit,
+                      const std::string &unset,
+                      const std::string &folder);
+
+    void
+    prepare();
+
+    /** Formula of a Cartesian, the normal (dim) or the tangential component,
+     *  for messages. */
+    const std::string &
+    formula(const unsigned int component) const
+    {
+      return texts[component];
+    }
 
     /** Imposition method of a prescribed velocity. */
     Choice<const Imposition *> imposition = imposition_choice();
@@ -174,9 +189,6 @@ namespace geocone::GEOCONE_DIM
     const std::string                unset;
     const std::string                folder;
     std::array<std::string, dim + 2> texts;
-    std::vector<dealii::Point<dim>>  box;
-    std::string                      where_text;
-    std::optional<Expression>        where;
   };
 
   /**
