@@ -42,6 +42,17 @@ namespace geocone::GEOCONE_DIM
           }
       return nearest;
     }
+
+    void
+    set_materials_and_sides(CoarseMesh    &mesh,
+                            const Regions &regions,
+                            const Polygon &outline)
+    {
+      for (auto &cell : mesh.cells)
+        cell.material_id = regions.material_at(mesh.centre(cell));
+      for (const CoarseMesh::Face &face : mesh.outer_faces())
+        mesh.add_boundary(face, nearest_side(outline, mesh.centre(face)));
+    }
   } // namespace
 
   CoarseMesh
@@ -77,20 +88,45 @@ namespace geocone::GEOCONE_DIM
           }
         mesh =
           sizes != nullptr
-            ? mesh_with_sizes(parameters, scene.regions, lines, *sizes, comm)
+            ? mesh_with_sizes(
+                domain_of(parameters), scene.regions, lines, *sizes, comm)
             : unstructured_mesh(parameters, scene.regions, lines, comm);
       }
-    for (auto &cell : mesh.cells)
-      cell.material_id = scene.regions.material_at(mesh.centre(cell));
+    set_materials_and_sides(mesh, scene.regions, parameters.outline);
     mesh.sides = parameters.fits_body ? scene.geometry.sides : sides_of_box();
-    for (const CoarseMesh::Face &face : mesh.outer_faces())
-      mesh.add_boundary(face,
-                        nearest_side(parameters.outline, mesh.centre(face)));
+    return mesh;
+  }
+
+  CoarseMesh
+  triangles_of_body(const Scene                   &scene,
+                    const std::vector<Point<dim>> &vertices,
+                    const MeshLines               &lines,
+                    const CellSizes               &sizes,
+                    const MPI_Comm                 comm)
+  {
+    const Geometry &geometry = scene.geometry;
+    if (geometry.shape == Geometry::Shape::file)
+      {
+        CoarseMesh of_file =
+          mesh_of_file(geometry, scene.regions, nullptr, comm);
+        if (!of_file.has_simplices())
+          throw InputError("Geometry/File",
+                           geometry.file,
+                           "a mesh of triangles where water flows",
+                           "mesh the domain with triangles");
+        return of_file;
+      }
+    MeshDomain domain;
+    domain.outline  = geometry.outline;
+    domain.vertices = vertices;
+    CoarseMesh mesh = mesh_with_sizes(domain, scene.regions, lines, sizes, comm);
+    set_materials_and_sides(mesh, scene.regions, geometry.outline);
+    mesh.sides = geometry.sides;
     return mesh;
   }
 
   std::set<types::boundary_id>
-  side_ids(const BoundaryCondition                         &condition,
+  side_ids(const BoundaryPart                              &condition,
            const std::map<std::string, types::boundary_id> &sides,
            const std::vector<types::boundary_id>           &all)
   {

@@ -379,15 +379,14 @@ namespace geocone::GEOCONE_DIM
      *  which become edges and vertices of the mesh. @return the tags of its
      *  pieces */
     std::set<int>
-    add_domain(const MeshParameters &parameters,
-               const Regions        &regions,
-               const MeshLines      &lines)
+    add_domain(const MeshDomain &of,
+               const Regions    &regions,
+               const MeshLines  &lines)
     {
-      const gmsh::vectorpair domain = {
-        {int(dim), add_body(parameters.outline)}};
-      gmsh::vectorpair tools;
-      if (!parameters.body.empty())
-        tools.emplace_back(dim, add_body(parameters.body));
+      const gmsh::vectorpair domain = {{int(dim), add_body(of.outline)}};
+      gmsh::vectorpair       tools;
+      if (!of.body.empty())
+        tools.emplace_back(dim, add_body(of.body));
       for (const Polygon &polygon : regions.polygons())
         tools.emplace_back(dim, add_body(polygon));
       for (const auto &line : lines)
@@ -402,7 +401,7 @@ namespace geocone::GEOCONE_DIM
             if (part.first == 1)
               tools.push_back(part);
         }
-      for (const Point<dim> &x : parameters.grading_points)
+      for (const Point<dim> &x : of.vertices)
         tools.emplace_back(
           0, occ::addPoint(x[0], x[1], dim == 3 ? x[dim - 1] : 0.));
       gmsh::vectorpair              pieces = domain;
@@ -416,24 +415,22 @@ namespace geocone::GEOCONE_DIM
       return tags;
     }
 
-    /** Meshes the domain by gmsh, from numbers only. @param sizes or null */
+    /** Meshes the domain by gmsh, from numbers only. @param set_sizes of the cells */
+    template <typename Function>
     MshData
-    mesh_domain(const MeshParameters &parameters,
-                const Regions        &regions,
-                const MeshLines      &lines,
-                const CellSizes      *sizes,
-                const std::string    &what)
+    mesh_domain(const MeshDomain  &domain,
+                const Regions     &regions,
+                const MeshLines   &lines,
+                const Function    &set_sizes,
+                const std::string &what)
     {
       gmsh::model::add("domain");
-      const std::set<int> pieces = add_domain(parameters, regions, lines);
-      if (sizes != nullptr)
-        set_sizes(*sizes);
-      else
-        set_sizes(parameters);
+      const std::set<int> pieces = add_domain(domain, regions, lines);
+      set_sizes();
       gmsh::option::setNumber("Mesh.MeshSizeFromPoints", 0);
       gmsh::option::setNumber("Mesh.MeshSizeExtendFromBoundary", 0);
-      gmsh::option::setNumber("Mesh.Algorithm", parameters.algorithm);
-      if (parameters.cells == MeshParameters::Cells::quadrilaterals)
+      gmsh::option::setNumber("Mesh.Algorithm", domain.algorithm);
+      if (domain.quadrilaterals)
         {
           gmsh::option::setNumber("Mesh.RecombineAll", 1);
           // Recombined triangles, then each cell split into four (or three):
@@ -445,12 +442,13 @@ namespace geocone::GEOCONE_DIM
       return copy_model(pieces, what);
     }
 
+    template <typename Function>
     CoarseMesh
-    mesh_by_gmsh(const MeshParameters &parameters,
-                 const Regions        &regions,
-                 const MeshLines      &lines,
-                 const CellSizes      *sizes,
-                 const MPI_Comm        comm)
+    mesh_by_gmsh(const MeshDomain &domain,
+                 const Regions    &regions,
+                 const MeshLines  &lines,
+                 const Function   &set_sizes,
+                 const MPI_Comm    comm)
     {
       const std::string what = "the mesh that gmsh has made";
       const auto        mesh = [&]() {
@@ -459,12 +457,22 @@ namespace geocone::GEOCONE_DIM
                                 "'Mesh/Gmsh algorithm'",
                          [&]() {
                            return mesh_domain(
-                             parameters, regions, lines, sizes, what);
+                             domain, regions, lines, set_sizes, what);
                          });
       };
       return coarse_mesh(from_first_rank(comm, mesh), what, regions);
     }
   } // namespace
+
+  MeshDomain
+  domain_of(const MeshParameters &parameters)
+  {
+    return {parameters.outline,
+            parameters.body,
+            parameters.grading_points,
+            parameters.algorithm,
+            parameters.cells == MeshParameters::Cells::quadrilaterals};
+  }
 
   CoarseMesh
   unstructured_mesh(const MeshParameters &parameters,
@@ -472,16 +480,22 @@ namespace geocone::GEOCONE_DIM
                     const MeshLines      &lines,
                     const MPI_Comm        comm)
   {
-    return mesh_by_gmsh(parameters, regions, lines, nullptr, comm);
+    return mesh_by_gmsh(
+      domain_of(parameters),
+      regions,
+      lines,
+      [&]() { set_sizes(parameters); },
+      comm);
   }
 
   CoarseMesh
-  mesh_with_sizes(const MeshParameters &parameters,
-                  const Regions        &regions,
-                  const MeshLines      &lines,
-                  const CellSizes      &sizes,
-                  const MPI_Comm        comm)
+  mesh_with_sizes(const MeshDomain &domain,
+                  const Regions    &regions,
+                  const MeshLines  &lines,
+                  const CellSizes  &sizes,
+                  const MPI_Comm    comm)
   {
-    return mesh_by_gmsh(parameters, regions, lines, &sizes, comm);
+    return mesh_by_gmsh(
+      domain, regions, lines, [&]() { set_sizes(sizes); }, comm);
   }
 } // namespace geocone::GEOCONE_DIM

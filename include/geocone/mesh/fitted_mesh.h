@@ -30,13 +30,27 @@ namespace geocone::GEOCONE_DIM
               const bool            parts_bodies = true);
 
   /**
+   * Mesh of triangles of the body of a scene, with its materials and sides: by gmsh, or
+   * that of the file. Collective.
+   * @param vertices on the outline that become vertices of the mesh
+   * @param lines that become edges of it, as far as they lie in the body
+   * @param sizes of the cells
+   */
+  CoarseMesh
+  triangles_of_body(const Scene                           &scene,
+                    const std::vector<dealii::Point<dim>> &vertices,
+                    const MeshLines                       &lines,
+                    const CellSizes                       &sizes,
+                    const MPI_Comm                         comm);
+
+  /**
    * Side numbers of a condition.
    * @param sides their names
    * @param all numbers of the complete boundary, for "all"
    * @throws InputError for a name without a side
    */
   std::set<dealii::types::boundary_id>
-  side_ids(const BoundaryCondition                                 &condition,
+  side_ids(const BoundaryPart                                      &condition,
            const std::map<std::string, dealii::types::boundary_id> &sides,
            const std::vector<dealii::types::boundary_id>           &all);
 } // namespace geocone::GEOCONE_DIM

@@ -42,10 +42,22 @@ namespace geocone::GEOCONE_DIM
     std::vector<std::array<double, 3>>             sizes; ///< at the corners
   };
 
-  /** Unstructured mesh with prescribed sizes, otherwise as unstructured_mesh().
-   *  Collective. */
+  /** Domain of an unstructured mesh. */
+  struct MeshDomain
+  {
+    Polygon                         outline;
+    Polygon                         body;     ///< with edges of the mesh, or empty
+    std::vector<dealii::Point<dim>> vertices; ///< of the mesh
+    int                             algorithm      = 5; ///< gmsh's number
+    bool                            quadrilaterals = false;
+  };
+
+  MeshDomain
+  domain_of(const MeshParameters &parameters);
+
+  /** Unstructured mesh with prescribed sizes. Collective. */
   CoarseMesh
-  mesh_with_sizes(const MeshParameters &parameters,
+  mesh_with_sizes(const MeshDomain     &domain,
                   const Regions        &regions,
                   const MeshLines      &lines,
                   const CellSizes      &sizes,
