@@ -7,6 +7,7 @@
 #include <geocone/methods.h>
 #include <geocone/run/explicit_simulation.h>
 #include <geocone/run/implicit_simulation.h>
+#include <geocone/run/seepage_simulation.h>
 
 namespace geocone::GEOCONE_DIM
 {
@@ -17,12 +18,14 @@ namespace geocone::GEOCONE_DIM
       , implicit(MPI_COMM_WORLD, file, log, sizes_from_bounds)
       , explicit_mpm(MPI_COMM_WORLD, file, log)
       , limit_analysis(MPI_COMM_WORLD, file, log)
+      , seepage(MPI_COMM_WORLD, file, log)
     {}
 
     ElementTest        point;
     ImplicitSimulation implicit;
     ExplicitSimulation explicit_mpm;
     LimitAnalysis      limit_analysis;
+    SeepageSimulation  seepage;
   };
 
   Methods::Methods(const ParameterFile &file, Log &log)
@@ -34,6 +37,8 @@ namespace geocone::GEOCONE_DIM
   Simulation &
   Methods::chosen()
   {
+    if (runs->limit_analysis.kind() == AnalysisKind::seepage)
+      return runs->seepage;
     if (runs->limit_analysis.kind() != AnalysisKind::steps)
       return runs->limit_analysis;
     const std::string name = ParameterFile::value("Discretisation/Method");

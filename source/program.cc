@@ -109,6 +109,7 @@ namespace geocone::GEOCONE_DIM
       for (const char *list : {"Boundary conditions",
                                "Tractions",
                                "Absorbing boundaries",
+                               "Seepage",
                                "Obstacles",
                                "Contacts"})
         text += std::string("subsection ") + list +

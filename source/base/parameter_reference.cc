@@ -47,6 +47,7 @@ namespace geocone
       {"Gravity", "acceleration of gravity"},
       {"Tractions", "pressures and shear stresses on the boundary"},
       {"Water", "pore pressures: piezometric line, or a file"},
+      {"Seepage", "steady flow of water with a free surface"},
       {"Obstacles", "rigid bodies in contact with the soil"},
       {"Contacts", "contact between deformable bodies"},
       {"Absorbing boundaries", "boundaries that waves leave and enter through"},

@@ -190,6 +190,23 @@ namespace geocone::GEOCONE_DIM
              bound.units.length / bound.units.stress;
     }
 
+    /** Seepage force of a cell: of the water, or of its pressures at the vertices with
+     *  linear pressures between them (N/m^3). */
+    Tensor<1, dim>
+    seepage_force(const BoundScene &bound, const unsigned int cell)
+    {
+      const Water     &water     = bound.scene.water;
+      const Triangles &triangles = bound.triangles;
+      if (!water.varies_in_cells())
+        return water.force(triangles.centre(cell));
+      const auto     g = triangles.gradients(cell);
+      Tensor<1, dim> force;
+      for (unsigned int i = 0; i < 3; ++i)
+        force -=
+          water.pressure(triangles.vertices[triangles.cells[cell][i]]) * g[i];
+      return force;
+    }
+
     /** Adds the forces of a cell per area, in units: weight, and the force of water,
      *  which is a dead load unless the weight is bounded with all other loads.
      *  @param add called with a vector of loads and the force */
@@ -203,7 +220,7 @@ namespace geocone::GEOCONE_DIM
       add(bound.loads(problem, LoadFactor::weight), weight(bound, cell));
       if (bound.scene.water.acts())
         add(bound.loads(problem, LoadFactor::all),
-            bound.scene.water.force(bound.triangles.centre(cell)) *
+            seepage_force(bound, cell) *
               (bound.units.length / bound.units.stress));
     }
 

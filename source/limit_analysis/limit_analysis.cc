@@ -5,7 +5,10 @@
 #include <geocone/base/stop_request.h>
 #include <geocone/base/unused_parameters.h>
 #include <geocone/limit_analysis/limit_analysis.h>
+#include <geocone/mesh/adapted_sizes.h>
+#include <geocone/output/model_of_triangles.h>
 #include <geocone/scene/magnitudes.h>
+#include <geocone/seepage/flow_on_mesh.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -166,11 +169,7 @@ namespace geocone::GEOCONE_DIM
       "depends: take Tresca with that strength, or steps");
     scene.regions.prepare(scene.geometry);
     scene.prepare_weight();
-    if (scene.water.is_of_grid())
-      scene.water.refuse("'Analysis/Kind' = " + analysis.word(),
-                         "strict bounds need a constant force in each "
-                         "triangle: give a line, 'Water/Table', or reduce the "
-                         "strength by steps (prm/safety/slope_steps.prm)");
+    let_water_flow(scene, comm, log);
     scene.dirichlet.prepare();
     scene.tractions.prepare();
     scene.absorbing.refuse("'Analysis/Kind' = " + analysis.word(),
@@ -221,7 +220,7 @@ namespace geocone::GEOCONE_DIM
                        "triangles with 'Analysis/Kind' = limit load",
                        "set Mesh/Cells = triangles");
     triangles.emplace(fitted_mesh(mesh_parameters, scene, comm));
-    if (scene.water.acts())
+    if (scene.water.acts() && !scene.water.varies_in_cells())
       check_water();
     if (reduces_strength())
       bounded_load.prepare_reduction(scene, *triangles);
@@ -299,28 +298,7 @@ namespace geocone::GEOCONE_DIM
   Json
   LimitAnalysis::model()
   {
-    ModelMesh mesh;
-    mesh.materials = triangles->material;
-    const auto corners =
-      dealii::BoundingBox<dim>(triangles->vertices).get_boundary_points();
-    mesh.box = {{corners.first, corners.second}};
-    for (const auto &cell : triangles->cells)
-      mesh.cells.push_back({triangles->vertices[cell[0]],
-                            triangles->vertices[cell[1]],
-                            triangles->vertices[cell[2]]});
-    mesh.faces_of = [&](const BoundaryCondition &condition) {
-      std::vector<SidePart> faces;
-      for (const auto &held : triangles->held_edges(condition))
-        {
-          const auto &cell = triangles->cells[held.cell];
-          const auto  end  = [&](const unsigned int i) {
-            return triangles->vertices[cell[(held.opposite_vertex + i) % 3]];
-          };
-          faces.push_back({{end(1), end(2)}});
-        }
-      return faces;
-    };
-    return model_of(scene, mesh);
+    return model_of(scene, model_mesh_of(*triangles));
   }
 
   BoundLevel
@@ -426,14 +404,14 @@ namespace geocone::GEOCONE_DIM
     limit_output.add_record(level);
     place.time = levels.size();
 
-    const auto best      = best_of(levels).gap();
+    const auto best      = certified_by(levels).gap();
     const bool is_narrow = best && *best < gap_tolerance;
     const bool is_last   = is_narrow ||
                          growth * level.cells > 1.15 * most_cells ||
                          scene.geometry.shape == Geometry::Shape::file ||
                          levels.size() == most_levels;
     if (!is_last)
-      sizes = sizes_by_gap(*triangles, bounds.uneven, next_cells(level));
+      sizes = adapted_sizes(*triangles, bounds.uneven, next_cells(level));
     return is_last ? Ended::stage : Ended::well;
   }
 
@@ -506,9 +484,21 @@ namespace geocone::GEOCONE_DIM
   }
 
   LoadBracket
+  LimitAnalysis::certified_by(const std::vector<BoundLevel> &levels) const
+  {
+    if (!scene.water.varies_in_cells())
+      return best_of(levels);
+    // The pressures between the vertices of a mesh are its own.
+    auto last = levels.rbegin();
+    while (last != levels.rend() && !last->certified())
+      ++last;
+    return best_of(last == levels.rend() ? levels : std::vector{*last});
+  }
+
+  LoadBracket
   LimitAnalysis::bracket() const
   {
-    LoadBracket best   = best_of(limit_output.all_records());
+    LoadBracket best   = certified_by(limit_output.all_records());
     best.name          = bounded();
     best.unit          = reduces_strength() || bounded_load.unit() == "-"
                            ? ""

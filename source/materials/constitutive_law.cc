@@ -1,9 +1,11 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <geocone/base/constants.h>
 #include <geocone/base/exceptions.h>
 #include <geocone/materials/constitutive_law.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -39,6 +41,15 @@ namespace geocone::GEOCONE_DIM
       "pressure grows by dp = -K_w/n tr(de). 100 to 1000 times the bulk "
       "modulus of the soil (Skempton's B = 0.99 to 0.999) is practically "
       "incompressible. 0: drained.");
+    add_parameter("Permeability",
+                  conductivities,
+                  "Hydraulic conductivity [m/s] of soil in which water flows "
+                  "('Seepage'): one value, or two along two directions at a "
+                  "right angle.");
+    add_parameter("Permeability angle",
+                  conductivity_angle,
+                  "Angle [degrees] from x, counterclockwise, of the direction "
+                  "of the first of two values of 'Permeability'.");
   }
 
   std::string
@@ -79,6 +90,34 @@ namespace geocone::GEOCONE_DIM
             pore_fluid,
             ">= 0 Pa, finite",
             "water has 2.2e9 Pa; 0 is drained soil");
+  }
+
+  dealii::SymmetricTensor<2, 2>
+  ConstitutiveLaw::permeability() const
+  {
+    const bool is_valid =
+      !conductivities.empty() && conductivities.size() <= 2 &&
+      std::all_of(conductivities.begin(),
+                  conductivities.end(),
+                  [](const double k) { return k > 0. && std::isfinite(k); });
+    if (!is_valid)
+      throw InputError(parameter("Permeability"),
+                       dealii::Patterns::Tools::to_string(conductivities),
+                       "one or two values > 0 m/s where water flows",
+                       "sand has 1e-3 to 1e-5 m/s, silt 1e-7, clay 1e-9");
+    require(std::isfinite(conductivity_angle),
+            "Permeability angle",
+            conductivity_angle,
+            "finite",
+            "the angle of the first value with x in degrees");
+    const double k1 = conductivities.front(), k2 = conductivities.back(),
+                 c = std::cos(radians(conductivity_angle)),
+                 s = std::sin(radians(conductivity_angle));
+    dealii::SymmetricTensor<2, 2> k;
+    k[0][0] = k1 * c * c + k2 * s * s;
+    k[1][1] = k1 * s * s + k2 * c * c;
+    k[0][1] = (k1 - k2) * c * s;
+    return k;
   }
 
   void

@@ -203,6 +203,8 @@ namespace geocone::GEOCONE_DIM
             one["changed"] = stage->changed_materials;
           if (!stage->water_table.empty())
             one["water_table"] = json_of_places(stage->water_table);
+          if (!stage->water_levels.empty())
+            one["water_levels"] = stage->water_levels;
           if (stage->strength_factor > 0.)
             one["strength_factor"] = stage->strength_factor;
           if (stage->raises_loads())
@@ -348,6 +350,14 @@ namespace geocone::GEOCONE_DIM
           material["region"] = json_of_places(region);
         materials.push_back(material);
       }
+    Json surfaces = Json::array();
+    for (const Water::Flow &flow : scene.water.flows())
+      {
+        Json segments = Json::array();
+        for (const auto &segment : flow.surface)
+          segments.push_back(json_of_places(segment));
+        surfaces.push_back(segments);
+      }
     Json cells = Json::array();
     for (const Face &cell : mesh.cells)
       cells.push_back(json_of_places(cell));
@@ -366,6 +376,7 @@ namespace geocone::GEOCONE_DIM
        obstacles_of(scene, low + (high - low) / 2., (high - low).norm())},
       {"observed_points", json_of_places(scene.observation.points)},
       {"gravity_m_per_s2", json(scene.gravity.at(times.back()))},
+      {"free_surfaces", surfaces},
       {"stages", stages_of(scene)}};
   }
 } // namespace geocone::GEOCONE_DIM

@@ -54,6 +54,13 @@ namespace geocone::GEOCONE_DIM
         "'Water/Table'; pore pressures change linearly in time (drawdown, "
         "dewatering). Empty: unchanged.");
       stage.add_parameter(
+        "Water levels",
+        stage.water_levels,
+        "FEM and MPM: NAME: LEVEL, ...: levels of open water [m] at the end of "
+        "the stage, of boundaries of 'Seepage/Names'; pore pressures change "
+        "linearly in time from those of the steady flow before to those of "
+        "the steady flow after. Empty: unchanged.");
+      stage.add_parameter(
         "Until failure",
         stage.until_failure,
         "FEM and MPM: whether the stage and the run end as intended at the "
@@ -229,6 +236,8 @@ namespace geocone::GEOCONE_DIM
             added_materials.empty() ? "" : added_materials.front()),
           {"Raised loads", raises_loads() ? raised_loads.front() : ""},
           {"Water table", water_table.empty() ? "" : "a line"},
+          {"Water levels",
+           water_levels.empty() ? "" : water_levels.begin()->first},
           {"Changed materials",
            changed_materials.empty() ? "" : changed_materials.begin()->first}})
       if (!material.empty())

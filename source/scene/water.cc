@@ -15,6 +15,7 @@ namespace geocone::GEOCONE_DIM
 
   Water::Water(const ParameterFile &parameters)
     : dealii::ParameterAcceptor("/Water")
+    , seepage(parameters)
     , folder(parameters.folder())
   {
     add_parameter(
@@ -43,6 +44,14 @@ namespace geocone::GEOCONE_DIM
                        file,
                        "empty beside 'Water/Table'",
                        "give the pressures, or the line");
+    seepage.prepare(geometry);
+    if (seepage.acts() && !(file.empty() && table.empty()))
+      throw InputError(file.empty() ? "Water/Table" : "Water/File",
+                       file.empty() ?
+                         dealii::Patterns::Tools::to_string(table) :
+                         file,
+                       "empty beside 'Seepage/Names'",
+                       "the flow gives the pressures: take one of them out");
     if (!file.empty())
       {
         grid.emplace(
@@ -94,6 +103,9 @@ namespace geocone::GEOCONE_DIM
     for (const auto &stage : loading.list)
       {
         const double end = begin + stage->duration;
+        if (!stage->water_levels.empty())
+          later.push_back(
+            {begin, end, {}, seepage.levels(*stage, levels().back())});
         if (!stage->water_table.empty())
           {
             const std::string parameter =
@@ -106,10 +118,19 @@ namespace geocone::GEOCONE_DIM
                 "give the line of the start there; one below the "
                 "body leaves it dry");
             check(stage->water_table, parameter);
-            later.push_back({begin, end, stage->water_table});
+            later.push_back({begin, end, stage->water_table, {}});
           }
         begin = end;
       }
+  }
+
+  std::vector<Seepage::Levels>
+  Water::levels() const
+  {
+    std::vector<Seepage::Levels> all = {seepage.levels()};
+    for (const Later &of_stage : later)
+      all.push_back(of_stage.levels);
+    return all;
   }
 
   std::vector<double>
@@ -148,7 +169,7 @@ namespace geocone::GEOCONE_DIM
   bool
   Water::is_level() const
   {
-    return !grid &&
+    return !varies_in_cells() &&
            std::all_of(table.begin(), table.end(), [&](const Point<2> &p) {
              return p[1] == table.front()[1];
            });
@@ -159,8 +180,11 @@ namespace geocone::GEOCONE_DIM
   {
     if (grid)
       return grid->value(x);
-    return acts() ? unit_weight * std::max(level(table, x[0])[0] - x[1], 0.)
-                  : 0.;
+    if (!all_flows.empty())
+      return all_flows.front().pressure.value(x);
+    return table.empty()
+             ? 0.
+             : unit_weight * std::max(level(table, x[0])[0] - x[1], 0.);
   }
 
   Tensor<1, dim>
@@ -169,7 +193,9 @@ namespace geocone::GEOCONE_DIM
     Tensor<1, dim> f;
     if (grid)
       return -grid->gradient(x);
-    if (!acts())
+    if (!all_flows.empty())
+      return -all_flows[line].pressure.gradient(x);
+    if (table.empty())
       return f;
     const auto [y, slope] =
       level(line == 0 ? table : later[line - 1].table, x[0]);
@@ -230,6 +256,7 @@ namespace geocone::GEOCONE_DIM
   void
   Water::refuse(const std::string &what, const std::string &remedy) const
   {
+    seepage.refuse(what, remedy);
     if (acts())
       throw InputError(grid ? "Water/File" : "Water/Table",
                        grid ? file : dealii::Patterns::Tools::to_string(table),

@@ -10,6 +10,7 @@
 #include <geocone/materials/frictional_strength.h>
 
 #include <deal.II/base/parameter_acceptor.h>
+#include <deal.II/base/symmetric_tensor.h>
 
 #include <array>
 #include <optional>
@@ -77,6 +78,10 @@ namespace geocone::GEOCONE_DIM
     {
       return pore_fluid > 0. ? pressure * pressure / (2. * pore_fluid) : 0.;
     }
+
+    /** Hydraulic conductivity (m/s). @throws InputError if it is not given */
+    dealii::SymmetricTensor<2, 2>
+    permeability() const;
 
     /** Ratio of horizontal to vertical effective stress given in the file, or
      *  0. */
@@ -211,6 +216,9 @@ namespace geocone::GEOCONE_DIM
     double rho = 2000., rho_saturated = rho;
     double unit_weight = 0., saturated_unit_weight = 0.;
     double pore_fluid = 0., k0 = 0.;
+
+    std::vector<double> conductivities; ///< principal ones (m/s)
+    double              conductivity_angle = 0.; ///< (degrees)
   };
 
   /** One output quantity of a law, or NaN if it has none of this name. */

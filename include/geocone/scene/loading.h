@@ -92,6 +92,9 @@ namespace geocone::GEOCONE_DIM
      *  time; empty: unchanged. */
     std::vector<dealii::Point<2>> water_table;
 
+    /** Levels of open water at the end, by name of the seepage boundary (m). */
+    std::map<std::string, double> water_levels;
+
     /** @name Changes of the body at the beginning */
     /** @{ */
 

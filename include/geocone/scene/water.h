@@ -7,13 +7,16 @@
 #include <geocone/base/parameter_file.h>
 #include <geocone/functions/pressure_grid.h>
 #include <geocone/scene/geometry.h>
+#include <geocone/functions/triangle_field.h>
 #include <geocone/scene/loading.h>
+#include <geocone/scene/seepage.h>
 
 #include <deal.II/base/parameter_acceptor.h>
 
 #include <array>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace geocone::GEOCONE_DIM
@@ -22,8 +25,8 @@ namespace geocone::GEOCONE_DIM
    * Pore water at rest below a piezometric line y = Y(x), uniform along z in
    * three dimensions, with the pressure
    *   u = gamma_w max(0, Y(x) - y),
-   * or with pressures given by a file (PressureGrid), e.g. of seepage. Stresses
-   * are effective, s' = s + u 1 (tension positive), so that
+   * or with pressures of a steady flow (Seepage), or given by a file
+   * (PressureGrid). Stresses are effective, s' = s + u 1 (tension positive), so that
    *   div s' + rho g - grad u = 0,
    * where rho is the density of the soil including its water. Where the line
    * lies above the ground, free water loads the surface with u: there, as on
@@ -43,23 +46,58 @@ namespace geocone::GEOCONE_DIM
     bool
     acts() const
     {
-      return !table.empty() || grid.has_value();
+      return !table.empty() || grid.has_value() || seepage.acts();
     }
 
     /** Whether the water table is level. */
     bool
     is_level() const;
 
-    /** Whether a file gives the pressures, whose gradient is not piecewise
-     *  constant. */
+    /** Whether the seepage force varies within cells of any mesh, as it does
+     *  where a file or a flow gives the pressures. */
     bool
-    is_of_grid() const
+    varies_in_cells() const
     {
-      return grid.has_value();
+      return grid.has_value() || seepage.acts();
     }
 
-    /** Reads the lines of stages. @throws InputError if there is no initial
-     *  line, or a line is invalid */
+    /** Boundaries of the body between which water flows. */
+    Seepage seepage;
+
+    /** Levels of the water of the flow: the initial ones, then those at the end of
+     *  each stage that changes them. */
+    std::vector<Seepage::Levels>
+    levels() const;
+
+    /** Pore pressures of a steady flow, and its free surface. */
+    struct Flow
+    {
+      TriangleField                                  pressure; ///< (Pa)
+      std::vector<std::array<dealii::Point<dim>, 2>> surface;  ///< segments
+    };
+
+    /** Sets the flows at levels(). */
+    void
+    set_flows(std::vector<Flow> of_levels)
+    {
+      all_flows = std::move(of_levels);
+    }
+
+    const std::vector<Flow> &
+    flows() const
+    {
+      return all_flows;
+    }
+
+    /** Unit weight of water (N/m^3). */
+    double
+    weight() const
+    {
+      return unit_weight;
+    }
+
+    /** Reads the lines and levels of stages. @throws InputError if there are no
+     *  initial ones, or some are invalid */
     void
     prepare_stages(const LoadingProgramme &loading);
 
@@ -67,19 +105,19 @@ namespace geocone::GEOCONE_DIM
     double
     pressure(const dealii::Point<dim> &x) const;
 
-    /** Seepage force -grad u (N/m^3) of one of the lines: the initial one, then
-     *  those of stages. */
+    /** Seepage force -grad u (N/m^3) of one of the lines or flows: the initial
+     *  one, then those of stages. */
     dealii::Tensor<1, dim>
     force(const dealii::Point<dim> &x, const std::size_t line = 0) const;
 
-    /** Weight of each line in the pressures at time t; they sum up to 1. */
+    /** Weight of each line or flow in the pressures at time t; they sum up to 1. */
     std::vector<double>
     parts(const double t) const;
 
     /**
      * Lines of the plane across which the force jumps, where u has a kink: the
      * water table, and vertical lines below its corners; none for pressures
-     * from a file.
+     * that vary in cells.
      * @param lower,upper corners of a box around the body
      */
     std::vector<std::array<dealii::Point<dim>, 2>>
@@ -111,12 +149,14 @@ namespace geocone::GEOCONE_DIM
     std::string                 file;
     std::optional<PressureGrid> grid;
     Table                       table;
+    std::vector<Flow>           all_flows;
 
-    /** Piezometric line at the end of a stage. */
+    /** Piezometric line, or levels of the flow, at the end of a stage. */
     struct Later
     {
-      double begin, end; ///< of the stage (s)
-      Table  table;
+      double          begin, end; ///< of the stage (s)
+      Table           table;
+      Seepage::Levels levels;
     };
     std::vector<Later> later;
 

@@ -1,0 +1,111 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_run_seepage_simulation_h
+#define geocone_run_seepage_simulation_h
+
+#include <geocone/output/field_files.h>
+#include <geocone/output/table_output.h>
+#include <geocone/run/simulation.h>
+#include <geocone/scene/scene.h>
+#include <geocone/seepage/flow_on_mesh.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace geocone::GEOCONE_DIM
+{
+  /** Flow on one of the meshes. */
+  struct FlowLevel
+  {
+    unsigned int        triangles = 0, iterations = 0;
+    double              discharge = 0., error = 0.; ///< (m^2/s), (-)
+    std::vector<double> inflows; ///< through each boundary (m^2/s)
+
+    void
+    state(StateRow &row)
+    {
+      row(triangles, iterations, discharge, error, inflows);
+    }
+  };
+
+  /** Output of a flow: seepage.csv with a line per mesh, the fields of the last one, and
+   *  the summary. */
+  class SeepageOutput : public TableOutput<FlowLevel>
+  {
+  public:
+    using TableOutput::TableOutput;
+
+    /** @param names of the boundaries @param unit of a discharge, e.g. "m^2/s" */
+    void
+    prepare(const RunOptions               &options,
+            const std::vector<std::string> &names,
+            const std::string              &unit);
+
+    /** Writes pressures, heads, relative permeabilities and velocities. */
+    void
+    write_fields(const FlowOnMesh &flow, const double unit_weight);
+
+  private:
+    void
+    report_results(std::ostream &out) const override;
+  };
+
+  /** Steady flow of water through a scene, without its mechanics. */
+  class SeepageSimulation : public Simulation
+  {
+  public:
+    SeepageSimulation(const MPI_Comm comm, const ParameterFile &file, Log &log);
+
+    OutputBase &
+    output() override
+    {
+      return seepage_output;
+    }
+
+  private:
+    std::vector<std::string>
+    prepare(const RunOptions &options) override;
+    std::vector<unsigned int>
+    programme() const override
+    {
+      return {1};
+    }
+    void
+    prepare_output(const RunOptions &options) override;
+    std::string
+    headline(const std::string &name) const override
+    {
+      return name + ": steady flow of water";
+    }
+    Json
+    model() override;
+    void
+    begin(const Place &) override
+    {}
+    Ended
+    advance(Place &place) override;
+    void
+    record(const Place &) override
+    {}
+    std::string
+    progress(const Place &) const override
+    {
+      return "";
+    }
+    void
+    write_fields(const double t) override;
+    Json
+    topics() override;
+    void
+    finish(const double t) override;
+
+    Scene                     scene;
+    SeepageOutput             seepage_output;
+    std::optional<FlowOnMesh> flow;
+  };
+} // namespace geocone::GEOCONE_DIM
+
+#endif

@@ -1,0 +1,78 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_scene_seepage_h
+#define geocone_scene_seepage_h
+
+#include <geocone/base/named_list.h>
+#include <geocone/scene/boundary_conditions.h>
+#include <geocone/scene/loading.h>
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace geocone::GEOCONE_DIM
+{
+  /** Open water, air or rain at a part of the boundary of a body through which water
+   *  seeps, or at a drain in it. */
+  class SeepageBoundary : public BoundaryPart
+  {
+  public:
+    explicit SeepageBoundary(const std::string &name);
+
+    void
+    prepare();
+
+    /** Height y of the level of open water (m); none: air. */
+    std::optional<double> level;
+
+    /** Rain (m/s) per horizontal area, of which the soil takes what it can. */
+    double rain = 0.;
+
+    /** Line of a drain in the body, or empty (m). */
+    std::vector<dealii::Point<dim>> drain;
+
+    /** Whether x lies on the drain, within rounding. */
+    bool
+    is_on_drain(const dealii::Point<dim> &x) const;
+
+  private:
+    std::string level_text = "none";
+  };
+
+  /** Boundaries with water or air of a body in which the water flows, named in
+   *  "Seepage/Names"; all others are impervious. */
+  class Seepage : public NamedList<SeepageBoundary>
+  {
+  public:
+    explicit Seepage(const ParameterFile &file);
+
+    /** @throws InputError for invalid parameters, and geometries without a mesh */
+    void
+    prepare(const Geometry &geometry);
+
+    bool
+    acts() const
+    {
+      return !list.empty();
+    }
+
+    /** Levels of all boundaries, in the order of the list (m; none: air). */
+    using Levels = std::vector<std::optional<double>>;
+
+    /** The initial levels. */
+    Levels
+    levels() const;
+
+    /** @p before with those changed by a stage. @throws InputError for unknown names */
+    Levels
+    levels(const Stage &stage, Levels before) const;
+
+    /** Number of triangles of the finest mesh. */
+    unsigned int n_cells = 5000;
+  };
+} // namespace geocone::GEOCONE_DIM
+
+#endif

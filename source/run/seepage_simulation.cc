@@ -1,0 +1,184 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/exceptions.h>
+#include <geocone/base/stop_request.h>
+#include <geocone/output/model_of_triangles.h>
+#include <geocone/run/seepage_simulation.h>
+
+#include <utility>
+
+namespace geocone::GEOCONE_DIM
+{
+  void
+  SeepageOutput::prepare(const RunOptions               &options,
+                         const std::vector<std::string> &names,
+                         const std::string              &unit)
+  {
+    make_folder(options);
+    const auto add = [&](const std::string &column, const auto member) {
+      table.add(column, [member](const FlowLevel &l) { return l.*member; });
+    };
+    add("triangles (-)", &FlowLevel::triangles);
+    add("discharge (" + unit + ")", &FlowLevel::discharge);
+    for (unsigned int b = 0; b < names.size(); ++b)
+      table.add("inflow of " + names[b] + " (" + unit + ")",
+                [b](const FlowLevel &l) { return l.inflows[b]; });
+    add("iterations (-)", &FlowLevel::iterations);
+    add("natural-map error (-)", &FlowLevel::error);
+    open_table("seepage.csv");
+  }
+
+  void
+  SeepageOutput::write_fields(const FlowOnMesh &flow, const double unit_weight)
+  {
+    if (!with_fields)
+      return;
+    const Triangles &triangles = flow.triangles();
+    FieldTable       fields;
+    fields.cell    = FieldTable::Cell::triangle;
+    fields.n_nodes = 3 * triangles.cells.size();
+    const auto add = [&](const std::string &name,
+                         const unsigned int size,
+                         const auto        &value) {
+      fields.columns.push_back(
+        {name, size, [&triangles, size, value](std::vector<double> &to) {
+           for (std::size_t i = 0; i < to.size(); ++i)
+             {
+               const std::size_t node = i / size;
+               to[i] =
+                 value(node / 3, triangles.cells[node / 3][node % 3], i % size);
+             }
+         }});
+    };
+    using Index          = unsigned int;
+    const auto &vertices = triangles.vertices;
+    add("position", dim, [&](const Index, const Index v, const Index d) {
+      return vertices[v][d];
+    });
+    fields.positions = fields.columns.back().fill;
+    fields.columns.clear();
+    add("pore_pressure", 1, [&](const Index, const Index v, const Index) {
+      return unit_weight * flow.flow().head[v];
+    });
+    add("head", 1, [&](const Index, const Index v, const Index) {
+      return flow.flow().head[v] + vertices[v][1];
+    });
+    add(
+      "relative_permeability", 1, [&](const Index, const Index v, const Index) {
+        return flow.flow().saturation[v];
+      });
+    add(
+      "seepage_velocity", dim, [&](const Index c, const Index, const Index d) {
+        return flow.velocity(c)[d];
+      });
+    add("material", 1, [&](const Index c, const Index, const Index) {
+      return static_cast<double>(triangles.material[c]);
+    });
+    FieldFiles("seepage", FieldsFormat(fields_format))
+      .write(fields, path, 0., comm);
+  }
+
+  void
+  SeepageOutput::report_results(std::ostream &out) const
+  {
+    out << format("%.4g\n", summary["seepage"]["discharge"].get<double>());
+  }
+
+  SeepageSimulation::SeepageSimulation(const MPI_Comm       comm,
+                                       const ParameterFile &file,
+                                       Log                 &log)
+    : Simulation(comm, log)
+    , scene(file)
+    , seepage_output(comm, log)
+  {}
+
+  std::vector<std::string>
+  SeepageSimulation::prepare(const RunOptions &options)
+  {
+    scene.geometry.may_run_script = options.may_run_scripts;
+    scene.geometry.prepare();
+    scene.materials.prepare();
+    scene.regions.prepare(scene.geometry);
+    if (!scene.water.seepage.acts())
+      throw InputError("Seepage/Names",
+                       "",
+                       "at least one name with 'Analysis/Kind' = seepage",
+                       "e.g. upstream, downstream, each with its subsection");
+    scene.water.seepage.prepare(scene.geometry);
+    flow.emplace(scene, scene.water.seepage.levels(), comm);
+    flow->refine();
+    return {};
+  }
+
+  void
+  SeepageSimulation::prepare_output(const RunOptions &options)
+  {
+    seepage_output.prepare(
+      options, scene.water.seepage.names(), scene.geometry.unit("m^3/s/m"));
+  }
+
+  Json
+  SeepageSimulation::model()
+  {
+    return model_of(scene, model_mesh_of(flow->triangles()));
+  }
+
+  Simulation::Ended
+  SeepageSimulation::advance(Place &place)
+  {
+    for (unsigned int level = 1;; ++level)
+      {
+        FlowLevel record;
+        record.triangles  = flow->triangles().cells.size();
+        record.iterations = flow->flow().iterations;
+        record.discharge  = flow->discharge();
+        record.error      = flow->flow().error;
+        record.inflows    = flow->inflows();
+        seepage_output.add_record(record);
+        if (level == flow->n_levels())
+          break;
+        stop_if_asked(comm);
+        flow->refine();
+      }
+    place.time = 1.;
+    return Ended::stage;
+  }
+
+  void
+  SeepageSimulation::write_fields(const double)
+  {
+    seepage_output.write_fields(*flow, scene.water.weight());
+  }
+
+  Json
+  SeepageSimulation::topics()
+  {
+    Json json;
+    json["size"] = {{"method", "seepage"},
+                    {"cells", flow->triangles().cells.size()}};
+    Json       inflows;
+    const auto values = flow->inflows();
+    for (unsigned int b = 0; b < values.size(); ++b)
+      inflows[scene.water.seepage.names()[b]] = values[b];
+    const auto change = flow->change();
+    json["seepage"]   = {{"discharge", flow->discharge()},
+                         {"unit", scene.geometry.unit("m^3/s/m")},
+                         {"inflows", inflows},
+                         {"change", change ? Json(*change) : Json()},
+                         {"imbalance", flow->imbalance()},
+                         {"iterations", flow->flow().iterations},
+                         {"natural_map_error", flow->flow().error}};
+    json["cost"]      = {{"total_s", total.wall_time()},
+                         {"cpu_s", total.cpu_time()}};
+    return json;
+  }
+
+  void
+  SeepageSimulation::finish(const double)
+  {
+    scene.water.set_flows({flow->result()});
+    seepage_output.write_model(model());
+    log.print("discharge " + flow->text());
+  }
+} // namespace geocone::GEOCONE_DIM

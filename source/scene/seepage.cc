@@ -1,0 +1,176 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/unused_parameters.h>
+#include <geocone/scene/seepage.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+namespace geocone::GEOCONE_DIM
+{
+  namespace
+  {
+    const UsedWhere used_seepage[] = {
+      {"Seepage/*", "Discretisation/Method", {"FEM", "MPM", "explicit MPM"}},
+      {"Seepage/*/*", "Discretisation/Method", {"FEM", "MPM", "explicit MPM"}}};
+  } // namespace
+
+  SeepageBoundary::SeepageBoundary(const std::string &name)
+    : BoundaryPart(name, "Seepage")
+  {
+    add_parameter(
+      "Level",
+      level_text,
+      "Height y of the level of open water at the sides [m]: the pressure is "
+      "hydrostatic below it, and water can leave above it (seepage face). "
+      "none: no open water; water can leave everywhere.");
+    add_parameter(
+      "Rain",
+      rain,
+      "Rain on the sides per horizontal area [m/s]; what the soil cannot take "
+      "runs off.");
+    add_parameter(
+      "Drain",
+      drain,
+      "Line x, y; x, y; ... [m] of a drain, filter or slotted pipe in the "
+      "body, instead of sides. Without a level it is open to the air: it takes "
+      "the water that arrives. Empty: none.");
+  }
+
+  void
+  SeepageBoundary::prepare()
+  {
+    if (drain.empty())
+      BoundaryPart::prepare();
+    else
+      {
+        if (!sides.empty())
+          throw InputError(parameter("Sides"),
+                           dealii::Patterns::Tools::to_string(sides),
+                           "empty where there is a drain",
+                           "give a boundary of its own for the sides");
+        if (drain.size() < 2)
+          throw InputError(parameter("Drain"),
+                           dealii::Patterns::Tools::to_string(drain),
+                           "at least two points",
+                           "give the ends of the line, x, y; x, y");
+        check_coordinates(drain, parameter("Drain"));
+        if (rain > 0.)
+          throw InputError(
+            parameter("Rain"), rain, "0 for a drain", "rain falls on sides");
+      }
+    level.reset();
+    if (level_text != "none")
+      {
+        char        *end   = nullptr;
+        const double value = std::strtod(level_text.c_str(), &end);
+        if (level_text.empty() || *end != '\0' || !std::isfinite(value))
+          throw InputError(parameter("Level"),
+                           level_text,
+                           "a height y in m, or none",
+                           "none is a side in the air");
+        level = value;
+      }
+    if (!(rain >= 0. && std::isfinite(rain)))
+      throw InputError(parameter("Rain"),
+                       rain,
+                       ">= 0 m/s, finite",
+                       "1e-7 m/s is 8.6 mm per day; 0: no rain");
+  }
+
+  bool
+  SeepageBoundary::is_on_drain(const dealii::Point<dim> &x) const
+  {
+    for (std::size_t i = 1; i < drain.size(); ++i)
+      if (distance_to_segment(x, drain[i - 1], drain[i]) <=
+          1e-7 * drain[i - 1].distance(drain[i]))
+        return true;
+    return false;
+  }
+
+  Seepage::Seepage(const ParameterFile &file)
+    : NamedList(file,
+                "Seepage",
+                "Names of the boundaries with open water, air or rain, "
+                "comma-separated; each has a subsection of its name. Later "
+                "ones override earlier ones. All other boundaries are "
+                "impervious. The pore pressures of the steady flow between "
+                "them act in all methods. Empty: water does not flow.")
+  {
+    add_parameter("Cells",
+                  n_cells,
+                  "Approximate number of triangles of the finest mesh of the "
+                  "flow, which is refined at the free surface and where the "
+                  "velocity changes.");
+    make();
+  }
+
+  void
+  Seepage::prepare(const Geometry &geometry)
+  {
+    if (!acts())
+      return;
+    NamedList::prepare();
+    const std::string names = dealii::Patterns::Tools::to_string(this->names());
+    if (dim == 3)
+      throw InputError(parameter(),
+                       names,
+                       "empty in three dimensions",
+                       "give the pressures by 'Water/Table' or 'Water/File'");
+    if (geometry.shape == Geometry::Shape::discs)
+      throw InputError(parameter(),
+                       names,
+                       "empty with discs",
+                       "set Geometry/Type = box, polygon or file");
+    geometry.refuse_where("'Seepage/Names'",
+                          "give the body as a polygon, or its pressures by "
+                          "'Water/File'");
+    if (n_cells < 20 || n_cells > 1000000)
+      throw InputError("Seepage/Cells",
+                       n_cells,
+                       "20 to 1000000",
+                       "5000 give the flow to about 0.2 %");
+    if (std::none_of(
+          list.begin(),
+          list.end(),
+          [](const auto &boundary) { return boundary->level.has_value(); }) &&
+        std::none_of(list.begin(), list.end(), [](const auto &boundary) {
+          return boundary->rain > 0.;
+        }))
+      throw InputError(parameter(),
+                       names,
+                       "at least one boundary with a level or rain",
+                       "there is no water: set 'Seepage/" + list[0]->name +
+                         "/Level'");
+  }
+
+  Seepage::Levels
+  Seepage::levels() const
+  {
+    Levels all;
+    for (const auto &boundary : list)
+      all.push_back(boundary->level);
+    return all;
+  }
+
+  Seepage::Levels
+  Seepage::levels(const Stage &stage, Levels before) const
+  {
+    for (const auto &[name, level] : stage.water_levels)
+      {
+        const auto found =
+          std::find(this->names().begin(), this->names().end(), name);
+        if (found == this->names().end())
+          throw InputError("Loading/" + stage.name + "/Water levels",
+                           name,
+                           acts() ? "names of 'Seepage/Names'"
+                                  : "empty where no water flows",
+                           "give NAME: LEVEL, e.g. " +
+                             (acts() ? list[0]->name : "upstream") + ": 5");
+        before[found - this->names().begin()] = level;
+      }
+    return before;
+  }
+} // namespace geocone::GEOCONE_DIM

@@ -1,0 +1,341 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/exceptions.h>
+#include <geocone/mesh/adapted_sizes.h>
+#include <geocone/mesh/fitted_mesh.h>
+#include <geocone/seepage/flow_on_mesh.h>
+
+#include <deal.II/base/bounding_box.h>
+#include <deal.II/base/timer.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace geocone::GEOCONE_DIM
+{
+  using dealii::Point;
+  using dealii::Tensor;
+
+  namespace
+  {
+    constexpr unsigned int number_of_levels = 4;
+
+    /** Vertices of the mesh at the ends of the boxes of boundaries. */
+    std::vector<Point<dim>>
+    ends_of_boxes(const Scene &scene)
+    {
+      std::vector<Point<dim>> ends;
+      const Polygon          &outline = scene.geometry.outline;
+      for (const auto &boundary : scene.water.seepage.list)
+        if (const auto corners = boundary->box_corners())
+          for (std::size_t i = 0; i < outline.size(); ++i)
+            {
+              const Point<dim> &a   = outline[i],
+                               &b   = outline[(i + 1) % outline.size()];
+              const auto [from, to] = interval_in_box(*corners, a, b);
+              for (const double at : {from, to})
+                if (from < to && at > 1e-6 && at < 1. - 1e-6)
+                  ends.push_back(a + at * (b - a));
+            }
+      return ends;
+    }
+
+    /** Equal sizes in the bounding box of a geometry. */
+    CellSizes
+    equal_sizes(const Geometry &geometry, const double n_cells)
+    {
+      CellSizes sizes;
+      if (geometry.shape == Geometry::Shape::file)
+        return sizes;
+      const auto [low, high]      = geometry.bounding_box();
+      const Tensor<1, dim> margin = 0.1 * (high - low);
+      const Point<dim>     a = low - margin, c = high + margin;
+      const double         size =
+        std::sqrt(4. / std::sqrt(3.) * geometry.area() / n_cells);
+      for (const Point<dim> &corner :
+           {Point<dim>(c[0], a[1]), Point<dim>(a[0], c[1])})
+        {
+          sizes.triangles.push_back({{a, corner, c}});
+          sizes.sizes.push_back({{size, size, size}});
+        }
+      return sizes;
+    }
+  } // namespace
+
+  FlowOnMesh::FlowOnMesh(const Scene           &scene,
+                         const Seepage::Levels &levels,
+                         const MPI_Comm         comm)
+    : scene(scene)
+    , levels(levels)
+    , comm(comm)
+  {
+    for (unsigned int m = 0; m < scene.materials.size(); ++m)
+      permeability.push_back(scene.materials.law(m).permeability());
+  }
+
+  unsigned int
+  FlowOnMesh::n_levels() const
+  {
+    return scene.geometry.shape == Geometry::Shape::file ? 1 : number_of_levels;
+  }
+
+  void
+  FlowOnMesh::refine()
+  {
+    std::optional<TriangleField> last;
+    if (!mesh)
+      sizes = equal_sizes(scene.geometry,
+                          scene.water.seepage.n_cells /
+                            std::pow(2., number_of_levels - 1));
+    else
+      {
+        sizes = adapted_sizes(*mesh, jumps(), 2. * mesh->cells.size());
+        last.emplace(mesh->vertices, mesh->cells, steady.s);
+        discharge_before = discharge();
+      }
+    MeshLines drains;
+    for (const auto &boundary : scene.water.seepage.list)
+      for (std::size_t i = 1; i < boundary->drain.size(); ++i)
+        drains.push_back({{boundary->drain[i - 1], boundary->drain[i]}});
+    mesh.emplace(
+      triangles_of_body(scene, ends_of_boxes(scene), drains, sizes, comm));
+    const FlowConditions conditions = this->conditions();
+    std::vector<double>  measure;
+    for (unsigned int c = 0; c < mesh->cells.size(); ++c)
+      measure.push_back(
+        Geometry::measure(scene.geometry.symmetry, mesh->centre(c)));
+    steady = steady_flow(
+      *mesh, permeability, measure, conditions, start(mesh->vertices, last));
+  }
+
+  std::vector<unsigned int>
+  FlowOnMesh::edges_of(const SeepageBoundary &boundary) const
+  {
+    std::vector<unsigned int> all;
+    if (boundary.drain.empty())
+      {
+        for (const auto &held : mesh->held_edges(boundary))
+          all.push_back(held.edge);
+        return all;
+      }
+    for (unsigned int e = 0; e < mesh->edges.size(); ++e)
+      {
+        const auto &[a, b] = mesh->edges[e].vertices;
+        if (boundary.is_on_drain(mesh->vertices[a]) &&
+            boundary.is_on_drain(mesh->vertices[b]))
+          all.push_back(e);
+      }
+    if (all.empty())
+      throw InputError(boundary.parameter("Drain"),
+                       dealii::Patterns::Tools::to_string(boundary.drain),
+                       "a line in the body",
+                       "in a mesh of a file it follows edges of cells");
+    return all;
+  }
+
+  FlowConditions
+  FlowOnMesh::conditions()
+  {
+    using Kind                = FlowConditions::Kind;
+    const unsigned int n      = mesh->vertices.size();
+    const auto        &listed = scene.water.seepage.list;
+    boundary_of.assign(n, -1);
+    boundary_of_edge.assign(mesh->edges.size(), -1);
+    for (unsigned int b = 0; b < listed.size(); ++b)
+      {
+        double lowest = std::numeric_limits<double>::max();
+        for (const unsigned int e : edges_of(*listed[b]))
+          {
+            boundary_of_edge[e] = b;
+            for (const unsigned int v : mesh->edges[e].vertices)
+              {
+                boundary_of[v] = b;
+                lowest         = std::min(lowest, mesh->vertices[v][1]);
+              }
+          }
+        if (levels[b] && !(*levels[b] > lowest))
+          throw InputError(listed[b]->parameter("Level"),
+                           *levels[b],
+                           format("above the lowest point of its sides, y = "
+                                  "%g m",
+                                  lowest),
+                           "a side in the air has no level: none");
+      }
+    FlowConditions all;
+    all.kind.assign(n, Kind::none);
+    all.head.assign(n, 0.);
+    all.rain.assign(n, 0.);
+    for (unsigned int v = 0; v < n; ++v)
+      if (boundary_of[v] >= 0)
+        {
+          const auto &level = levels[boundary_of[v]];
+          all.kind[v]       = Kind::seepage_face;
+          if (level)
+            all.head[v] = *level - mesh->vertices[v][1];
+          if (all.head[v] > 1e-9 * (1. + std::abs(mesh->vertices[v][1])))
+            all.kind[v] = Kind::head;
+        }
+    for (unsigned int e = 0; e < mesh->edges.size(); ++e)
+      if (boundary_of_edge[e] >= 0)
+        {
+          const auto       &ends = mesh->edges[e].vertices;
+          const Point<dim> &a    = mesh->vertices[ends[0]],
+                           &b    = mesh->vertices[ends[1]];
+          const double flow =
+            listed[boundary_of_edge[e]]->rain * std::abs(b[0] - a[0]) *
+            Geometry::measure(scene.geometry.symmetry, a + 0.5 * (b - a));
+          for (const unsigned int v : ends)
+            all.rain[v] += flow / 2.;
+        }
+    return all;
+  }
+
+  std::vector<double>
+  FlowOnMesh::start(const std::vector<Point<dim>>      &vertices,
+                    const std::optional<TriangleField> &last) const
+  {
+    double highest = std::numeric_limits<double>::lowest();
+    for (const auto &level : levels)
+      highest = std::max(highest, level.value_or(highest));
+    std::vector<double> s;
+    for (const Point<dim> &x : vertices)
+      s.push_back(last ? last->value(x) : std::max(highest - x[1], -0.5));
+    return s;
+  }
+
+  std::vector<double>
+  FlowOnMesh::jumps() const
+  {
+    std::vector<double> jump(mesh->edges.size(), 0.);
+    std::vector<double> stiffness(jump.size(), 0.);
+    const auto          on_edges = [&](const auto &f) {
+      for (unsigned int c = 0; c < mesh->cells.size(); ++c)
+        for (unsigned int i = 0; i < 3; ++i)
+          f(c, i, mesh->edges_of_cell[c][i]);
+    };
+    on_edges(
+      [&](const unsigned int c, const unsigned int i, const unsigned int e) {
+        const Tensor<1, dim> g = mesh->gradients(c)[i];
+        jump[e] += velocity(c) * g / g.norm();
+        stiffness[e] += trace(permeability[mesh->material[c]]);
+      });
+    std::vector<double> error(mesh->cells.size(), 0.);
+    on_edges(
+      [&](const unsigned int c, const unsigned int, const unsigned int e) {
+        if (boundary_of_edge[e] < 0)
+          {
+            const auto  &ends = mesh->edges[e].vertices;
+            const double length =
+              mesh->vertices[ends[0]].distance(mesh->vertices[ends[1]]);
+            error[c] += length * length * jump[e] * jump[e] / stiffness[e];
+          }
+      });
+    return error;
+  }
+
+  void
+  FlowOnMesh::solve(Log &log)
+  {
+    dealii::Timer time;
+    for (unsigned int level = 0; level < n_levels(); ++level)
+      refine();
+    log.print(format("seepage: %zu triangles, ", mesh->cells.size()) + text() +
+              format("; %.2g s", time.cpu_time()));
+  }
+
+  Water::Flow
+  FlowOnMesh::result() const
+  {
+    std::vector<double> pressure = steady.head, size(pressure.size(), 0.);
+    for (double &u : pressure)
+      u *= scene.water.weight();
+    for (unsigned int c = 0; c < mesh->cells.size(); ++c)
+      for (const unsigned int v : mesh->cells[c])
+        size[v] = std::max(size[v], std::sqrt(mesh->area(c)));
+    // Height above the free surface of unsaturated vertices: half a cell.
+    const auto depth = [&](const unsigned int v) {
+      return steady.head[v] > 0. ? steady.head[v]
+                                 : (steady.saturation[v] - 1.) / 2. * size[v];
+    };
+    std::vector<std::array<Point<dim>, 2>> surface;
+    for (const auto &cell : mesh->cells)
+      {
+        std::vector<Point<dim>> ends;
+        for (unsigned int i = 0; i < 3; ++i)
+          {
+            const unsigned int a = cell[i], b = cell[(i + 1) % 3];
+            if ((depth(a) > 0.) != (depth(b) > 0.))
+              ends.push_back(mesh->vertices[a] +
+                             depth(a) / (depth(a) - depth(b)) *
+                               (mesh->vertices[b] - mesh->vertices[a]));
+          }
+        if (ends.size() == 2)
+          surface.push_back({{ends[0], ends[1]}});
+      }
+    return {{mesh->vertices, mesh->cells, pressure}, surface};
+  }
+
+  std::vector<double>
+  FlowOnMesh::inflows() const
+  {
+    std::vector<double> all(levels.size(), 0.);
+    for (unsigned int v = 0; v < boundary_of.size(); ++v)
+      if (boundary_of[v] >= 0)
+        all[boundary_of[v]] += steady.inflow[v];
+    return all;
+  }
+
+  double
+  FlowOnMesh::discharge() const
+  {
+    double sum = 0.;
+    for (const double inflow : inflows())
+      sum += std::max(inflow, 0.);
+    return sum;
+  }
+
+  std::optional<double>
+  FlowOnMesh::change() const
+  {
+    if (!discharge_before || !(discharge() > 0.))
+      return std::nullopt;
+    return discharge() / *discharge_before - 1.;
+  }
+
+  double
+  FlowOnMesh::imbalance() const
+  {
+    double sum = 0.;
+    for (const double inflow : inflows())
+      sum += inflow;
+    return discharge() > 0. ? sum / discharge() : 0.;
+  }
+
+  std::string
+  FlowOnMesh::text() const
+  {
+    const auto change = this->change();
+    return format("%.5g ", discharge()) + scene.geometry.unit("m^3/s/m") +
+           " through the body" +
+           (change ? format(" (%+.2g %% from the mesh before)", 100. * *change)
+                   : "") +
+           format(", %u iterations", steady.iterations);
+  }
+
+  void
+  let_water_flow(Scene &scene, const MPI_Comm comm, Log &log)
+  {
+    if (!scene.water.seepage.acts())
+      return;
+    std::vector<Water::Flow> flows;
+    for (const Seepage::Levels &levels : scene.water.levels())
+      {
+        FlowOnMesh flow(scene, levels, comm);
+        flow.solve(log);
+        flows.push_back(flow.result());
+      }
+    scene.water.set_flows(std::move(flows));
+  }
+} // namespace geocone::GEOCONE_DIM
