@@ -13,7 +13,8 @@ import matplotlib
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.collections import EllipseCollection, PolyCollection, TriMesh
+from matplotlib.collections import (EllipseCollection, LineCollection, PolyCollection,
+                                    TriMesh)
 from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
@@ -188,6 +189,12 @@ def draw_table(axes, table):
     place = low + 0.96 * (high - low)
     axes.plot(place, np.interp(place, x, y), "v", color=WATER, markersize=7,
               markerfacecolor="white", zorder=4.5)
+
+
+def draw_free_surface(axes, surface):
+    """Draws the segments (n, 2, 2) of the free surface of a flow."""
+    axes.add_collection(LineCollection(surface, colors=WATER, linewidths=1.5, zorder=4.5),
+                        autolim=False)
 
 
 def draw_water(axes, run, time=None):

@@ -15,7 +15,8 @@ For each run folder, as far as the files for them exist:
 of an explicit run energy.png, runout.png, points.png (plastic strain or shear stress at
 six times), slide.png where points are taken away, structure.png and loading.png of soils
 with such ratios; of an element test
-stress_strain.png, stress_path.png, compression.png and ratios.png.
+stress_strain.png, stress_path.png, compression.png and ratios.png; of seepage
+flow_net.png and discharge.png.
 Of each run also report.html, a page with all of it, and, of fields, paraview_state.py,
 which opens them in ParaView. With --format svg or pdf only pictures are drawn, as vectors.
 Films show all times at which fields were written; for 50 pictures or more let a stage write
@@ -45,6 +46,9 @@ def pictures_of(run, times=None):
     if run.method in ("limit load", "strength reduction"):
         from geocone.plots import bounds
         return bounds.pictures(run)
+    if run.method == "seepage":
+        from geocone.plots import seepage
+        return seepage.pictures(run)
     if run.method == "explicit MPM":
         from geocone.plots import explicit
         return explicit.pictures(run, times)

@@ -18,7 +18,7 @@ from matplotlib.transforms import offset_copy
 from geocone.parameter_file import IncludeError, parameters_of
 from geocone.plots.solid import View, add_directions
 from geocone.reader import Missing, ReadError
-from geocone.style import (WATER, draw_table, plain, save, subplots, table_of,
+from geocone.style import (WATER, draw_free_surface, draw_table, plain, save, subplots, table_of,
                            unit_for)
 
 FILE = "model.json"
@@ -51,6 +51,16 @@ class Model:
     def materials(self):
         """Names of the materials that are drawn, with their places in the list."""
         return [(i, material["name"]) for i, material in enumerate(self.data["materials"])]
+
+    def free_surface(self, time=0.):
+        """Segments (n, 2, 2) of the free surface of the flow at a time: that of the start, or
+        of the last stage that began to change its levels."""
+        surfaces, number, begin = self.data.get("free_surfaces", []), 0, 0.
+        for stage in self.data["stages"]:
+            number += "water_levels" in stage and time > begin
+            begin += stage["duration_s"]
+        return np.array(surfaces[min(number, len(surfaces) - 1)] if surfaces else [],
+                        dtype=float).reshape(-1, 2, 2)
 
     def absent(self):
         """Names of the materials that a stage adds or makes of others, which are not there
@@ -387,7 +397,7 @@ def notable_stages(model):
     """The stages whose beginning or end looks otherwise than what was before."""
     return [stage for stage in model.data["stages"] if any(
         key in stage for key in ("removed", "removed_lattice", "added", "changed",
-                                 "water_table"))]
+                                 "water_table", "water_levels"))]
 
 
 def words_of(stage):
@@ -399,7 +409,7 @@ def words_of(stage):
         words.append("adds " + ", ".join(stage["added"]))
     for before, after in stage.get("changed", {}).items():
         words.append(f"{before} becomes {after}")
-    if "water_table" in stage:
+    if "water_table" in stage or "water_levels" in stage:
         words.append("water level")
     if "strength_factor" in stage:
         words.append(f"strength / {stage['strength_factor']:g}")
@@ -455,6 +465,10 @@ def draw_plane(model, path):
     draw_side_names(main, model)
     table = water_of(model)
     draw_table(main, table)
+    surface = model.free_surface()
+    draw_free_surface(main, surface)
+    if len(surface):
+        entries["free surface"] = Line2D([], [], color=WATER)
     if len(table):
         entries["water table"] = Line2D([], [], color=WATER, linestyle="--")
     points = np.array(model.data["observed_points"], dtype=float).reshape(-1, 2)

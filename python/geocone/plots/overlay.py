@@ -12,7 +12,7 @@ from matplotlib.patches import PathPatch, Polygon
 from geocone.plots.model import Model, outline_of
 from geocone.plots.solid import vertices_of
 from geocone.reader import ReadError
-from geocone.style import areas_of, draw_obstacles, draw_water
+from geocone.style import areas_of, draw_free_surface, draw_obstacles, draw_water
 
 BODY = {"edgecolor": "#303030", "linewidth": 1.}
 START = {"edgecolor": "#808080", "linewidth": 0.8, "linestyle": (0, (2, 2))}
@@ -111,6 +111,9 @@ def draw_scene(axes, run, field, places=None):
                                                linewidths=look["linewidth"]), autolim=False)
     draw_obstacles(axes, run, field.time)
     draw_water(axes, run, field.time)
+    model = model_of(run)
+    if model is not None:
+        draw_free_surface(axes, model.free_surface(field.time))
     axes.set(xlim=view[0], ylim=view[1])
     return [artist for artist in axes.get_children() if artist not in before]
 

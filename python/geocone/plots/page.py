@@ -27,7 +27,7 @@ MOST_BYTES = 4_500_000  # of a page, in pictures
 LARGE = 100_000  # bytes of a picture
 
 # Results shown first, and their captions.
-TOPICS = {"safety": "Factor of safety", "bounds": "Bounds", "limit_load": "Load",
+TOPICS = {"safety": "Factor of safety", "seepage": "Seepage", "bounds": "Bounds", "limit_load": "Load",
           "non_associated": "Less dilatancy than friction",
           "reference": "Reference", "contact": "Contact", "failure": "Failure",
           "points": "Observed points", "motion": "Motion", "energy": "Energy",
@@ -49,10 +49,12 @@ CAPTIONS = {
     "points.png": "The material points at some times", "runout.png": "Reach of the body",
     "slide.png": "The slide", "structure.png": "Structure of the soil",
     "loading.png": "Loading ratio of the soil",
+    "flow_net.png": "Pore pressures, heads and flow",
     "stress_strain.png": "Stress against strain", "stress_path.png": "Stress path",
     "compression.png": "Compression", "ratios.png": "Ratios of the soil's memory"}
 # Pictures of the computation, which are folded away too.
-OF_COMPUTATION = {"bounds.png": "Both bounds and their gap", "energy.png": "Energies",
+OF_COMPUTATION = {"bounds.png": "Both bounds and their gap",
+                  "discharge.png": "Discharge by mesh", "energy.png": "Energies",
                   "newton.png": "Newton's method: residuals"}
 # The unit at the end of a name of the summary, as in "angular_N_m_s_per_m".
 UNIT = re.compile(r"_((?:(?:MB|Pa|kg|J|N|m|m2|m3|s)_)*(?:MB|Pa|kg|J|N|m|m2|m3|s)"

@@ -30,6 +30,8 @@ VIEWS = {
     "points": [[STRAINS, STRESS], [RATE, VELOCITY]],
     "cells": [[RATE, STRAINS, STRESS], [("displacement", "displacement (m)", None),
                                         VELOCITY]],
+    "seepage": [[("pore_pressure", "pore pressure (Pa)", None)],
+                [("seepage_velocity", "Darcy velocity (m/s)", None)]],
     "bounds": [[("part_of_gap", "part of the gap, over the mean (-)", 1e-2)],
                [("velocity", "velocity, upper bound (-)", None)]]}
 
@@ -37,7 +39,7 @@ VIEWS = {
 def series_of(run):
     """The main series of a run: points only if they move.
     @throw Missing if there are no fields"""
-    for series in ("bounds", "points", "cells"):
+    for series in ("bounds", "seepage", "points", "cells"):
         try:
             field, = run.states(series)
         except Missing:

@@ -118,6 +118,13 @@ def water_of(model):
     weight = number(model.parameters.get("Water/Unit weight"))
     rows = ([["piezometric line x, y (m)", table]] if table else []) + (
         [["pore pressures of the file", file]] if file else [])
+    for name in filter(None, map(str.strip, model.parameters.get("Seepage/Names", "").split(","))):
+        section = f"Seepage/{name}/"
+        level, rain = model.parameters.get(section + "Level", "none"), number(
+            model.parameters.get(section + "Rain"))
+        rows.append([f"{name} (sides {model.parameters.get(section + 'Sides', '')})",
+                     ("open to the air" if level == "none" else f"water level {level} m") +
+                     (f", rain {rain:g} m/s" if rain else "")])
     if rows and weight:
         rows.append(["unit weight of water", f"{weight / 1e3:g} kN/m³"])
     return Table("Water", ["water", "value"], rows, None)
