@@ -50,6 +50,10 @@ namespace geocone::GEOCONE_DIM
                   conductivity_angle,
                   "Angle [degrees] from x, counterclockwise, of the direction "
                   "of the first of two values of 'Permeability'.");
+    add_parameter("Drainable porosity",
+                  drainable,
+                  "Volume of water per volume of soil [-] that drains as the "
+                  "free surface of a transient flow falls (specific yield).");
   }
 
   std::string
@@ -118,6 +122,17 @@ namespace geocone::GEOCONE_DIM
     k[1][1] = k1 * s * s + k2 * c * c;
     k[0][1] = (k1 - k2) * c * s;
     return k;
+  }
+
+  double
+  ConstitutiveLaw::drainable_porosity() const
+  {
+    require(drainable > 0. && drainable < 1.,
+            "Drainable porosity",
+            drainable,
+            "> 0, < 1 where the flow is transient",
+            "sand has 0.2 to 0.3, silt 0.1, clay 0.03");
+    return drainable;
   }
 
   void

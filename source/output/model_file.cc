@@ -351,12 +351,13 @@ namespace geocone::GEOCONE_DIM
         materials.push_back(material);
       }
     Json surfaces = Json::array();
-    for (const Water::Flow &flow : scene.water.flows())
+    const auto steps = scene.water.flow_steps();
+    for (std::size_t i = 0; i < scene.water.flows().size(); ++i)
       {
         Json segments = Json::array();
-        for (const auto &segment : flow.surface)
+        for (const auto &segment : scene.water.flows()[i].surface)
           segments.push_back(json_of_places(segment));
-        surfaces.push_back(segments);
+        surfaces.push_back({{"time_s", steps[i].time}, {"segments", segments}});
       }
     Json cells = Json::array();
     for (const Face &cell : mesh.cells)

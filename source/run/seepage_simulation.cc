@@ -13,35 +13,44 @@ namespace geocone::GEOCONE_DIM
   void
   SeepageOutput::prepare(const RunOptions               &options,
                          const std::vector<std::string> &names,
-                         const std::string              &unit)
+                         const Geometry                 &geometry,
+                         const bool                      is_transient)
   {
+    const std::string unit = geometry.unit("m^3/s/m");
     make_folder(options);
     const auto add = [&](const std::string &column, const auto member) {
       table.add(column, [member](const FlowLevel &l) { return l.*member; });
     };
+    fields =
+      std::make_unique<FieldFiles>("seepage", FieldsFormat(fields_format));
+    add("time (s)", &FlowLevel::time);
     add("triangles (-)", &FlowLevel::triangles);
     add("discharge (" + unit + ")", &FlowLevel::discharge);
     for (unsigned int b = 0; b < names.size(); ++b)
       table.add("inflow of " + names[b] + " (" + unit + ")",
                 [b](const FlowLevel &l) { return l.inflows[b]; });
+    if (is_transient)
+      add("stored (" + geometry.unit("m^3/m") + ")", &FlowLevel::stored);
     add("iterations (-)", &FlowLevel::iterations);
     add("natural-map error (-)", &FlowLevel::error);
     open_table("seepage.csv");
   }
 
   void
-  SeepageOutput::write_fields(const FlowOnMesh &flow, const double unit_weight)
+  SeepageOutput::write_fields(const FlowOnMesh &flow,
+                              const double      unit_weight,
+                              const double      time)
   {
     if (!with_fields)
       return;
     const Triangles &triangles = flow.triangles();
-    FieldTable       fields;
-    fields.cell    = FieldTable::Cell::triangle;
-    fields.n_nodes = 3 * triangles.cells.size();
+    FieldTable       table;
+    table.cell     = FieldTable::Cell::triangle;
+    table.n_nodes  = 3 * triangles.cells.size();
     const auto add = [&](const std::string &name,
                          const unsigned int size,
                          const auto        &value) {
-      fields.columns.push_back(
+      table.columns.push_back(
         {name, size, [&triangles, size, value](std::vector<double> &to) {
            for (std::size_t i = 0; i < to.size(); ++i)
              {
@@ -56,8 +65,8 @@ namespace geocone::GEOCONE_DIM
     add("position", dim, [&](const Index, const Index v, const Index d) {
       return vertices[v][d];
     });
-    fields.positions = fields.columns.back().fill;
-    fields.columns.clear();
+    table.positions = table.columns.back().fill;
+    table.columns.clear();
     add("pore_pressure", 1, [&](const Index, const Index v, const Index) {
       return unit_weight * flow.flow().head[v];
     });
@@ -75,8 +84,7 @@ namespace geocone::GEOCONE_DIM
     add("material", 1, [&](const Index c, const Index, const Index) {
       return static_cast<double>(triangles.material[c]);
     });
-    FieldFiles("seepage", FieldsFormat(fields_format))
-      .write(fields, path, 0., comm);
+    fields->write(table, path, time, comm);
   }
 
   void
@@ -106,6 +114,8 @@ namespace geocone::GEOCONE_DIM
                        "at least one name with 'Analysis/Kind' = seepage",
                        "e.g. upstream, downstream, each with its subsection");
     scene.water.seepage.prepare(scene.geometry);
+    scene.loading.prepare(scene.materials.names(), scene.tractions.names());
+    scene.water.prepare_stages(scene.loading);
     flow.emplace(scene, scene.water.seepage.levels(), comm);
     flow->refine();
     return {};
@@ -114,8 +124,10 @@ namespace geocone::GEOCONE_DIM
   void
   SeepageSimulation::prepare_output(const RunOptions &options)
   {
-    seepage_output.prepare(
-      options, scene.water.seepage.names(), scene.geometry.unit("m^3/s/m"));
+    seepage_output.prepare(options,
+                           scene.water.seepage.names(),
+                           scene.geometry,
+                           scene.water.flows_in_time());
   }
 
   Json
@@ -124,31 +136,55 @@ namespace geocone::GEOCONE_DIM
     return model_of(scene, model_mesh_of(flow->triangles()));
   }
 
+  void
+  SeepageSimulation::add_record(const double time)
+  {
+    FlowLevel record;
+    record.time       = time;
+    record.triangles  = flow->triangles().cells.size();
+    record.iterations = flow->flow().iterations;
+    record.discharge  = flow->discharge();
+    record.error      = flow->flow().error;
+    record.inflows    = flow->inflows();
+    if (scene.water.flows_in_time())
+      record.stored = flow->stored();
+    seepage_output.add_record(record);
+  }
+
   Simulation::Ended
   SeepageSimulation::advance(Place &place)
   {
-    for (unsigned int level = 1;; ++level)
+    results.clear();
+    for (const Seepage::Step &step : scene.water.flow_steps())
       {
-        FlowLevel record;
-        record.triangles  = flow->triangles().cells.size();
-        record.iterations = flow->flow().iterations;
-        record.discharge  = flow->discharge();
-        record.error      = flow->flow().error;
-        record.inflows    = flow->inflows();
-        seepage_output.add_record(record);
-        if (level == flow->n_levels())
-          break;
-        stop_if_asked(comm);
-        flow->refine();
+        if (!results
+               .empty()) // the fields of the last flow are written at the end
+          write_fields(place.time);
+        if (step.duration > 0.)
+          flow->advance(step);
+        else if (!results.empty())
+          {
+            flow.emplace(scene, step.levels, comm);
+            flow->refine();
+          }
+        for (unsigned int level = 1;; ++level)
+          {
+            stop_if_asked(comm);
+            add_record(step.time);
+            if (step.duration > 0. || level == flow->n_levels())
+              break;
+            flow->refine();
+          }
+        place.time = step.time;
+        results.push_back(flow->result());
       }
-    place.time = 1.;
     return Ended::stage;
   }
 
   void
-  SeepageSimulation::write_fields(const double)
+  SeepageSimulation::write_fields(const double t)
   {
-    seepage_output.write_fields(*flow, scene.water.weight());
+    seepage_output.write_fields(*flow, scene.water.weight(), t);
   }
 
   Json
@@ -169,15 +205,20 @@ namespace geocone::GEOCONE_DIM
                          {"imbalance", flow->imbalance()},
                          {"iterations", flow->flow().iterations},
                          {"natural_map_error", flow->flow().error}};
-    json["cost"]      = {{"total_s", total.wall_time()},
-                         {"cpu_s", total.cpu_time()}};
+    if (scene.water.flows_in_time())
+      {
+        json["seepage"]["stored"]      = flow->stored();
+        json["seepage"]["stored_unit"] = scene.geometry.unit("m^3/m");
+      }
+    json["cost"] = {{"total_s", total.wall_time()},
+                    {"cpu_s", total.cpu_time()}};
     return json;
   }
 
   void
   SeepageSimulation::finish(const double)
   {
-    scene.water.set_flows({flow->result()});
+    scene.water.set_flows(results);
     seepage_output.write_model(model());
     log.print("discharge " + flow->text());
   }

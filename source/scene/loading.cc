@@ -61,6 +61,12 @@ namespace geocone::GEOCONE_DIM
         "linearly in time from those of the steady flow before to those of "
         "the steady flow after. Empty: unchanged.");
       stage.add_parameter(
+        "Flow steps",
+        stage.flow_steps,
+        "FEM and MPM: number of equal time steps of a transient flow during "
+        "the stage, in which 'Water levels' change linearly and the free "
+        "surface follows with 'Drainable porosity'. 0: the flow is steady.");
+      stage.add_parameter(
         "Until failure",
         stage.until_failure,
         "FEM and MPM: whether the stage and the run end as intended at the "
@@ -238,6 +244,7 @@ namespace geocone::GEOCONE_DIM
           {"Water table", water_table.empty() ? "" : "a line"},
           {"Water levels",
            water_levels.empty() ? "" : water_levels.begin()->first},
+          {"Flow steps", flow_steps > 0 ? std::to_string(flow_steps) : ""},
           {"Changed materials",
            changed_materials.empty() ? "" : changed_materials.begin()->first}})
       if (!material.empty())

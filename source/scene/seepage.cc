@@ -51,12 +51,14 @@ namespace geocone::GEOCONE_DIM
                            dealii::Patterns::Tools::to_string(sides),
                            "empty where there is a drain",
                            "give a boundary of its own for the sides");
-        if (drain.size() < 2)
+        if (drain.size() < 2 ||
+            !std::all_of(drain.begin(), drain.end(), [](const auto &x) {
+              return std::isfinite(x.square());
+            }))
           throw InputError(parameter("Drain"),
                            dealii::Patterns::Tools::to_string(drain),
-                           "at least two points",
+                           "at least two points with finite coordinates",
                            "give the ends of the line, x, y; x, y");
-        check_coordinates(drain, parameter("Drain"));
         if (rain > 0.)
           throw InputError(
             parameter("Rain"), rain, "0 for a drain", "rain falls on sides");
@@ -155,9 +157,10 @@ namespace geocone::GEOCONE_DIM
     return all;
   }
 
-  Seepage::Levels
-  Seepage::levels(const Stage &stage, Levels before) const
+  std::vector<Seepage::Step>
+  Seepage::steps(const Stage &stage, const Levels &before) const
   {
+    Levels after = before;
     for (const auto &[name, level] : stage.water_levels)
       {
         const auto found =
@@ -169,8 +172,26 @@ namespace geocone::GEOCONE_DIM
                                   : "empty where no water flows",
                            "give NAME: LEVEL, e.g. " +
                              (acts() ? list[0]->name : "upstream") + ": 5");
-        before[found - this->names().begin()] = level;
+        after[found - this->names().begin()] = level;
       }
-    return before;
+    if (stage.flow_steps > 0 && !acts())
+      throw InputError("Loading/" + stage.name + "/Flow steps",
+                       stage.flow_steps,
+                       "0 where no water flows",
+                       "name the boundaries of the flow in 'Seepage/Names'");
+    if (stage.flow_steps == 0)
+      return stage.water_levels.empty() ? std::vector<Step>()
+                                        : std::vector<Step>{{after}};
+    std::vector<Step> all;
+    for (unsigned int k = 1; k <= stage.flow_steps; ++k)
+      {
+        const double part = double(k) / stage.flow_steps;
+        Step         step = {after, stage.duration / stage.flow_steps};
+        for (unsigned int b = 0; b < after.size(); ++b)
+          if (before[b] && after[b])
+            step.levels[b] = (1. - part) * *before[b] + part * *after[b];
+        all.push_back(step);
+      }
+    return all;
   }
 } // namespace geocone::GEOCONE_DIM

@@ -47,9 +47,8 @@ namespace geocone::GEOCONE_DIM
     seepage.prepare(geometry);
     if (seepage.acts() && !(file.empty() && table.empty()))
       throw InputError(file.empty() ? "Water/Table" : "Water/File",
-                       file.empty() ?
-                         dealii::Patterns::Tools::to_string(table) :
-                         file,
+                       file.empty() ? dealii::Patterns::Tools::to_string(table)
+                                    : file,
                        "empty beside 'Seepage/Names'",
                        "the flow gives the pressures: take one of them out");
     if (!file.empty())
@@ -102,10 +101,13 @@ namespace geocone::GEOCONE_DIM
     double begin = 0.;
     for (const auto &stage : loading.list)
       {
-        const double end = begin + stage->duration;
-        if (!stage->water_levels.empty())
+        const double end   = begin + stage->duration;
+        const auto   flows = seepage.steps(*stage, flow_steps().back().levels);
+        const double part =
+          stage->duration / std::max<double>(flows.size(), 1.);
+        for (unsigned int k = 0; k < flows.size(); ++k)
           later.push_back(
-            {begin, end, {}, seepage.levels(*stage, levels().back())});
+            {begin + k * part, begin + (k + 1) * part, {}, flows[k]});
         if (!stage->water_table.empty())
           {
             const std::string parameter =
@@ -124,12 +126,23 @@ namespace geocone::GEOCONE_DIM
       }
   }
 
-  std::vector<Seepage::Levels>
-  Water::levels() const
+  bool
+  Water::flows_in_time() const
   {
-    std::vector<Seepage::Levels> all = {seepage.levels()};
+    return std::any_of(later.begin(), later.end(), [](const Later &one) {
+      return one.flow.duration > 0.;
+    });
+  }
+
+  std::vector<Seepage::Step>
+  Water::flow_steps() const
+  {
+    std::vector<Seepage::Step> all = {{seepage.levels()}};
     for (const Later &of_stage : later)
-      all.push_back(of_stage.levels);
+      {
+        all.push_back(of_stage.flow);
+        all.back().time = of_stage.end;
+      }
     return all;
   }
 

@@ -70,6 +70,7 @@ namespace geocone::GEOCONE_DIM
     : scene(scene)
     , levels(levels)
     , comm(comm)
+    , is_transient(scene.water.flows_in_time())
   {
     for (unsigned int m = 0; m < scene.materials.size(); ++m)
       permeability.push_back(scene.materials.law(m).permeability());
@@ -78,7 +79,10 @@ namespace geocone::GEOCONE_DIM
   unsigned int
   FlowOnMesh::n_levels() const
   {
-    return scene.geometry.shape == Geometry::Shape::file ? 1 : number_of_levels;
+    // The free surface moves through the whole mesh of a transient flow.
+    return scene.geometry.shape == Geometry::Shape::file || is_transient
+             ? 1
+             : number_of_levels;
   }
 
   void
@@ -86,9 +90,9 @@ namespace geocone::GEOCONE_DIM
   {
     std::optional<TriangleField> last;
     if (!mesh)
-      sizes = equal_sizes(scene.geometry,
-                          scene.water.seepage.n_cells /
-                            std::pow(2., number_of_levels - 1));
+      sizes =
+        equal_sizes(scene.geometry,
+                    scene.water.seepage.n_cells / std::pow(2., n_levels() - 1));
     else
       {
         sizes = adapted_sizes(*mesh, jumps(), 2. * mesh->cells.size());
@@ -101,13 +105,54 @@ namespace geocone::GEOCONE_DIM
         drains.push_back({{boundary->drain[i - 1], boundary->drain[i]}});
     mesh.emplace(
       triangles_of_body(scene, ends_of_boxes(scene), drains, sizes, comm));
-    const FlowConditions conditions = this->conditions();
-    std::vector<double>  measure;
+    solve(conditions(), start(mesh->vertices, last));
+  }
+
+  void
+  FlowOnMesh::solve(const FlowConditions &conditions, std::vector<double> start)
+  {
+    std::vector<double> measure;
     for (unsigned int c = 0; c < mesh->cells.size(); ++c)
       measure.push_back(
         Geometry::measure(scene.geometry.symmetry, mesh->centre(c)));
-    steady = steady_flow(
-      *mesh, permeability, measure, conditions, start(mesh->vertices, last));
+    steady =
+      steady_flow(*mesh, permeability, measure, conditions, std::move(start));
+  }
+
+  void
+  FlowOnMesh::advance(const Seepage::Step &step)
+  {
+    levels                 = step.levels;
+    FlowConditions next    = conditions();
+    next.storage           = drainable();
+    next.saturation_before = steady.saturation;
+    for (double &volume : next.storage)
+      volume /= step.duration;
+    discharge_before.reset();
+    solve(next, steady.s);
+  }
+
+  std::vector<double>
+  FlowOnMesh::drainable() const
+  {
+    std::vector<double> volume(mesh->vertices.size(), 0.);
+    for (unsigned int c = 0; c < mesh->cells.size(); ++c)
+      for (const unsigned int v : mesh->cells[c])
+        volume[v] +=
+          scene.materials.law(mesh->material[c]).drainable_porosity() *
+          mesh->area(c) / 3. *
+          Geometry::measure(scene.geometry.symmetry, mesh->centre(c));
+    return volume;
+  }
+
+  double
+  FlowOnMesh::stored() const
+  {
+    const std::vector<double> volume = drainable();
+    double                    sum    = 0.;
+    for (unsigned int v = 0; v < volume.size(); ++v)
+      sum += volume[v] * steady.saturation[v];
+    return sum;
   }
 
   std::vector<unsigned int>
@@ -329,12 +374,18 @@ namespace geocone::GEOCONE_DIM
   {
     if (!scene.water.seepage.acts())
       return;
-    std::vector<Water::Flow> flows;
-    for (const Seepage::Levels &levels : scene.water.levels())
+    std::vector<Water::Flow>  flows;
+    std::optional<FlowOnMesh> flow;
+    for (const Seepage::Step &step : scene.water.flow_steps())
       {
-        FlowOnMesh flow(scene, levels, comm);
-        flow.solve(log);
-        flows.push_back(flow.result());
+        if (step.duration > 0.)
+          flow->advance(step);
+        else
+          {
+            flow.emplace(scene, step.levels, comm);
+            flow->solve(log);
+          }
+        flows.push_back(flow->result());
       }
     scene.water.set_flows(std::move(flows));
   }

@@ -93,6 +93,15 @@ namespace geocone::GEOCONE_DIM
             scale[i] += size;
             scale[j] += size;
           }
+        if (is_transient())
+          for (unsigned int v = 0; v < n; ++v)
+            {
+              const double stored =
+                conditions.storage[v] *
+                (values[v].chi - conditions.saturation_before[v]);
+              r[v] -= stored;
+              scale[v] += std::abs(stored);
+            }
         for (unsigned int v = 0; v < n; ++v)
           {
             inflow[v] = conditions.kind[v] == Kind::head
@@ -141,8 +150,15 @@ namespace geocone::GEOCONE_DIM
             add(j, u, -gravity);
           }
         for (unsigned int v = 0; v < n; ++v)
-          matrix.value[matrix.entry(v, v)] -=
-            conditions.kind[v] == Kind::head ? diagonal[v] : values[v].doutflow;
+          {
+            double &entry = matrix.value[matrix.entry(v, v)];
+            if (conditions.kind[v] == Kind::head)
+              entry -= diagonal[v];
+            else
+              entry -=
+                values[v].doutflow +
+                (is_transient() ? conditions.storage[v] * values[v].dchi : 0.);
+          }
         return matrix;
       }
 
@@ -153,6 +169,12 @@ namespace geocone::GEOCONE_DIM
       std::vector<Values> values;
 
     private:
+      bool
+      is_transient() const
+      {
+        return !conditions.storage.empty();
+      }
+
       void
       set_values(const std::vector<double> &s)
       {

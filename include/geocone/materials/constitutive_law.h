@@ -83,6 +83,11 @@ namespace geocone::GEOCONE_DIM
     dealii::SymmetricTensor<2, 2>
     permeability() const;
 
+    /** Volume of water per volume of soil that drains as the free surface falls (-).
+     *  @throws InputError if it is not given */
+    double
+    drainable_porosity() const;
+
     /** Ratio of horizontal to vertical effective stress given in the file, or
      *  0. */
     double
@@ -219,6 +224,7 @@ namespace geocone::GEOCONE_DIM
 
     std::vector<double> conductivities; ///< principal ones (m/s)
     double              conductivity_angle = 0.; ///< (degrees)
+    double              drainable          = 0.;
   };
 
   /** One output quantity of a law, or NaN if it has none of this name. */

@@ -17,43 +17,50 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Flow on one of the meshes. */
+  /** Flow on one of the meshes, or at one of the times. */
   struct FlowLevel
   {
+    double              time      = 0.; ///< (s)
     unsigned int        triangles = 0, iterations = 0;
     double              discharge = 0., error = 0.; ///< (m^2/s), (-)
-    std::vector<double> inflows; ///< through each boundary (m^2/s)
+    double              stored = 0.; ///< of a transient flow (m^2)
+    std::vector<double> inflows;     ///< through each boundary (m^2/s)
 
     void
     state(StateRow &row)
     {
-      row(triangles, iterations, discharge, error, inflows);
+      row(time, triangles, iterations, discharge, error, stored, inflows);
     }
   };
 
-  /** Output of a flow: seepage.csv with a line per mesh, the fields of the last one, and
-   *  the summary. */
+  /** Output of a flow: seepage.csv with a line per mesh and time, the fields of the last
+   *  mesh, and the summary. */
   class SeepageOutput : public TableOutput<FlowLevel>
   {
   public:
     using TableOutput::TableOutput;
 
-    /** @param names of the boundaries @param unit of a discharge, e.g. "m^2/s" */
+    /** @param names of the boundaries @param geometry for the units */
     void
     prepare(const RunOptions               &options,
             const std::vector<std::string> &names,
-            const std::string              &unit);
+            const Geometry                 &geometry,
+            const bool                      is_transient);
 
     /** Writes pressures, heads, relative permeabilities and velocities. */
     void
-    write_fields(const FlowOnMesh &flow, const double unit_weight);
+    write_fields(const FlowOnMesh &flow,
+                 const double      unit_weight,
+                 const double      time);
 
   private:
     void
     report_results(std::ostream &out) const override;
+
+    std::unique_ptr<FieldFiles> fields;
   };
 
-  /** Steady flow of water through a scene, without its mechanics. */
+  /** Flow of water through a scene, without its mechanics. */
   class SeepageSimulation : public Simulation
   {
   public:
@@ -78,7 +85,7 @@ namespace geocone::GEOCONE_DIM
     std::string
     headline(const std::string &name) const override
     {
-      return name + ": steady flow of water";
+      return name + ": flow of water";
     }
     Json
     model() override;
@@ -102,9 +109,14 @@ namespace geocone::GEOCONE_DIM
     void
     finish(const double t) override;
 
+    /** Records the present flow. */
+    void
+    add_record(const double time);
+
     Scene                     scene;
     SeepageOutput             seepage_output;
     std::optional<FlowOnMesh> flow;
+    std::vector<Water::Flow>  results; ///< of the times so far
   };
 } // namespace geocone::GEOCONE_DIM
 

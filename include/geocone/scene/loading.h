@@ -92,8 +92,10 @@ namespace geocone::GEOCONE_DIM
      *  time; empty: unchanged. */
     std::vector<dealii::Point<2>> water_table;
 
-    /** Levels of open water at the end, by name of the seepage boundary (m). */
+    /** Levels of open water at the end, by name of the seepage boundary (m), and number
+     *  of steps of the transient flow; 0: steady flow. */
     std::map<std::string, double> water_levels;
+    unsigned int                  flow_steps = 0;
 
     /** @name Changes of the body at the beginning */
     /** @{ */

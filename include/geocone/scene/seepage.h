@@ -62,13 +62,22 @@ namespace geocone::GEOCONE_DIM
     /** Levels of all boundaries, in the order of the list (m; none: air). */
     using Levels = std::vector<std::optional<double>>;
 
+    /** A flow to be solved: a steady one, or a step of a transient one. */
+    struct Step
+    {
+      Levels levels;        ///< at its end
+      double duration = 0.; ///< (s); 0: steady
+      double time     = 0.; ///< at its end (s)
+    };
+
     /** The initial levels. */
     Levels
     levels() const;
 
-    /** @p before with those changed by a stage. @throws InputError for unknown names */
-    Levels
-    levels(const Stage &stage, Levels before) const;
+    /** Flows of a stage after one with the levels @p before; none where it changes
+     *  nothing. @throws InputError for unknown names */
+    std::vector<Step>
+    steps(const Stage &stage, const Levels &before) const;
 
     /** Number of triangles of the finest mesh. */
     unsigned int n_cells = 5000;

@@ -64,10 +64,13 @@ namespace geocone::GEOCONE_DIM
     /** Boundaries of the body between which water flows. */
     Seepage seepage;
 
-    /** Levels of the water of the flow: the initial ones, then those at the end of
-     *  each stage that changes them. */
-    std::vector<Seepage::Levels>
-    levels() const;
+    /** Whether some of the flows are transient. */
+    bool
+    flows_in_time() const;
+
+    /** Flows to be solved, in order: the initial one, then those of stages. */
+    std::vector<Seepage::Step>
+    flow_steps() const;
 
     /** Pore pressures of a steady flow, and its free surface. */
     struct Flow
@@ -76,11 +79,11 @@ namespace geocone::GEOCONE_DIM
       std::vector<std::array<dealii::Point<dim>, 2>> surface;  ///< segments
     };
 
-    /** Sets the flows at levels(). */
+    /** Sets the results of flow_steps(). */
     void
-    set_flows(std::vector<Flow> of_levels)
+    set_flows(std::vector<Flow> of_steps)
     {
-      all_flows = std::move(of_levels);
+      all_flows = std::move(of_steps);
     }
 
     const std::vector<Flow> &
@@ -151,12 +154,12 @@ namespace geocone::GEOCONE_DIM
     Table                       table;
     std::vector<Flow>           all_flows;
 
-    /** Piezometric line, or levels of the flow, at the end of a stage. */
+    /** Piezometric line at the end of a stage, or a flow during it. */
     struct Later
     {
-      double          begin, end; ///< of the stage (s)
-      Table           table;
-      Seepage::Levels levels;
+      double        begin, end; ///< (s)
+      Table         table;
+      Seepage::Step flow;
     };
     std::vector<Later> later;
 

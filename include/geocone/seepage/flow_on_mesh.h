@@ -26,6 +26,15 @@ namespace geocone::GEOCONE_DIM
                const Seepage::Levels &levels,
                const MPI_Comm         comm);
 
+    /** Solves a step of a transient flow on the present mesh. @throws RunError */
+    void
+    advance(const Seepage::Step &step);
+
+    /** Water above that which cannot drain (m^2; m^3 in axisymmetry). @pre drainable
+     *  porosities are given */
+    double
+    stored() const;
+
     /** Number of meshes. */
     unsigned int
     n_levels() const;
@@ -96,14 +105,23 @@ namespace geocone::GEOCONE_DIM
     std::vector<double>
     jumps() const;
 
+    /** Drainable volume of each vertex (m^2). */
+    std::vector<double>
+    drainable() const;
+
+    /** Solves the flow on the present mesh. */
+    void
+    solve(const FlowConditions &conditions, std::vector<double> start);
+
     /** Start of Newton's method: from the last mesh, or hydrostatic pressures. */
     std::vector<double>
     start(const std::vector<dealii::Point<dim>> &vertices,
           const std::optional<TriangleField>    &last) const;
 
     const Scene                               &scene;
-    const Seepage::Levels                      levels;
+    Seepage::Levels                            levels;
     const MPI_Comm                             comm;
+    const bool                                 is_transient; ///< now or later
     std::vector<dealii::SymmetricTensor<2, 2>> permeability;
     CellSizes                                  sizes;
     std::optional<Triangles>                   mesh;

@@ -25,6 +25,12 @@ namespace geocone::GEOCONE_DIM
     std::vector<Kind>   kind;
     std::vector<double> head; ///< psi, where it is prescribed (m)
     std::vector<double> rain; ///< volume per time offered to a vertex (m^2/s)
+
+    /** @name Of a step of a transient flow; empty: steady */
+    /** @{ */
+    std::vector<double> storage; ///< drainable volume over the step (m^2/s)
+    std::vector<double> saturation_before;
+    /** @} */
   };
 
   /** Steady flow on a mesh, by vertices. */
@@ -57,7 +63,9 @@ namespace geocone::GEOCONE_DIM
    * with the outflow Q >= 0, psi = 0 and (1 - chi) Q = 0 on seepage faces. Linear
    * triangles for psi; the gravity part of the flow along an edge has the chi of the
    * vertex from which it comes, so that the flow is monotone and chi stays in [0, 1]
-   * where no off-diagonal entry of the conductance matrix is positive. A normal map,
+   * where no off-diagonal entry of the conductance matrix is positive. In a step of a
+   * transient flow div q = -n d(chi)/dt by backward Euler, with the drainable porosity n.
+   * A normal map,
    *   psi = max(s, 0), chi = 1 + min(s, 0)
    * (at seepage faces Q = max(s, 0)), makes it one system of piecewise linear equations,
    * solved by the nonsmooth Newton method with a line search.
