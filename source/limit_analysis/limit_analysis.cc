@@ -169,7 +169,18 @@ namespace geocone::GEOCONE_DIM
       "depends: take Tresca with that strength, or steps");
     scene.regions.prepare(scene.geometry);
     scene.prepare_weight();
-    let_water_flow(scene, comm, log);
+    if (const Seepage &seepage = scene.water.seepage; seepage.acts())
+      {
+        scene.loading.prepare(scene.materials.names(), scene.tractions.names());
+        scene.water.prepare_stages(scene.loading);
+        if (!(seepage.time >= 0. && seepage.time <= scene.loading.duration()))
+          throw InputError("Seepage/Time",
+                           seepage.time,
+                           format("0 to %g s, the duration of 'Loading'",
+                                  scene.loading.duration()),
+                           "0: the initial pressures");
+        let_water_flow(scene, comm, log, seepage.time);
+      }
     scene.dirichlet.prepare();
     scene.tractions.prepare();
     scene.absorbing.refuse("'Analysis/Kind' = " + analysis.word(),

@@ -14,7 +14,8 @@ namespace geocone::GEOCONE_DIM
   {
     const UsedWhere used_seepage[] = {
       {"Seepage/*", "Discretisation/Method", {"FEM", "MPM", "explicit MPM"}},
-      {"Seepage/*/*", "Discretisation/Method", {"FEM", "MPM", "explicit MPM"}}};
+      {"Seepage/*/*", "Discretisation/Method", {"FEM", "MPM", "explicit MPM"}},
+      {"Seepage/Time", "Analysis/Kind", {"limit load", "strength reduction"}}};
   } // namespace
 
   SeepageBoundary::SeepageBoundary(const std::string &name)
@@ -106,6 +107,10 @@ namespace geocone::GEOCONE_DIM
                   "Approximate number of triangles of the finest mesh of the "
                   "flow, which is refined at the free surface and where the "
                   "velocity changes.");
+    add_parameter("Time",
+                  time,
+                  "Bounds: time [s] in the stages of 'Loading' whose pore "
+                  "pressures act, e.g. after a drawdown.");
     make();
   }
 

@@ -194,7 +194,13 @@ namespace geocone::GEOCONE_DIM
     if (grid)
       return grid->value(x);
     if (!all_flows.empty())
-      return all_flows.front().pressure.value(x);
+      {
+        double sum = 0.;
+        for (std::size_t i = 0; i < all_flows.size(); ++i)
+          if (initial_parts[i] != 0.)
+            sum += initial_parts[i] * all_flows[i].pressure.value(x);
+        return sum;
+      }
     return table.empty()
              ? 0.
              : unit_weight * std::max(level(table, x[0])[0] - x[1], 0.);

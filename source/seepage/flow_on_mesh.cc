@@ -370,7 +370,7 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
-  let_water_flow(Scene &scene, const MPI_Comm comm, Log &log)
+  let_water_flow(Scene &scene, const MPI_Comm comm, Log &log, const double time)
   {
     if (!scene.water.seepage.acts())
       return;
@@ -387,6 +387,6 @@ namespace geocone::GEOCONE_DIM
           }
         flows.push_back(flow->result());
       }
-    scene.water.set_flows(std::move(flows));
+    scene.water.set_flows(std::move(flows), time);
   }
 } // namespace geocone::GEOCONE_DIM

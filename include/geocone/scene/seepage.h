@@ -81,6 +81,9 @@ namespace geocone::GEOCONE_DIM
 
     /** Number of triangles of the finest mesh. */
     unsigned int n_cells = 5000;
+
+    /** Time of the loading whose pressures are the initial ones (s): that of bounds. */
+    double time = 0.;
   };
 } // namespace geocone::GEOCONE_DIM
 

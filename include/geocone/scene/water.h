@@ -79,11 +79,13 @@ namespace geocone::GEOCONE_DIM
       std::vector<std::array<dealii::Point<dim>, 2>> surface;  ///< segments
     };
 
-    /** Sets the results of flow_steps(). */
+    /** Sets the results of flow_steps(), whose pressures at a time are the initial
+     *  ones. */
     void
-    set_flows(std::vector<Flow> of_steps)
+    set_flows(std::vector<Flow> of_steps, const double time = 0.)
     {
-      all_flows = std::move(of_steps);
+      all_flows     = std::move(of_steps);
+      initial_parts = parts(time);
     }
 
     const std::vector<Flow> &
@@ -153,6 +155,7 @@ namespace geocone::GEOCONE_DIM
     std::optional<PressureGrid> grid;
     Table                       table;
     std::vector<Flow>           all_flows;
+    std::vector<double>         initial_parts; ///< weights of flows
 
     /** Piezometric line at the end of a stage, or a flow during it. */
     struct Later

@@ -131,9 +131,13 @@ namespace geocone::GEOCONE_DIM
     std::optional<double> discharge_before;
   };
 
-  /** Solves all flows of a scene, and gives their pressures to its water. Collective. */
+  /** Solves all flows of a scene, and gives their pressures to its water. Collective.
+   *  @param time whose pressures are the initial ones (s) */
   void
-  let_water_flow(Scene &scene, const MPI_Comm comm, Log &log);
+  let_water_flow(Scene         &scene,
+                 const MPI_Comm comm,
+                 Log           &log,
+                 const double   time = 0.);
 } // namespace geocone::GEOCONE_DIM
 
 #endif
