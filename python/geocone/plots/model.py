@@ -52,15 +52,16 @@ class Model:
         """Names of the materials that are drawn, with their places in the list."""
         return [(i, material["name"]) for i, material in enumerate(self.data["materials"])]
 
-    def free_surface(self, time=0.):
-        """Segments (n, 2, 2) of the free surface of the flow at a time: that of the start, or
-        of the last stage that began to change its levels."""
-        surfaces, number, begin = self.data.get("free_surfaces", []), 0, 0.
-        for stage in self.data["stages"]:
-            number += "water_levels" in stage and time > begin
-            begin += stage["duration_s"]
-        return np.array(surfaces[min(number, len(surfaces) - 1)] if surfaces else [],
-                        dtype=float).reshape(-1, 2, 2)
+    def free_surface(self, time=None):
+        """Segments (n, 2, 2) of the last free surface of the flow up to a time (s), or up to
+        that of 'Seepage/Time'."""
+        if time is None:
+            time = float(self.parameters.get("Seepage/Time", 0.))
+        segments = []
+        for surface in self.data.get("free_surfaces", []):
+            if surface["time_s"] <= time * (1. + 1e-9):
+                segments = surface["segments"]
+        return np.array(segments, dtype=float).reshape(-1, 2, 2)
 
     def absent(self):
         """Names of the materials that a stage adds or makes of others, which are not there

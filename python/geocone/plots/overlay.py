@@ -113,7 +113,8 @@ def draw_scene(axes, run, field, places=None):
     draw_water(axes, run, field.time)
     model = model_of(run)
     if model is not None:
-        draw_free_surface(axes, model.free_surface(field.time))
+        of_bounds = run.method in ("limit load", "strength reduction")  # their levels are no times
+        draw_free_surface(axes, model.free_surface(None if of_bounds else field.time))
     axes.set(xlim=view[0], ylim=view[1])
     return [artist for artist in axes.get_children() if artist not in before]
 
