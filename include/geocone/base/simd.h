@@ -128,6 +128,16 @@ namespace geocone
       return p;
     }
 
+    /** Whether a > b in any component. */
+    friend bool
+    any_greater(const Pack &a, const Pack &b)
+    {
+      bool any = false;
+      for (int k = 0; k < n_parts; ++k)
+        any = any || xsimd::any(a.part[k] > b.part[k]);
+      return any;
+    }
+
     /** Whether lower <= a <= upper in all components. */
     friend bool
     all_between(const Pack &a, const Pack &lower, const Pack &upper)

@@ -47,13 +47,16 @@ namespace geocone
     double eta_b = 0.;                ///< eta_beta,cs (-)
     Vector h_a, h_beta;               ///< (38), (32)
     double h_pc = 0., h_Rb = 0.;      ///< (37), (36)
-    double H          = 0.;           ///< plastic modulus
-    double N_D_m      = 0.;           ///< N:D:m
-    double N_D_strain = 0.;           ///< N:D:de
-    double d_lambda   = 0.;           ///< N:D:de/(N:D:m + H), 0 if negative
-    bool   stable     = true;         ///< N:D:m + H > 0
+    double H              = 0.;       ///< plastic modulus
+    double N_D_m          = 0.;       ///< N:D:m
+    double N_D_strain     = 0.;       ///< N:D:de
+    double d_lambda       = 0.;       ///< N:D:de/(N:D:m + H), 0 if negative
+    double stable         = 1.;       ///< 1 if N:D:m + H > 0, otherwise 0
+    double plastic_strain = 0.;       ///< ||d eps_p|| for de (-)
     /** Increments of the state for de. */
     SubloadingState<n> increment;
+
+    static constexpr bool has_all = true; ///< for SubloadingBody::rates()
   };
 
   /** Statistics of an integration. */
@@ -129,49 +132,6 @@ namespace geocone
     }
 
   private:
-    /** Coefficients of fbar(a + x (sigma - a)) = C + B x + A x^2. */
-    struct Quadratic;
-
-    Quadratic
-    quadratic(const State &state) const;
-
-    /** Whether R > Rmin and N:D:de > 0. */
-    bool
-    loads(const State     &state,
-          const Quadratic &f,
-          const double     R,
-          const Vector    &strain) const;
-
-    /** @name The elastic path of the stress: u e, u from 0 to the length, which
-     *  is the integral of K; e = tr(de) I + 2 G/K dev(de) */
-    /** @{ */
-    Vector
-    elastic_direction(const Vector &strain) const;
-    double
-    elastic_length(const double p, const Vector &strain) const;
-
-    /** Advances the stress elastically to the onset of plastic loading.
-     *  @return the part of the increment, 0 to 1, that this takes */
-    double
-    elastic_part(State           &state,
-                 const Quadratic &f,
-                 const double     R,
-                 const Vector    &strain) const;
-    /** @} */
-
-    /** A substep of the modified Euler method and its error. */
-    struct Substep;
-    Substep
-    substep(const State &state, const double R, const Vector &strain) const;
-
-    /** Ratio eta_beta,cs of the deviator s with the norm norm_s, and h. */
-    double
-    critical_ratio(const Vector &s, const double norm_s, double &lode) const;
-
-    /** Limits p + pe from below by the lowest pressure. */
-    void
-    limit(State &state, SubloadingReport &report) const;
-
     SubloadingNumbers c;
   };
 
