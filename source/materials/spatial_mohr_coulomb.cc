@@ -1,6 +1,7 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <geocone/kernels/pyramid_body.h>
 #include <geocone/kernels/pyramid_kernel.h>
 #include <geocone/materials/spatial_mohr_coulomb.h>
 
@@ -243,53 +244,38 @@ namespace geocone::GEOCONE_DIM
   {
     PrincipalMatrix D = elastic.two_G * PrincipalMatrix::Identity();
     D.array() += elastic.lambda;
-    // Gradients of f_ij, and of the same with theta.
-    const auto gradient =
-      [](const unsigned int i, const unsigned int j, const double sine) {
-        Principal n = Principal::Zero();
-        n[i]        = 1. + sine;
-        n[j]        = -1. + sine;
-        return n;
-      };
-    const Principal f_13 = gradient(0, 2, strength.sine),
-                    g_13 = gradient(0, 2, flow);
-    const double f       = f_13.dot(trial) - strength.size;
+    const PyramidReturn<double> returns(
+      strength.sine, flow, elastic.lambda, elastic.two_G);
+    const double f = returns.yield_function(trial, 0, 2, strength.size);
     if (f <= 0.)
       {
         stress  = trial;
         tangent = D;
         return Mode::elastic;
       }
-    const auto in_order = [&](const Principal &s) {
-      return s[0] >= s[1] && s[1] >= s[2];
+    // D g_ij and, with sin(phi) for sin(theta), D f_ij.
+    const PyramidReturn<double> normal(
+      strength.sine, strength.sine, elastic.lambda, elastic.two_G);
+    const auto stiff = [](const auto &of, const int i, const int j) {
+      return Principal(
+        of.stiff_flow(i, j, 0), of.stiff_flow(i, j, 1), of.stiff_flow(i, j, 2));
     };
-    const Principal Dg = D * g_13, Df = D * f_13;
-    const double    H = f_13.dot(Dg);
-    stress            = trial - (f / H) * Dg;
-    if (in_order(stress))
+    const Principal Dg = stiff(returns, 0, 2), Df = stiff(normal, 0, 2);
+    returns.to_plane(trial, f, stress);
+    if (stress[0] >= stress[1] && stress[1] >= stress[2])
       {
-        tangent = D - Dg * Df.transpose() / H;
+        tangent = D - returns.per_H * Dg * Df.transpose();
         return Mode::cone;
       }
-    // The edge on the side of the trial stress: s_2 = s_3 or s_1 = s_2.
-    const bool two_three =
-      (1. - flow) * trial[0] - 2. * trial[1] + (1. + flow) * trial[2] > 0.;
-    const unsigned int          i = two_three ? 0 : 1, j = two_three ? 1 : 2;
-    Eigen::Matrix<double, 3, 2> F, G;
-    F << f_13, gradient(i, j, strength.sine);
-    G << g_13, gradient(i, j, flow);
-    const Eigen::Matrix<double, 3, 2> DG      = D * G;
-    const Eigen::Matrix2d             inverse = (F.transpose() * DG).inverse();
-    const Eigen::Vector2d             over =
-      F.transpose() * trial - Eigen::Vector2d::Constant(strength.size);
-    const Eigen::Vector2d gamma = inverse * over;
-    stress                      = trial - DG * gamma;
-    // Exactly equal, despite rounding.
-    const unsigned int a = two_three ? 1 : 0, b = a + 1;
-    stress[a] = stress[b] = (stress[a] + stress[b]) / 2.;
+    const int e = returns.side(trial) > 0. ? 0 : 1;
+    returns.to_edge(e, trial, f, strength.size, stress);
     if (stress[0] + stress[2] <= 2. * strength.apex())
       {
-        tangent = D - DG * inverse * (F.transpose() * D);
+        const double    own = returns.own[e], other = returns.other[e];
+        const Principal Dg_e = stiff(returns, e, e + 1);
+        tangent =
+          D - (own * Dg + other * Dg_e) * Df.transpose() -
+          (other * Dg + own * Dg_e) * stiff(normal, e, e + 1).transpose();
         return Mode::cone;
       }
     stress.setConstant(strength.apex());

@@ -5,6 +5,7 @@
 #define geocone_kernels_pyramid_kernel_templates_h
 
 #include <geocone/base/simd.h>
+#include <geocone/kernels/pyramid_body.h>
 #include <geocone/kernels/pyramid_kernel.h>
 #include <geocone/kernels/spin.h>
 
@@ -150,91 +151,6 @@ namespace geocone::GEOCONE_DIM
     }
   };
 
-  /** Return map of SpatialMohrCoulomb in principal stresses, for several
-   *  points. */
-  template <typename P>
-  class PyramidReturn
-  {
-  public:
-    explicit PyramidReturn(const PyramidNumbers &pyramid)
-      : more(1. + pyramid.sine)
-      , less(pyramid.sine - 1.)
-      , flow_more(1. + pyramid.flow)
-      , flow_less(1. - pyramid.flow)
-    {
-      const double lambda = pyramid.lambda, two_G = pyramid.two_G;
-      const double f[2] = {1. + pyramid.sine, pyramid.sine - 1.};
-      // D g_ij: with g_i at i, g_j at j, and lambda tr g in the third
-      // direction.
-      const double third = 2. * lambda * pyramid.flow;
-      const double D[2]  = {third + two_G * (1. + pyramid.flow),
-                            third + two_G * (pyramid.flow - 1.)};
-      const double H     = f[0] * D[0] + f[1] * D[1];
-      per_H              = P(1. / H);
-      Dg[0] = Dg_13[0] = P(D[0]);
-      Dg[1] = Dg_13[2] = P(D[1]);
-      Dg_13[1] = Dg_third = P(third);
-      // The edges: f_13 of D g_12 and D g_23, equal to f_12 and f_23 of D g_13.
-      const double cross[2] = {f[0] * D[0] + f[1] * third,
-                               f[0] * third + f[1] * D[1]};
-      for (int e = 0; e < 2; ++e)
-        {
-          const double determinant = H * H - cross[e] * cross[e];
-          own[e]                   = P(H / determinant);
-          other[e]                 = P(-cross[e] / determinant);
-        }
-    }
-
-    /** @param t ordered trial stresses, with f_13 = f
-     *  @param[out] s returned stresses, if f > 0 */
-    void
-    operator()(const P (&t)[3],
-               const P &f,
-               const P &size,
-               const P &apex,
-               P (&s)[3]) const
-    {
-      const P zero(0.), half(0.5);
-      P       plane[3];
-      for (int i = 0; i < 3; ++i)
-        plane[i] = t[i] - (f * per_H) * Dg_13[i];
-      const P in_order = min(plane[0] - plane[1], plane[1] - plane[2]);
-
-      // Edges s_2 = s_3, with f_12, and s_1 = s_2, with f_23.
-      P edge[2][3];
-      for (int e = 0; e < 2; ++e)
-        {
-          const P f_e        = more * t[e] + less * t[e + 1] - size;
-          const P gamma      = own[e] * f + other[e] * f_e,
-                  more_gamma = other[e] * f + own[e] * f_e;
-          for (int i = 0; i < 3; ++i)
-            edge[e][i] = t[i] - gamma * Dg_13[i] -
-                         more_gamma * (i == e       ? Dg[0]
-                                       : i == e + 1 ? Dg[1]
-                                                    : Dg_third);
-          // Exactly equal, despite rounding.
-          const P mean   = half * (edge[e][1 - e] + edge[e][2 - e]);
-          edge[e][1 - e] = edge[e][2 - e] = mean;
-        }
-      const P side = flow_less * t[0] - (t[1] + t[1]) + flow_more * t[2];
-      const P end  = where_greater(side, zero, edge[0][0], edge[1][0]) +
-                    where_greater(side, zero, edge[0][2], edge[1][2]);
-      for (int i = 0; i < 3; ++i)
-        {
-          const P at_edge = where_greater(side, zero, edge[0][i], edge[1][i]);
-          s[i]            = where_greater(zero,
-                               in_order,
-                               where_greater(end, apex + apex, apex, at_edge),
-                               plane[i]);
-        }
-    }
-
-  private:
-    P more, less, flow_more, flow_less; ///< 1 + sin(phi), sin(phi) - 1, ...
-    P Dg_13[3], Dg[2], Dg_third, per_H;
-    P own[2], other[2]; ///< of the inverse of F' D G
-  };
-
   /** Stresses of several points, rotated by the spin, and strains with shears
    *  gamma_ij = 2 e_ij. */
   template <typename P>
@@ -280,7 +196,6 @@ namespace geocone::GEOCONE_DIM
     using P = Pack<Arch>;
     using T = std::array<P, n_spatial>;
     const P zero(0.), half(0.5), third(1. / 3.);
-    const P more(1. + pyramid.sine), less(pyramid.sine - 1.);
     const P twice_sine(2. * pyramid.sine);
     const P round(2. * (1. + pyramid.sine * pyramid.sine / 3.));
     const P lambda(pyramid.lambda), two_G(pyramid.two_G),
@@ -296,8 +211,9 @@ namespace geocone::GEOCONE_DIM
     };
     const P apex(apex_of_size(pyramid.sine)),
       exact_apex(apex_of_size(pyramid.sine + pyramid.lagging));
-    const PyramidReturn<P> returns(pyramid);
-    const auto             history = [&](const unsigned int place) {
+    const PyramidReturn<P> returns(
+      pyramid.sine, pyramid.flow, pyramid.lambda, pyramid.two_G);
+    const auto history = [&](const unsigned int place) {
       return place == PyramidNumbers::no_place ? nullptr : block.history[place];
     };
     double *const memory = history(pyramid.memory);
@@ -334,7 +250,7 @@ namespace geocone::GEOCONE_DIM
             !((room * room - round * squares).least() >= 0.))
           {
             const PrincipalAxes<P> axes(trial);
-            const P f = more * axes.value[0] + less * axes.value[2] - size;
+            const P f = returns.yield_function(axes.value, 0, 2, size);
             P       values[3];
             returns(axes.value, f, size, apex * size, values);
             const T back = axes.tensor(values);
