@@ -11,11 +11,8 @@
 namespace geocone::GEOCONE_DIM
 {
 #ifdef GEOCONE_HAS_AVX2_UNITS
-  namespace avx2
-  {
-    void
-    advance_cone(const ConeNumbers &, const PointBlock &);
-  }
+  extern template void
+  advance_cone_block<xsimd::avx2>(const ConeNumbers &, const PointBlock &);
 #endif
 
   namespace
@@ -39,7 +36,7 @@ namespace geocone::GEOCONE_DIM
     {
 #ifdef GEOCONE_HAS_AVX2_UNITS
       if (machine_has_avx2())
-        return avx2::advance_cone(numbers, block);
+        return advance_cone_block<xsimd::avx2>(numbers, block);
 #endif
       advance_cone_block<BaselineArch>(numbers, block);
     }

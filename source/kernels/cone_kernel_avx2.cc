@@ -7,16 +7,7 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  namespace avx2
-  {
-    void
-    advance_cone(const ConeNumbers &, const PointBlock &);
-
-    void
-    advance_cone(const ConeNumbers &cone, const PointBlock &block)
-    {
-      advance_cone_block<xsimd::avx2>(cone, block);
-    }
-  } // namespace avx2
+  template void
+  advance_cone_block<xsimd::avx2>(const ConeNumbers &, const PointBlock &);
 } // namespace geocone::GEOCONE_DIM
 #endif

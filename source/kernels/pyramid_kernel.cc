@@ -8,11 +8,9 @@
 namespace geocone::GEOCONE_DIM
 {
 #ifdef GEOCONE_HAS_AVX2_UNITS
-  namespace avx2
-  {
-    void
-    advance_pyramid(const PyramidNumbers &, const PointBlock &);
-  }
+  extern template void
+  advance_pyramid_block<xsimd::avx2>(const PyramidNumbers &,
+                                     const PointBlock &);
 #endif
 
   void
@@ -20,7 +18,7 @@ namespace geocone::GEOCONE_DIM
   {
 #ifdef GEOCONE_HAS_AVX2_UNITS
     if (machine_has_avx2())
-      return avx2::advance_pyramid(pyramid, block);
+      return advance_pyramid_block<xsimd::avx2>(pyramid, block);
 #endif
     advance_pyramid_block<BaselineArch>(pyramid, block);
   }

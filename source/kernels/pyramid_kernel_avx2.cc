@@ -7,16 +7,8 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  namespace avx2
-  {
-    void
-    advance_pyramid(const PyramidNumbers &, const PointBlock &);
-
-    void
-    advance_pyramid(const PyramidNumbers &pyramid, const PointBlock &block)
-    {
-      advance_pyramid_block<xsimd::avx2>(pyramid, block);
-    }
-  } // namespace avx2
+  template void
+  advance_pyramid_block<xsimd::avx2>(const PyramidNumbers &,
+                                     const PointBlock &);
 } // namespace geocone::GEOCONE_DIM
 #endif

@@ -7,13 +7,12 @@
 namespace geocone
 {
 #ifdef GEOCONE_HAS_AVX2_UNITS
-  namespace avx2
-  {
-    void
-    take_single_substeps(const SubloadingNumbers &, SubloadingLanes<4> &);
-    void
-    take_single_substeps(const SubloadingNumbers &, SubloadingLanes<6> &);
-  } // namespace avx2
+  extern template void
+  take_single_substeps_by<xsimd::avx2>(const SubloadingNumbers &,
+                                       SubloadingLanes<4> &);
+  extern template void
+  take_single_substeps_by<xsimd::avx2>(const SubloadingNumbers &,
+                                       SubloadingLanes<6> &);
 #endif
 
   namespace
@@ -24,9 +23,9 @@ namespace geocone
     {
 #ifdef GEOCONE_HAS_AVX2_UNITS
       if (machine_has_avx2())
-        return avx2::take_single_substeps(c, lanes);
+        return take_single_substeps_by<xsimd::avx2>(c, lanes);
 #endif
-      SubloadingSubstep<Pack<BaselineArch>, n>{c}(lanes);
+      take_single_substeps_by<BaselineArch>(c, lanes);
     }
   } // namespace
 

@@ -7,24 +7,11 @@
 
 namespace geocone
 {
-  namespace avx2
-  {
-    void
-    take_single_substeps(const SubloadingNumbers &, SubloadingLanes<4> &);
-    void
-    take_single_substeps(const SubloadingNumbers &, SubloadingLanes<6> &);
-
-    void
-    take_single_substeps(const SubloadingNumbers &c, SubloadingLanes<4> &lanes)
-    {
-      SubloadingSubstep<Pack<xsimd::avx2>, 4>{c}(lanes);
-    }
-
-    void
-    take_single_substeps(const SubloadingNumbers &c, SubloadingLanes<6> &lanes)
-    {
-      SubloadingSubstep<Pack<xsimd::avx2>, 6>{c}(lanes);
-    }
-  } // namespace avx2
+  template void
+  take_single_substeps_by<xsimd::avx2>(const SubloadingNumbers &,
+                                       SubloadingLanes<4> &);
+  template void
+  take_single_substeps_by<xsimd::avx2>(const SubloadingNumbers &,
+                                       SubloadingLanes<6> &);
 } // namespace geocone
 #endif

@@ -127,6 +127,14 @@ namespace geocone
 
     const Body body;
   };
+
+  /** take_single_substeps() for one architecture. */
+  template <typename Arch, int n>
+  void
+  take_single_substeps_by(const SubloadingNumbers &c, SubloadingLanes<n> &lanes)
+  {
+    SubloadingSubstep<Pack<Arch>, n>{c}(lanes);
+  }
 } // namespace geocone
 
 #endif
