@@ -30,10 +30,17 @@ for words in 'limit_load.html, which is not there' 'footing_mpm.png, which is no
   'search.html loads https://example.org/a.js'; do
   grep -q "$words" said
 done
-mkdir broken
-cp -r "$root"/*.md "$root/CMakeLists.txt" "$root/doc" "$root/scripts" "$root/prm" \
-  "$root/meshes" "$root/packaging" "$root/LICENSE" broken
-cat >> broken/doc/cookbook/bar.md <<'TEXT'
+# Two pages are enough to see that links to nothing are refused.
+mkdir -p broken/doc/cookbook broken/doc/parameters
+cp -r "$root/CMakeLists.txt" "$root/scripts" "$root/python" broken
+cp -r "$root/doc/site" broken/doc
+echo 'PAGES = {"Use": ["doc/parameters/README", "doc/cookbook/README"]}' >>broken/doc/site/conf.py
+for page in README doc/parameters/README doc/cookbook/footing; do echo '# Title' >broken/$page.md; done
+printf '# Title\n[a](bar.md), [b](footing.md)\n' >broken/doc/cookbook/README.md
+echo '# Title' >broken/doc/cookbook/bar.md
+broken/scripts/site "$folder/accepted" >said 2>&1 || { cat said; exit 1; }
+[ -f accepted/doc/cookbook/bar.html ]
+cat >>broken/doc/cookbook/bar.md <<'TEXT'
 
 [a](none.md), [b](../../prm/none.prm), [c](footing.md#none), ![d](none.png)
 TEXT
@@ -52,13 +59,21 @@ if command -v chromium > /dev/null; then
       --host-resolver-rules='MAP * ~NOTFOUND' --dump-dom "file://$folder/site/$1" 2> /dev/null
   }
   all=0
-  for page in site/doc/theory/*.html; do
-    formulas=$(grep -o 'class="math notranslate' "$page" | wc -l)
-    shows "${page#site/}" > dom
-    [ "$(grep -o '<svg' dom | wc -l)" -ge "$formulas" ]
-    fails grep -q 'class="merror\|<merror\|Math Processing Error' dom
+  # One start of the browser for the articles of all pages, one after another.
+  pages=(site/doc/theory/*.html) together=site/doc/theory/together.html
+  sed '/<article/,$d' "${pages[0]}" >$together
+  for page in "${pages[@]}"; do
+    sed -n '/<article/,/<\/article>/p' "$page" >article
+    formulas=$(grep -o 'class="math notranslate' article | wc -l)
+    [ "$formulas" = "$(grep -o 'class="math notranslate' "$page" | wc -l)" ]
     all=$((all + formulas))
+    cat article >>$together
   done
+  sed '1,/<\/article>/d' "${pages[0]}" >>$together
+  shows "${together#site/}" > dom
+  rm $together
+  [ "$(grep -o '<svg' dom | wc -l)" -ge "$all" ]
+  fails grep -q 'class="merror\|<merror\|Math Processing Error' dom
   [ "$all" -gt 500 ]
   shows 'search.html?q=Prandtl' > dom
   fails grep -q '<a href="doc/cookbook/footing.html' site/search.html
