@@ -17,6 +17,8 @@ for scene in tests/footing_coarse.prm prm/footing_mpm.prm; do
   for format in vtu hdf5; do
     for ranks in 1 2; do
       name=$(basename $scene .prm)-$format-$ranks
+      # On two ranks each method and each format once.
+      case $name in footing_coarse-hdf5-2 | footing_mpm-vtu-2) continue ;; esac
       call=("$program")
       [ $ranks = 1 ] || call=(mpirun -np $ranks "$program")
       code=0
