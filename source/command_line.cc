@@ -104,7 +104,8 @@ namespace geocone
   parse_command_line(const int                       argc,
                      char                          **argv,
                      const std::string              &program,
-                     const std::vector<std::string> &lacking)
+                     const std::vector<std::string> &lacking,
+                     const bool                      many)
   {
     CommandLine call;
     const auto  value = [&](int &i) {
@@ -167,15 +168,15 @@ namespace geocone
                            "--output and --set");
         else if (!argument.empty() && argument[0] == '-')
           throw unknown(argument);
-        else if (checks)
-          call.files_to_check.push_back(argument);
+        else if (checks || many)
+          call.files.push_back(argument);
         else if (call.file.empty())
           call.file = argument;
         else
           throw InputError("a second parameter file '" + printable(argument) +
                            "'\n  remedy:  give one; overrides go into --set");
       }
-    if (checks && (call.files_to_check.empty() || !call.file.empty()))
+    if (checks && (call.files.empty() || !call.file.empty()))
       throw InputError("--check needs parameter files, after it\n"
                        "  remedy:  see " +
                        program + " --help");

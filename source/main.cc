@@ -48,7 +48,7 @@ namespace
   check_files(const CommandLine &call)
   {
     int status = 0;
-    for (const std::string &file : call.files_to_check)
+    for (const std::string &file : call.files)
       {
         std::cout << printable(file) << ": " << std::flush;
         try
@@ -83,7 +83,7 @@ main(int argc, char **argv)
     }
   catch (const std::exception &)
     {}
-  if (!call.files_to_check.empty())
+  if (!call.files.empty())
     return run_program(argv, [&](Drawing &) { return check_files(call); });
   return dimension_of(call.file, call) == 3 ? dim3::run_geocone(argc, argv)
                                             : dim2::run_geocone(argc, argv);

@@ -18,7 +18,7 @@ namespace geocone
   struct CommandLine
   {
     std::string                file;
-    std::vector<std::string>   files_to_check;
+    std::vector<std::string>   files; ///< to check, or of a program that takes many
     std::string                folder;
     std::vector<std::string>   overrides;
     std::string                defaults_file;
@@ -38,13 +38,15 @@ namespace geocone
    * --force, --run-gmsh-script, --resume, --defaults, --help [TOPIC], --schema and
    * --version.
    * @param lacking those of these options that the program does not have
+   * @param many whether the program takes any number of files
    * @throws InputError on anything else
    */
   CommandLine
   parse_command_line(const int                       argc,
                      char                          **argv,
                      const std::string              &program,
-                     const std::vector<std::string> &lacking = {});
+                     const std::vector<std::string> &lacking = {},
+                     const bool                      many    = false);
 
   /** Prints the versions of the program, the compiler and deal.II. */
   void

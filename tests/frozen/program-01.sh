@@ -20,3 +20,13 @@ grep -q 'geocone-lab works on one rank' err
 "$lab" --version | grep -q '^geocone-lab [0-9]'
 "$lab" --quiet "$file" >log
 [ ! -s log ] && [ ! -e results ]
+# Several: each has its folder, an error in one does not concern the others, and two of one
+# name are refused.
+"$lab" --quiet "$file" "$root/tests/frozen/arch_30.dat" --output two --set 'Newton/Tolerance = 1e-8'
+[ -f two/plasticity_2d_footing_100/summary.json ] && [ -f two/arch_30/summary.json ]
+fails "$lab" --quiet none.h5 "$file" --output one 2>err
+[ "$(head -1 err)" = none.h5: ] && grep -q '^error: ' err
+[ -f one/plasticity_2d_footing_100/summary.json ] && [ ! -e one/none ]
+mkdir other && cp "$file" other
+fails "$lab" "$file" other/*.dat --output same 2>err
+grep -q 'would have the same folder' err && [ ! -e same ]
