@@ -1,5 +1,5 @@
 # One process has a folder, however it asks for it: of two runs that begin at once exactly
-# one goes on, more than twenty times: in a new folder, by overwriting, by going on, on two
+# one goes on, twenty times: in a new folder, by overwriting, by going on, on two
 # ranks, and of each kind of run. A lock that was left over is taken over; one of another
 # host if that has been silent for long.
 program=$1 root=$2 folder=$3
@@ -26,7 +26,7 @@ end() { # SIGNAL
   kill -"$1" $living
   wait $living || true
 }
-for i in 1 2 3 4 5; do # each is killed, so that the next one finds its lock
+for i in 1 2 3; do # each is killed, so that the next one finds its lock
   pair "$program" "${long[@]}" --output "new-$i" --set 'Output/If folder exists = refuse'
   end KILL
   pair "$program" "${long[@]}" --output over
@@ -41,7 +41,7 @@ pair "$program" "${long[@]}" --output over
 until_checkpoint over
 grep -q "the run of process $living on $(hostname) goes on in it" $said
 end KILL
-for i in 1 2 3 4 5 6; do
+for i in 1 2 3 4; do
   pair "$program" --resume over --quiet
   end KILL
 done
@@ -71,7 +71,7 @@ short() { # FOLDER CALL...: one of two, or the second after the first
   ls "$1"/run.lock.* 2>/dev/null && exit 1
   rm -r "$1"
 }
-for i in 1 2 3 4 5; do
+for i in 1 2 3; do
   short "point-$i" "$program" "$root/prm/element/cyclic_shear.prm" "${quiet[@]}"
 done
 for i in 1 2; do
@@ -87,10 +87,10 @@ foreign() { # AGE IN SECONDS
 }
 finish=("$root/tests/footing_coarse.prm" "${quiet[@]}" --output over
   --set 'Loading/push/Duration = 0.02' --set 'Output/If folder exists = overwrite')
-foreign 60
 for call in "${finish[*]@Q}" "--resume over --quiet"; do
+  foreign 60
   if eval "\"\$program\" $call" 2>said; then exit 1; fi
-  grep -q 'the run of process 4711 on elsewhere goes on in it, seen 6. s ago' said
+  grep -q 'the run of process 4711 on elsewhere goes on in it, seen [6-9]. s ago' said
   grep -q 'delete run.lock' said
   grep -q elsewhere over/run.lock
 done
