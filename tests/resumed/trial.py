@@ -68,7 +68,8 @@ METHODS = {
     "sides": ("explicit/traction_wave-01.prm", {"Loading/shake/Output every": "5"}),
     # Obstacles: a free body on soil, and particles that slide.
     "free": ("contact/free_footing-01.prm", {"Loading/push/Output every": "3"}),
-    "slide": ("contact/incline-MPM-01.prm", {"Loading/slide/Output every": "20"}),
+    "slide": ("contact/incline-MPM-01.prm", {
+        "Loading/slide/Duration": "0.25", "Loading/slide/Output every": "10"}),
     # A bond that breaks.
     "bond": ("contact/bond-01.prm", {
         "Mesh/Cell size": "0.02", "Time stepping/Inertia": "true", "Loading/lift/Output every": "2"}),
