@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace geocone::GEOCONE_DIM
 {
@@ -189,33 +190,38 @@ namespace geocone::GEOCONE_DIM
       return true;
     }
 
-    /** Field (0, max(0, y - y_0)) in the dofs of the upper problem, y_0 the highest
-     *  point that must stay incompressible, or else the bottom of the body. */
+    /** Uniaxial extension in the dofs of the upper problem: the component along an axis
+     *  is sign max(0, sign x - b), b the last place along the direction that must stay
+     *  incompressible, or else the body's first one. @param sign 1 or -1 */
     VectorXd
-    uniaxial_extension(const BoundScene &bound, const BoundProblem &problem)
+    uniaxial_extension(const BoundScene   &bound,
+                       const BoundProblem &problem,
+                       const unsigned int  axis,
+                       const double        sign)
     {
       const Triangles   &triangles  = bound.triangles;
       const unsigned int n_vertices = triangles.vertices.size();
-      double             bottom     = std::numeric_limits<double>::max();
-      double             highest    = std::numeric_limits<double>::lowest();
+      double             first      = std::numeric_limits<double>::max();
+      double             last       = std::numeric_limits<double>::lowest();
       for (unsigned int c = 0; c < triangles.cells.size(); ++c)
         for (const unsigned int v : triangles.cells[c])
           {
-            const double y = triangles.vertices[v][1];
-            bottom         = std::min(bottom, y);
+            const double x = sign * triangles.vertices[v][axis];
+            first          = std::min(first, x);
             if (problem.cone[3 * c].is_incompressible())
-              highest = std::max(highest, y);
+              last = std::max(last, x);
           }
-      const double begin = std::max(bottom, highest);
+      const double begin = std::max(first, last);
       VectorXd     w     = VectorXd::Zero(problem.n_dofs());
       for (unsigned int v = 0; v < n_vertices; ++v)
-        w[dim * v + 1] =
-          std::max(0., triangles.vertices[v][1] - begin) / bound.units.length;
+        w[dim * v + axis] =
+          sign * std::max(0., sign * triangles.vertices[v][axis] - begin) /
+          bound.units.length;
       for (unsigned int e = 0; e < triangles.edges.size(); ++e)
         {
           const auto &ends = triangles.edges[e].vertices;
-          w[dim * (n_vertices + e) + 1] =
-            (w[dim * ends[0] + 1] + w[dim * ends[1] + 1]) / 2.;
+          w[dim * (n_vertices + e) + axis] =
+            (w[dim * ends[0] + axis] + w[dim * ends[1] + axis]) / 2.;
         }
       return w;
     }
@@ -286,8 +292,39 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    /** Removes the violation by a uniaxial extension, if prescribed velocities allow
-     *  one.
+    /** The largest violation of all points. */
+    double
+    largest_violation(const BoundProblem &problem, const VectorXd &q)
+    {
+      const auto rates   = problem.B.rates(q);
+      double     largest = 0.;
+      for (unsigned int p = 0; p < problem.n_points(); ++p)
+        largest = std::max(largest, violation(problem.cone[p], rates[p]));
+      return largest;
+    }
+
+    /** Ratio of a field to the prescribed velocities that are not zero, or nothing if
+     *  the field contradicts prescribed velocities. */
+    std::optional<double>
+    ratio_to_prescribed(const BoundProblem &problem, const VectorXd &w)
+    {
+      std::optional<double> ratio;
+      for (unsigned int i = 0; i < problem.n_dofs(); ++i)
+        if (problem.is_prescribed[i])
+          {
+            const double v = problem.prescribed[i];
+            if (v == 0. ? !(std::abs(w[i]) < 1e-12)
+                        : ratio && std::abs(w[i] / v - *ratio) >
+                                     1e-9 * std::abs(*ratio))
+              return std::nullopt;
+            if (v != 0.)
+              ratio = w[i] / v;
+          }
+      return ratio.value_or(0.);
+    }
+
+    /** Removes the violation by a uniaxial extension along one of the axes, if
+     *  prescribed velocities and incompressible parts allow one.
      *  @return scale factor of the prescribed velocities */
     double
     repair_rates(const BoundScene   &bound,
@@ -295,30 +332,25 @@ namespace geocone::GEOCONE_DIM
                  const double        violation,
                  VectorXd           &q)
     {
-      const VectorXd w         = uniaxial_extension(bound, problem);
-      bool           is_usable = true;
-      double         slope     = 0.;
-      for (unsigned int i = 0; i < problem.n_dofs(); ++i)
-        if (problem.is_prescribed[i])
-          {
-            const double v = problem.prescribed[i];
-            is_usable      = is_usable && (v != 0. || std::abs(w[i]) < 1e-12);
-            if (v == 0.)
-              continue;
-            is_usable = is_usable &&
-                        (slope == 0. ||
-                         std::abs(w[i] / v - slope) < 1e-9 * std::abs(slope));
-            slope = w[i] / v;
-          }
-      if (!is_usable)
-        return 1.;
       // Its strain is uniaxial: -w_n = |w_t| = 1/sqrt2.
       double a = 0.;
       for (unsigned int p = 0; p < 3 * problem.n_triangles; ++p)
         a = std::max(a, problem.cone[p].a);
       const double delta = 1.001 * violation * sqrt2 / (1. - a);
-      q += delta * w;
-      return 1. + delta * slope;
+      for (const unsigned int axis : {1, 0})
+        for (const double sign : {1., -1.})
+          {
+            const VectorXd w = uniaxial_extension(bound, problem, axis, sign);
+            const auto     ratio = ratio_to_prescribed(problem, w);
+            if (!ratio)
+              continue;
+            VectorXd repaired = q + delta * w;
+            if (largest_violation(problem, repaired) > 0.)
+              continue;
+            q = std::move(repaired);
+            return 1. + delta * *ratio;
+          }
+      return 1.;
     }
   } // namespace
 
@@ -354,12 +386,10 @@ namespace geocone::GEOCONE_DIM
     if (result.violation > 0. && result.rejection.empty())
       scale = repair_rates(bound, problem, result.violation, result.q);
     const auto repaired = problem.B.rates(result.q);
-    double     left = 0., power = -problem.dead.dot(result.q);
+    double     power    = -problem.dead.dot(result.q);
     for (unsigned int p = 0; p < problem.n_points(); ++p)
-      {
-        left = std::max(left, violation(problem.cone[p], repaired[p]));
-        power += problem.volume[p] * dissipation(problem.cone[p], repaired[p]);
-      }
+      power += problem.volume[p] * dissipation(problem.cone[p], repaired[p]);
+    const double left = largest_violation(problem, result.q);
     result.violation /= largest;
     result.error /= largest;
     const double work =
