@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
+#include <geocone/base/quoted_names.h>
 #include <geocone/mesh/fitted_mesh.h>
 #include <geocone/mesh/structured_mesh.h>
 
 #include <deal.II/base/bounding_box.h>
 
+#include <algorithm>
 #include <limits>
 
 namespace geocone::GEOCONE_DIM
@@ -133,17 +135,23 @@ namespace geocone::GEOCONE_DIM
     std::set<types::boundary_id> ids;
     for (const std::string &name : condition.sides)
       {
+        const auto side = sides.find(name);
         if (name == "all")
           {
+            if (side != sides.end())
+              throw InputError(condition.parameter("Sides"),
+                               name,
+                               "all sides, but one of them is named all",
+                               "choose that one by its number, or rename it in "
+                               "the mesh file");
             ids.insert(all.begin(), all.end());
             continue;
           }
-        const auto side = sides.find(name);
         if (side == sides.end())
           {
             std::string known = "all";
             for (const auto &entry : sides)
-              known += ", " + entry.first;
+              known += ", " + quoted_if_needed(entry.first);
             throw InputError(
               condition.parameter("Sides"),
               name,
@@ -153,6 +161,14 @@ namespace geocone::GEOCONE_DIM
                               "curves in the mesh file"
                             : "choose some of them");
           }
+        if (std::find(all.begin(), all.end(), side->second) == all.end())
+          throw InputError(condition.parameter("Sides"),
+                           name,
+                           "sides on the boundary of the mesh",
+                           "no " + std::string(dim == 2 ? "edge" : "face") +
+                             " of this side is on the boundary: it lies inside "
+                             "the body, or its cells are not in the file; "
+                             "choose another one");
         ids.insert(side->second);
       }
     return ids;

@@ -3,6 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
+#include <geocone/base/quoted_names.h>
 #include <geocone/mesh/msh_mesh.h>
 
 #include <deal.II/grid/grid_tools.h>
@@ -285,7 +286,8 @@ namespace geocone::GEOCONE_DIM
         if (const auto name = data.face_names.find(group);
             name != data.face_names.end())
           {
-            const auto [side, is_new] = mesh.sides.emplace(name->second, group);
+            const auto [side, is_new] =
+              mesh.sides.emplace(name_in_list(name->second), group);
             if (!is_new && side->second != dealii::types::boundary_id(group))
               throw InputError(what + ": '" + name->second +
                                "' is the name of the physical " + face_word +

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
+#include <geocone/base/quoted_names.h>
 #include <geocone/base/unused_parameters.h>
 #include <geocone/functions/formula.h>
 #include <geocone/scene/boundary_conditions.h>
@@ -35,8 +36,10 @@ namespace geocone::GEOCONE_DIM
     : dealii::ParameterAcceptor("/" + list + "/" + name)
     , name(name)
   {
-    add_parameter(
-      "Sides", sides, "Names of sides of the domain, comma-separated, or all.");
+    add_parameter("Sides",
+                  sides,
+                  "Names of sides of the domain, comma-separated, or all. A "
+                  "name that has a comma stands in double quotes.");
     add_parameter("Box",
                   box,
                   "Restricts the condition to the part of the sides inside the "
@@ -155,6 +158,7 @@ namespace geocone::GEOCONE_DIM
                        "one or more sides of the domain, or all",
                        "of a box: bottom, right, top, left; of a polygon: 0, "
                        "1, ...; of a file: its physical curves");
+    sides       = unquoted(sides, parameter("Sides"));
     bool is_box = box.empty() || box.size() == 2;
     for (unsigned int c = 0; c < dim && box.size() == 2; ++c)
       is_box = is_box && box[0][c] <= box[1][c];
