@@ -191,9 +191,10 @@ namespace geocone::GEOCONE_DIM
         std::any_of(mesh.cells.begin(), mesh.cells.end(), [](const auto &cell) {
           return cell.vertices.size() != dim + 1;
         }))
-      throw InputError("the mesh mixes simplices and other cells\n"
+      throw InputError("the mesh of 'Geometry/File' has tetrahedra beside "
+                       "hexahedra\n"
                        "  allowed: one kind of cells\n"
-                       "  remedy:  recombine all or none in gmsh");
+                       "  remedy:  recombine all volumes in gmsh, or none");
     if (n_ranks > mesh.cells.size())
       throw InputError("there are more ranks (" + std::to_string(n_ranks) +
                        ") than cells (" + std::to_string(mesh.cells.size()) +

@@ -6,6 +6,7 @@
 #include <geocone/mesh/msh_scanner.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -19,6 +20,56 @@ namespace geocone::GEOCONE_DIM
   {
     // Five million nodes in ASCII, far beyond the limit of the solvers.
     constexpr std::uintmax_t largest_msh_file = 512ULL << 20;
+
+    /** Quadratic elements: the linear type of their corners, which come first, the
+     *  number of their nodes, and the ends of the edge of each node in the middle of
+     *  an edge. Other nodes lie in faces and cells. */
+    struct QuadraticType
+    {
+      int                                  type, linear;
+      unsigned int                         n_nodes;
+      std::vector<std::pair<short, short>> edges;
+    };
+
+    const QuadraticType *
+    quadratic(const int type)
+    {
+      static const std::vector<std::pair<short, short>>
+        of_triangle      = {{0, 1}, {1, 2}, {2, 0}},
+        of_quadrilateral = {{0, 1}, {1, 2}, {2, 3}, {3, 0}},
+        of_tetrahedron   = {{0, 1}, {1, 2}, {2, 0}, {3, 0}, {2, 3}, {1, 3}},
+        of_hexahedron    = {{0, 1},
+                            {0, 3},
+                            {0, 4},
+                            {1, 2},
+                            {1, 5},
+                            {2, 3},
+                            {2, 6},
+                            {3, 7},
+                            {4, 5},
+                            {4, 7},
+                            {5, 6},
+                            {6, 7}};
+      static const QuadraticType all[] = {
+        {8, MshData::line, 3, {}},
+        {9, MshData::triangle, 6, of_triangle},
+        {10, MshData::quadrilateral, 9, of_quadrilateral},
+        {16, MshData::quadrilateral, 8, of_quadrilateral},
+        {11, MshData::tetrahedron, 10, of_tetrahedron},
+        {12, MshData::hexahedron, 27, of_hexahedron},
+        {17, MshData::hexahedron, 20, of_hexahedron}};
+      for (const QuadraticType &one : all)
+        if (one.type == type)
+          return &one;
+      return nullptr;
+    }
+
+    int
+    linear_type(const int type)
+    {
+      const QuadraticType *const more = quadratic(type);
+      return more == nullptr ? type : more->linear;
+    }
 
     /** Reads one file, section by section. */
     class Reader
@@ -82,6 +133,7 @@ namespace geocone::GEOCONE_DIM
                       "it is not complete: copy or write it again, with all "
                       "elements");
         four ? take_groups_of_entities() : merge_copies();
+        check_middles();
         return std::move(data);
       }
 
@@ -263,16 +315,76 @@ namespace geocone::GEOCONE_DIM
               const int           entity,
               const unsigned int  groups)
       {
-        MshData::Element   element = {tag, type, entity, groups, {}};
-        const unsigned int n       = n_nodes_of_type(type);
-        for (unsigned int i = 0; i < n; ++i)
-          element.nodes[i] =
-            four ? in.integer<std::uint64_t>("a node of an element", 1)
-                 : in.integer("a node of an element", 1);
-        if (dimension_of_type(type) == int(dim) - 1)
-          data.faces.push_back(element);
-        else if (dimension_of_type(type) == int(dim))
+        const QuadraticType *const more = quadratic(type);
+        MshData::Element element = {tag, linear_type(type), entity, groups, {}};
+        const unsigned int n     = n_nodes_of_type(element.type);
+        const unsigned int n_all = more ? more->n_nodes : n;
+        const bool is_cell       = dimension_of_type(element.type) == int(dim);
+        for (unsigned int i = 0; i < n_all; ++i)
+          {
+            const std::uint64_t node =
+              four ? in.integer<std::uint64_t>("a node of an element", 1)
+                   : in.integer("a node of an element", 1);
+            if (i < n)
+              element.nodes[i] = node;
+            else if (is_cell && i - n < more->edges.size())
+              middles.push_back({tag,
+                                 element.nodes[more->edges[i - n].first],
+                                 element.nodes[more->edges[i - n].second],
+                                 node});
+          }
+        if (is_cell)
           data.cells.push_back(element);
+        else if (dimension_of_type(element.type) == int(dim) - 1)
+          data.faces.push_back(element);
+      }
+
+      /** @throws InputError if a node of a quadratic cell is not in the middle of
+       *  its edge: edges of cells are straight */
+      void
+      check_middles() const
+      {
+        if (middles.empty())
+          return;
+        std::vector<std::pair<std::uint64_t, const MshData::Node *>> nodes;
+        for (const MshData::Node &node : data.nodes)
+          nodes.emplace_back(node.tag, &node);
+        std::sort(nodes.begin(), nodes.end());
+        const auto place = [&](const std::uint64_t tag, const Middle &middle) {
+          const auto at = std::lower_bound(
+            nodes.begin(),
+            nodes.end(),
+            std::make_pair(tag, static_cast<const MshData::Node *>(nullptr)));
+          if (at == nodes.end() || at->first != tag)
+            in.refuse("the node " + std::to_string(tag) + " of the element " +
+                        std::to_string(middle.element) + " is missing",
+                      msh_remedy);
+          return at->second->x;
+        };
+        constexpr double tolerance = 1e-3; // of the edge, also for short texts
+        for (const Middle &middle : middles)
+          {
+            const auto a = place(middle.first, middle),
+                       b = place(middle.last, middle),
+                       m = place(middle.node, middle);
+            double edge = 0., off = 0.;
+            for (unsigned int c = 0; c < 3; ++c)
+              {
+                edge += (b[c] - a[c]) * (b[c] - a[c]);
+                off +=
+                  (m[c] - (a[c] + b[c]) / 2.) * (m[c] - (a[c] + b[c]) / 2.);
+              }
+            if (!(off <= tolerance * tolerance * edge))
+              throw InputError(
+                what + ": an edge of the quadratic element " +
+                std::to_string(middle.element) + " is curved at " +
+                format("(%g, %g, %g)", m[0], m[1], m[2]) +
+                format(", by %.2g of its length", std::sqrt(off / edge)) +
+                "\n  allowed: quadratic elements with straight edges, of which "
+                "the corners count\n  remedy:  mesh with Mesh.ElementOrder = "
+                "1, "
+                "in smaller cells along curves: edges are chords");
+          }
       }
 
       /** Version 2.2: tags of an element are its group, its entity, others. */
@@ -286,7 +398,7 @@ namespace geocone::GEOCONE_DIM
           entity = in.integer<int>("the entity of an element");
         if (n_tags > 2)
           in.skip_integers<int>(n_tags - 2, "tags");
-        if (dimension_of_type(type) == int(dim) - 1 && group > 0)
+        if (dimension_of_type(linear_type(type)) == int(dim) - 1 && group > 0)
           data.face_groups.insert(group);
         element(
           tag, type, entity, group > 0 ? data.index_of_groups({group}) : 0);
@@ -306,7 +418,8 @@ namespace geocone::GEOCONE_DIM
               {
                 const int tag  = in.integer("the tag of an element", 1);
                 const int type = in.integer<int>("the type of an element");
-                check_element_type(type, what, " " + std::to_string(tag));
+                check_element_type(
+                  linear_type(type), what, " " + std::to_string(tag));
                 element_with_tags(
                   tag, type, in.integer("the number of tags", 0, all));
               }
@@ -317,7 +430,7 @@ namespace geocone::GEOCONE_DIM
         for (int found = 0; found < n;)
           {
             const int type = in.integer<int>("the type of elements");
-            check_element_type(type, what, "");
+            check_element_type(linear_type(type), what, "");
             const int n_block =
               in.integer("the number of elements of a block", 1, n - found);
             const int n_tags = in.integer("the number of tags", 0, all);
@@ -341,8 +454,8 @@ namespace geocone::GEOCONE_DIM
             const int dimension = in.integer("the dimension of elements", 0, 3);
             const int entity    = in.integer<int>("the number of an entity");
             const int type      = in.integer<int>("the type of elements");
-            check_element_type(type, what, "");
-            if (dimension != dimension_of_type(type))
+            check_element_type(linear_type(type), what, "");
+            if (dimension != dimension_of_type(linear_type(type)))
               in.refuse("elements of gmsh's type " + std::to_string(type) +
                         " in an entity of dimension " +
                         std::to_string(dimension));
@@ -424,9 +537,15 @@ namespace geocone::GEOCONE_DIM
           }
       }
 
-      MshScanner                                 in;
-      const std::string                         &what;
-      MshData                                    data;
+      MshScanner         in;
+      const std::string &what;
+      MshData            data;
+      /** A node in the middle of an edge of a quadratic cell. */
+      struct Middle
+      {
+        std::uint64_t element, first, last, node;
+      };
+      std::vector<Middle>                        middles;
       bool                                       four          = false;
       bool                                       have_entities = false;
       std::array<std::map<int, unsigned int>, 4> groups_of_entity;
@@ -475,12 +594,13 @@ namespace geocone::GEOCONE_DIM
                          : ": the element" + element + " is") +
         " of gmsh's type " + std::to_string(type) +
         (dim == 2
-           ? "\n  allowed: 1, 2, 3 and 15: lines, triangles, quadrilaterals "
-             "(of "
-             "first order) and points\n  remedy:  mesh the plane only, with "
+           ? "\n  allowed: lines, triangles and quadrilaterals of first order "
+             "(in .msh files also of second order), and points\n  remedy:  "
+             "mesh the plane only, with "
              "Mesh.ElementOrder = 1"
-           : "\n  allowed: 1 to 5 and 15: lines, triangles, quadrilaterals, "
-             "tetrahedra, hexahedra (of first order) and points\n  remedy:  "
+           : "\n  allowed: lines, triangles, quadrilaterals, tetrahedra and "
+             "hexahedra of first order (in .msh files also of second order), "
+             "and points\n  remedy:  "
              "mesh with Mesh.ElementOrder = 1"));
   }
 

@@ -473,6 +473,39 @@ namespace geocone::GEOCONE_DIM
         }
     }
 
+    /** Divides the quadrilaterals of a mesh that has triangles, too, by their shorter
+     *  diagonals: elements are of one kind. */
+    void
+    divide_quadrilaterals(const std::vector<Point<dim>>          &points,
+                          Elements                               &cells,
+                          std::vector<std::vector<unsigned int>> &around)
+    {
+      const auto is_triangle = [](const auto &v) { return v.size() == 3; };
+      if (dim == 3 || std::none_of(around.begin(), around.end(), is_triangle) ||
+          std::all_of(around.begin(), around.end(), is_triangle))
+        return;
+      Elements                               divided;
+      std::vector<std::vector<unsigned int>> corners;
+      for (std::size_t c = 0; c < cells.size(); ++c)
+        {
+          const auto &v = around[c];
+          if (is_triangle(v))
+            corners.push_back(v);
+          else
+            {
+              const unsigned int first =
+                points[v[1]].distance(points[v[3]]) <
+                (1. - 1e-9) * points[v[0]].distance(points[v[2]]);
+              for (const unsigned int i : {first, first + 2})
+                corners.push_back({v[i], v[(i + 1) % 4], v[(i + 2) % 4]});
+              divided.push_back(cells[c]);
+            }
+          divided.push_back(cells[c]);
+        }
+      cells  = std::move(divided);
+      around = std::move(corners);
+    }
+
     /** Adds cells with their vertices in deal.II's order, lexicographic except
      *  for simplices, and the last material whose region contains them. */
     void
@@ -558,7 +591,7 @@ namespace geocone::GEOCONE_DIM
               const Contacts    *contacts)
   {
     check_amount(data, what);
-    const Elements                         cells = in_order_of_gmsh(data.cells);
+    Elements                               cells = in_order_of_gmsh(data.cells);
     VertexNumbers                          vertices(data.nodes, what);
     CoarseMesh                             mesh;
     std::vector<std::vector<unsigned int>> around;
@@ -568,6 +601,7 @@ namespace geocone::GEOCONE_DIM
     orient(mesh.points, cells, what, around);
     if (dim == 2)
       check_overlap(mesh.points, around, what);
+    divide_quadrilaterals(mesh.points, cells, around);
     add_cells(cells, around, data, regions, mesh);
 
     const FaceGroups groups = groups_of_faces(data, vertices);

@@ -23,9 +23,10 @@ namespace geocone::GEOCONE_DIM
 {
   /**
    * Nodes, elements and physical groups in gmsh's terms, from a .msh file or a
-   * model of the gmsh library. Only linear elements are supported: lines,
-   * triangles and quadrilaterals, and in three dimensions tetrahedra and
-   * hexahedra. Cells have the dimension of the scene, faces one less.
+   * model of the gmsh library. Elements are linear: lines, triangles and
+   * quadrilaterals, and in three dimensions tetrahedra and hexahedra. Of
+   * quadratic elements with straight edges the corners are kept. Cells have
+   * the dimension of the scene, faces one less.
    */
   struct MshData
   {
@@ -110,7 +111,7 @@ namespace geocone::GEOCONE_DIM
   const std::string face_word = dim == 2 ? "curve" : "surface";
   const std::string cell_word = dim == 2 ? "surface" : "volume";
 
-  /** Number of nodes of an element type of MshData, and its dimension. */
+  /** Number of corners of an element type of MshData, and its dimension. */
   unsigned int
   n_nodes_of_type(const int type);
   int
