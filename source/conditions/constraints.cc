@@ -415,6 +415,22 @@ namespace geocone::GEOCONE_DIM
            "Discretisation/Basis = Lagrange for FEM";
   }
 
+  namespace
+  {
+    /** Whether all that a condition prescribes is zero. */
+    bool
+    is_support(const BoundaryCondition &condition)
+    {
+      const auto is_zero = [](const std::optional<Expression> &value) {
+        return !value || value->is_zero();
+      };
+      return is_zero(condition.normal) &&
+             std::all_of(condition.components.begin(),
+                         condition.components.end(),
+                         is_zero);
+    }
+  } // namespace
+
   std::vector<std::string>
   warn_of_held_width(const Scene          &scene,
                      const BackgroundMesh &mesh,
@@ -465,6 +481,11 @@ namespace geocone::GEOCONE_DIM
         Utilities::MPI::min(ArrayView<const double>(ends.data(), ends.size()),
                             comm,
                             ArrayView<double>(ends.data(), ends.size()));
+        double widest = 0.;
+        for (unsigned int d = 0; d < dim; ++d)
+          widest = std::max(widest, -ends[3 * dim + d] - ends[2 * dim + d]);
+        if (widest == 0. && is_support(*condition))
+          continue; // a point that is held has no width
         for (unsigned int d = 0; d < dim; ++d)
           {
             const double asked = -ends[dim + d] - ends[d],

@@ -17,3 +17,9 @@ width '-5, -0.1; 0.2, 0.1'
 fails grep -q 'holds nodes' err
 width '0, -0.1; 0.09, 0.1' --set 'Discretisation/Element = P1'
 grep -q 'a width of 0 m, where 0.09 m' err
+# A point that is held has no width.
+width '0, -0.1; 0.2, 0.1' --set 'Boundary conditions/Names = bottom, sides, corner, footing' \
+  --set 'Boundary conditions/corner/Sides = bottom' \
+  --set 'Boundary conditions/corner/Box = -0.01, -10; 0.01, 10' \
+  --set 'Boundary conditions/corner/Velocity x = 0'
+fails grep -q 'holds nodes' err
