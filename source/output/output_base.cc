@@ -109,7 +109,8 @@ namespace geocone::GEOCONE_DIM
     if (writes)
       {
         Watcher::watch(path);
-        log.open(path + "/log.txt", resumes);
+        if (!resumes) // else a checkpoint is needed first
+          log.open(path + "/log.txt");
       }
   }
 

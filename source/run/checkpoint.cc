@@ -3,6 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/files.h>
+#include <geocone/output/run_status.h>
 #include <geocone/run/checkpoint.h>
 
 #include <deal.II/base/mpi.h>
@@ -152,6 +153,13 @@ namespace geocone
         log.warn("the checkpoint '" + name +
                  "' is left out: " + why_not.substr(0, why_not.find('\n')));
       }
+    const Json summary = read_summary(folder + "/summary.json");
+    if (names.empty() && parameter == "--resume" &&
+        summary.contains("status") && summary["status"] == "finished")
+      throw InputError(parameter,
+                       folder,
+                       "the folder of a run that has not finished",
+                       "nothing is left to do: its results are whole");
     throw InputError(
       parameter,
       folder,

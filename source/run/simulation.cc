@@ -201,6 +201,7 @@ namespace geocone::GEOCONE_DIM
         }
       return why_not;
     });
+    log.open(output().folder() + "/log.txt", true);
     first_step = place.step;
     log.print(format("resumed at t = %.6g s, after step %u of %u",
                      place.time,

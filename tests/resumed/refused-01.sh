@@ -28,6 +28,15 @@ refused "takes no parameter file" --resume one "$root/prm/footing_fem.prm"
 refused "takes no parameter file" --resume one --set 'Materials/soil/Cohesion = 1'
 refused "takes no parameter file" --resume one --output two
 
+# A finished run without checkpoints: nothing is left to do, and nothing is written.
+mkdir -p done && cp other/* done/ && rm done/checkpoint-*.h5
+cp -r done before
+refused "nothing is left to do" --resume done
+diff -r before done
+sed -i 's/"status": "finished"/"status": "killed"/' done/summary.json before/summary.json
+refused "there is none" --resume done
+diff -r before done
+
 # A finished run is finished again from its last checkpoint, with the same table.
 last=$(ls one/checkpoint-*.h5 | tail -1)
 first=$(ls one/checkpoint-*.h5 | head -1)
@@ -73,4 +82,4 @@ cp "other/$(basename "$last")" "$last"
 "$program" --resume one --quiet >out.txt 2>&1
 grep -q "other parameters" out.txt
 rm -f one/checkpoint-*.h5
-refused "there is none" --resume one
+refused "nothing is left to do" --resume one
