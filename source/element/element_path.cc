@@ -257,6 +257,14 @@ namespace geocone::GEOCONE_DIM
     return f;
   }
 
+  bool
+  ElementStage::stops(const double *line) const
+  {
+    return std::any_of(stop.begin(), stop.end(), [&](const StopCondition &s) {
+      return s.at_most ? line[s.column] <= s.bound : line[s.column] >= s.bound;
+    });
+  }
+
   ElementPath::ElementPath(const ParameterFile &file)
     : NamedList(file,
                 "Path",

@@ -4,9 +4,8 @@
 #ifndef geocone_element_element_output_h
 #define geocone_element_element_output_h
 
-#include <geocone/element/element_point.h>
+#include <geocone/element/element_record.h>
 #include <geocone/output/output_base.h>
-#include <geocone/output/statistics_table.h>
 
 #include <string>
 #include <utility>
@@ -14,28 +13,6 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** State of the point after an accepted increment, or at the start. */
-  struct ElementRecord
-  {
-    unsigned int increment   = 0;
-    unsigned int stage       = 0; ///< from 1; 0: the start
-    Tensor6      strain      = {};
-    Tensor6      stress      = {}; ///< (Pa)
-    double       strain_path = 0.; ///< sum of the norms of the increments
-    std::vector<double> shown;     ///< ElementPoint::values()
-    unsigned long long  substeps = 0, forced = 0; ///< of the increment
-
-    double
-    volumetric_strain() const
-    {
-      return strain[0] + strain[1] + strain[2];
-    }
-
-    /** eps_q = sqrt(2/3) ||dev eps||. */
-    double
-    deviatoric_strain() const;
-  };
-
   /** Folder of an element test: path.csv, surfaces.csv, summary.json. Records,
    *  possibly millions, are not stored. */
   class ElementOutput : public OutputBase

@@ -60,8 +60,11 @@ namespace geocone::GEOCONE_DIM
     std::vector<double>
     positions() const;
 
-    const std::string          name;
-    std::vector<StopCondition> stop; ///< none or one
+    /** Whether a line of the results ends the stage early. */
+    bool
+    stops(const double *line) const;
+
+    const std::string name;
 
   private:
     void
@@ -110,6 +113,7 @@ namespace geocone::GEOCONE_DIM
     unsigned int               n_increments = 100;
     unsigned int               n_cycles     = 0;
     std::string                stop_text;
+    std::vector<StopCondition> stop; ///< none or one
     std::array<std::string, 6> strain_texts, stress_texts;
   };
 
