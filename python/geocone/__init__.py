@@ -15,6 +15,8 @@
     scene = geocone.Scene("prm/footing_mpm.prm")
     scene["Materials"]["soil"]["Cohesion"] = 3e3    # Pa
     scene.run()
+    clay = geocone.MaterialPoint("prm/element/undrained_triaxial.prm")   # in this process
+    clay.run()["q (Pa)"].max()
 
 `python3 -m geocone plot RUN-FOLDER` draws pictures, `python3 -m geocone report` computes
 studies. Nothing that is read is executed.
@@ -27,15 +29,16 @@ require("numpy")  # the error has a remedy
 # pylint: disable=wrong-import-position
 from geocone.frames import to_dataframe  # noqa: E402
 from geocone.program import example, find_program  # noqa: E402
+from geocone.point import MaterialPoint  # noqa: E402
 from geocone.progress import Progress  # noqa: E402
 from geocone.reader import Missing, ReadError, Run, read  # noqa: E402
 from geocone.runner import RunFailed, run  # noqa: E402
 from geocone.scene import Scene, Section, UnknownParameter  # noqa: E402
 from geocone.side_by_side import run_many  # noqa: E402
 
-__all__ = ["Missing", "MissingModule", "Progress", "ReadError", "Run", "RunFailed", "Scene",
-           "Section", "UnknownParameter", "example", "find_program", "read", "run",
-           "run_many", "to_dataframe"]
+__all__ = ["MaterialPoint", "Missing", "MissingModule", "Progress", "ReadError", "Run",
+           "RunFailed", "Scene", "Section", "UnknownParameter", "example", "find_program",
+           "read", "run", "run_many", "to_dataframe"]
 
 for name in __all__:  # as users and the reference name them
     globals()[name].__module__ = "geocone"
