@@ -70,6 +70,7 @@ PAGES = {
     "Use": ["doc/tutorials/README", "doc/scenes", "doc/your_own_scene",
             "doc/parameters/README", "doc/cookbook/README", "doc/notebooks/footing",
             "doc/notebooks/slope_factor_of_safety", "doc/notebooks/element_tests",
+            "doc/notebooks/calibration",
             "doc/runs", "doc/trust", "doc/element_test", "doc/studies", "doc/python_reference",
             "meshes/README", "packaging/README"],
     "What is known": ["doc/limits", "doc/comparison", "doc/validation", "doc/verification",

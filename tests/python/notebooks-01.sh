@@ -6,4 +6,4 @@ export PYTHONPATH=$root/python PYTHONDONTWRITEBYTECODE=1 IPYTHONDIR=$folder/ipyt
 export PYDEVD_DISABLE_FILE_VALIDATION=1
 export JUPYTER_RUNTIME_DIR=$folder/runtime JUPYTER_CONFIG_DIR=$folder/config
 /usr/bin/python3 "$root/tests/python/notebooks.py" "$root/doc/notebooks" pages > said
-[ "$(xargs < said)" = 'element_tests footing slope_factor_of_safety' ]
+[ "$(xargs < said)" = 'calibration element_tests footing slope_factor_of_safety' ]

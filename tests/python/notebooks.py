@@ -73,6 +73,16 @@ def slope_factor_of_safety(shown):
     assert shown.pictures == 3
 
 
+def calibration(shown):
+    """The constants of the synthetic data are found, and the misfit is their noise."""
+    rows = shown.rows[1:]
+    assert len(rows) == 4
+    for _, _, found, spread, true in rows:
+        assert abs(float(found) - float(true)) < 4. * float(spread) < 0.4 * float(true), rows
+    assert 0.005 < shown.number(r"mean misfit ([\d.]+)") < 0.015
+    assert shown.pictures == 1
+
+
 def element_tests(shown):
     """Strengths are those of the closed form."""
     rows = shown.rows[2:]
@@ -86,4 +96,4 @@ checks = {file.stem: file for file in sorted(folder.glob("*.ipynb"))}
 for name, file in checks.items():
     globals()[name](run(file))
     print(name)
-assert len(checks) == 3
+assert len(checks) == 4
