@@ -5,6 +5,7 @@
 // interface for users is geocone.MaterialPoint (python/geocone/point.py).
 
 #include <geocone/base/exceptions.h>
+#include <geocone/base/units.h>
 #include <geocone/element/driven_point.h>
 #include <geocone/element/element_path.h>
 
@@ -43,7 +44,8 @@ namespace
       file.parse(of_other_laws());
       changed = driven.prepare();
       table   = element_columns(*driven.point, driven.initial_volume);
-      columns = table.names();
+      for (const std::string &name : table.names())
+        columns.push_back(in_units(name));
     }
 
     Tensor6
@@ -93,7 +95,7 @@ namespace
     py::array_t<double>
     run()
     {
-      stages.prepare(*driven.point, columns);
+      stages.prepare(*driven.point, table.names());
       restart();
       std::vector<double> lines;
       append(lines, 0);
@@ -142,6 +144,7 @@ namespace
     {
       of_other_laws();
       dealii::ParameterAcceptor::prm.clear();
+      declare_units();
       return ParameterFile::from_text("", "parameters", settings);
     }
 

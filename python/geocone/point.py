@@ -19,7 +19,7 @@ from geocone.parameter_file import lines_of, setting, settings_in, text_of
 from geocone.program import find_program
 
 COMPONENTS = ("xx", "yy", "zz", "xy", "yz", "zx")
-SECTIONS = ("Materials/", "Element/", "Path/")
+SECTIONS = ("Materials/", "Element/", "Path/", "Analysis/Units")
 
 
 class MaterialPoint:
@@ -33,8 +33,8 @@ class MaterialPoint:
         point.follow(strain={"yy": -0.05}, stress={"xx": -60e3, "zz": -60e3}, increments=100)
 
     Tension is positive; strains add up from the initial state; shear components are those of
-    the tensor. Of the parameters those of `Materials` (the first one), `Element` and `Path`
-    are used. It gives the numbers of the program's method `point`, without files.
+    the tensor. Of the parameters those of `Materials` (the first one), `Element`, `Path` and
+    `Analysis/Units` are used. It gives the numbers of the program's method `point`, without files.
 
     Parameters
     ----------

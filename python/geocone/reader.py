@@ -8,6 +8,7 @@ import datetime
 import functools
 import json
 import os
+import re
 import socket
 import xml.etree.ElementTree as ElementTree
 import zlib
@@ -25,7 +26,42 @@ if TYPE_CHECKING:
     import meshio
     import pyvista
 
-Table = dict[str, np.ndarray]  # {"name (unit)": array of a value per line}
+
+
+class Table(dict[str, np.ndarray]):
+    """Columns, {"name (unit)": array of a value per line}. Those of a run in kN and kPa are
+    also found by the names that they have in SI units."""
+
+    def __missing__(self, name: str) -> np.ndarray:
+        inside = unit_in(name)
+        if inside is None or not dict.__contains__(self, inside):
+            raise KeyError(name)
+        return self[inside]
+
+    def __contains__(self, name: object) -> bool:
+        return dict.__contains__(self, name) or (
+            isinstance(name, str) and dict.__contains__(self, unit_in(name)))
+
+    def get(self, name: str, default: Any = None) -> Any:
+        """The column, or the default."""
+        return self[name] if name in self else default
+
+
+def kilo(unit: str) -> str:
+    """A unit of SI in the system of kN and kPa, "kN/m" of "N/m"."""
+    return re.sub(r"^(Pa|N|J)(?!\w)", r"k\1", re.sub(r"^kg(?!\w)", "t", unit))
+
+
+def mass_unit(parameters: Mapping[str, str]) -> float:
+    """What a mass of one is in a scene (kg)."""
+    return 1e3 if parameters.get("Analysis/Units") == "kN-m" else 1.
+
+
+def unit_in(name: str) -> str | None:
+    """The name of a column of SI units in the system of kN and kPa, if it has a unit."""
+    words, bracket, unit = name.rpartition(" (")
+    return f"{words} ({kilo(unit)}" if bracket else None
+
 
 # meshio's name of a cell, by the dimension of the scene and the number of corners.
 CELL_TYPES = {2: {1: "vertex", 2: "line", 3: "triangle", 4: "quad"},
@@ -126,7 +162,17 @@ class Run:
         except Missing:
             known = ()
         whole = "load (N)" in known or "kinetic energy (J)" in known
-        return unit if whole else f"{unit}/m"
+        return self.unit(unit if whole else f"{unit}/m")
+
+    @property
+    def mass_unit(self) -> float:
+        """What a mass of one is (kg): 1000 where `Analysis/Units` are kN-m."""
+        return mass_unit(self.parameters)
+
+    def unit(self, of_si: str) -> str:
+        """The unit that the run has for one of SI, "kPa" for "Pa" where `Analysis/Units`
+        are kN-m."""
+        return of_si if self.mass_unit == 1. else kilo(of_si)
 
     def table(self, name: str) -> Table:
         """Reads a table of the folder.
@@ -344,7 +390,7 @@ def read_table(path: Path) -> Table:
         raise ReadError(f"the table '{path}' cannot be read: {problem}")
     if not rows:
         raise Missing(f"'{path}' has no lines")
-    return dict(zip(header, table.T))
+    return Table(zip(header, table.T))
 
 
 def decode(array: ElementTree.Element) -> np.ndarray:

@@ -17,7 +17,7 @@ from geocone.parameter_file import (file_text, lines_of, parameters_of, setting,
 from geocone.program import environment, find_program
 
 # Parameters by whose values the others are declared.
-SHAPES = ("Names", "Stages", "Type", "Dimension")
+SHAPES = ("Names", "Stages", "Type", "Dimension", "Units")
 
 
 class UnknownParameter(KeyError):

@@ -70,7 +70,11 @@ def plain(text, longest=100):
 
 
 def unit_for(size, name):
-    """The unit in which numbers up to a size are given: its name and value."""
+    """The unit in which numbers up to a size are given: its name and value. Numbers in kPa,
+    kN or kJ, of scenes in these units, are shown in these or in larger ones."""
+    if name.startswith(("kPa", "kN", "kJ")):
+        name, value = unit_for(max(1e3 * size, 1e4), name[1:])
+        return name, value / 1e3
     power = (2 if size >= 1e7 else 1 if size >= 1e4 else 0 if size >= 1e-2 or size == 0.
              else -1 if size >= 1e-5 else -2 if size >= 1e-8 else -3)
     return ["", "k", "M", "n", "µ", "m"][power] + name, 1e3**power

@@ -4,6 +4,7 @@
 #include <geocone/base/exceptions.h>
 #include <geocone/base/files.h>
 #include <geocone/base/log.h>
+#include <geocone/base/units.h>
 
 #include <deal.II/base/exceptions.h>
 
@@ -229,7 +230,7 @@ namespace geocone
     std::string line;
     for (const std::string &column : columns)
       {
-        std::string text = column;
+        std::string text = in_units(column);
         if (text.find_first_of(",\"\r\n") != std::string::npos)
           {
             for (std::size_t i = text.find('"'); i != std::string::npos;

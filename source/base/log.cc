@@ -4,6 +4,7 @@
 #include <geocone/base/exceptions.h>
 #include <geocone/base/files.h>
 #include <geocone/base/log.h>
+#include <geocone/base/units.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -49,10 +50,11 @@ namespace geocone
   }
 
   void
-  Log::print(const std::string &text)
+  Log::print(const std::string &of_si)
   {
     if (!speaks)
       return;
+    const std::string text = in_units(of_si);
     end_progress_line();
     if (!quiet)
       std::cout << text << std::endl;
@@ -65,19 +67,20 @@ namespace geocone
   void
   Log::warn(const std::string &text)
   {
-    all_warnings.push_back(text);
+    all_warnings.push_back(in_units(text));
     if (!speaks)
       return;
     if (quiet)
-      std::cerr << "warning: " << text << std::endl;
+      std::cerr << "warning: " << in_units(text) << std::endl;
     print("warning: " + text);
   }
 
   void
-  Log::progress(const std::string &text)
+  Log::progress(const std::string &of_si)
   {
     if (!speaks)
       return;
+    const std::string text = in_units(of_si);
     if (!quiet && terminal)
       {
         // Blanks overwrite the rest of a longer line on the screen.

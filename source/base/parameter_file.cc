@@ -4,6 +4,7 @@
 #include <geocone/base/declared_parameters.h>
 #include <geocone/base/exceptions.h>
 #include <geocone/base/parameter_file.h>
+#include <geocone/base/units.h>
 
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/utilities.h>
@@ -518,6 +519,7 @@ namespace geocone
   std::vector<ParameterFile::Setting>
   ParameterFile::parse(const OfOthers &of_others) const
   {
+    choose_units(peek("Analysis/Units", "SI"));
     const Declared                 declared = all_declared();
     std::map<std::string, Setting> settings;
     for (const SetLine &set : set_lines(true))
@@ -563,6 +565,9 @@ namespace geocone
           set.sections, set.name, set.value, entry->second, set.line->place());
         settings[path] = {path, set.value, entry->second.default_value, ""};
       }
+    if (mass_unit() != 1.)
+      convert_defaults(
+        [&](const std::string &path) { return settings.count(path) > 0; });
     ParameterAcceptor::parse_all_parameters();
     std::vector<Setting> all;
     for (const auto &[path, setting] : settings)

@@ -5,6 +5,7 @@
 #include <geocone/base/exceptions.h>
 #include <geocone/base/parameter_file.h>
 #include <geocone/base/parameter_reference.h>
+#include <geocone/base/units.h>
 
 #include <deal.II/base/parameter_acceptor.h>
 #include <deal.II/base/utilities.h>
@@ -223,17 +224,6 @@ namespace geocone
       for (const std::string &item : split_names(text, separator))
         list.push_back(value_of(item, schema.at("items"), ','));
       return list;
-    }
-
-    /** The unit of a value, which its text has in brackets; empty: none. */
-    std::string
-    unit_in(const std::string &documentation)
-    {
-      std::smatch unit;
-      return std::regex_search(
-               documentation, unit, std::regex("\\[([^\\]]+)\\]"))
-               ? unit.str(1)
-               : "";
     }
 
     Json

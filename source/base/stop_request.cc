@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/stop_request.h>
+#include <geocone/base/units.h>
 
 #include <csignal>
 #include <cstdlib>
@@ -88,7 +89,7 @@ namespace geocone
   void
   say_error(const std::string &what)
   {
-    std::cerr << "error: " << what << std::endl;
+    std::cerr << "error: " << in_units(what) << std::endl;
   }
 
   void

@@ -3,6 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/stop_request.h>
+#include <geocone/base/units.h>
 #include <geocone/base/unused_parameters.h>
 #include <geocone/output/model_file.h>
 #include <geocone/output/output_base.h>
@@ -47,6 +48,7 @@ namespace geocone::GEOCONE_DIM
     , writes(dealii::Utilities::MPI::this_mpi_process(comm) == 0)
     , log(log)
   {
+    declare_units();
     add_parameter("Folder",
                   path,
                   "Result folder; empty: results/NAME for NAME.prm. The option "
@@ -180,6 +182,26 @@ namespace geocone::GEOCONE_DIM
     return together;
   }
 
+  namespace
+  {
+    /** A summary with present units in place of those of SI. */
+    Json
+    summary_in_units(const Json &of_si)
+    {
+      if (!of_si.is_structured())
+        return of_si;
+      Json out = of_si.is_array() ? Json::array() : Json::object();
+      for (const auto &[key, value] : of_si.items())
+        if (of_si.is_array())
+          out.push_back(summary_in_units(value));
+        else if (key == "unit" && value.is_string())
+          out[key] = present_unit(value.get<std::string>());
+        else
+          out[key_in_units(key)] = summary_in_units(value);
+      return out;
+    }
+  } // namespace
+
   void
   OutputBase::write_summary(const std::string &status, const Json &topics)
   {
@@ -187,7 +209,7 @@ namespace geocone::GEOCONE_DIM
       return;
     summary_written = std::chrono::steady_clock::now();
     summary         = {{"name", name}, {"status", status}};
-    summary.update(topics);
+    summary.update(mass_unit() == 1. ? topics : summary_in_units(topics));
     summary["run"]                   = run_topic();
     summary["run"]["parameter_file"] = parameter_file;
     summary["warnings"]              = log.warnings();

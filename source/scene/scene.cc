@@ -3,6 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
+#include <geocone/base/units.h>
 #include <geocone/scene/magnitudes.h>
 #include <geocone/scene/scene.h>
 #include <geocone/shapes/part_in_box.h>
@@ -247,7 +248,7 @@ namespace geocone::GEOCONE_DIM
   warn_of_magnitudes(const Scene &scene, const dealii::BoundingBox<dim> &body)
   {
     constexpr double largest_body = 1e4, smallest_body = 1e-3; // m
-    constexpr double lightest = 100., heaviest = 1e4;          // kg/m^3
+    const double     lightest = 100. / mass_unit(), heaviest = 100. * lightest;
     constexpr double least_strength = 1e-5; // over gamma H, frictionless
     std::vector<std::string> warnings;
     double                   size = 0.;

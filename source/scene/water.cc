@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
+#include <geocone/base/log.h>
+#include <geocone/base/units.h>
 #include <geocone/scene/water.h>
 
 #include <algorithm>
@@ -69,8 +71,10 @@ namespace geocone::GEOCONE_DIM
       return;
     check(table, "Water/Table");
     if (!(unit_weight > 0. && std::isfinite(unit_weight)))
-      throw InputError(
-        "Water/Unit weight", unit_weight, "> 0 N/m^3, finite", "9810 is usual");
+      throw InputError("Water/Unit weight",
+                       unit_weight,
+                       "> 0 N/m^3, finite",
+                       format("%g is usual", 9810. / mass_unit()));
     const Tensor<1, dim> g = gravity.at(1e300);
     if (!(g[1] < 0.))
       throw InputError(

@@ -49,7 +49,7 @@ def draw(run, paths):
         raise Skipped("fewer than two times have points")
     chosen = np.unique(np.linspace(0, len(series) - 1, min(MOST, len(series))).astype(int))
     fields = run.states("points", tuple(chosen))
-    values, label, norm, extend = strain_or_shear(fields)
+    values, label, norm, extend = strain_or_shear(run, fields)
     look = look_at(fields, values, lambda size: 0.1 * np.max(size))
     figure, (axes,) = panels(1, look.box)
     figure.set_dpi(DOTS)

@@ -31,7 +31,7 @@ class Path:
         self.run, self.table, self.title = run, run.path, plain(run.name)
         table = self.table
         self.unit, self.factor = unit_for(
-            max(np.abs(table["p (Pa)"]).max(), table["q (Pa)"].max()), "Pa")
+            max(np.abs(table["p (Pa)"]).max(), table["q (Pa)"].max()), run.unit("Pa"))
         self.axis = run.summary["axis"]
         self.p, self.q = table["p (Pa)"] / self.factor, table["q (Pa)"] / self.factor
         if self.axis in OTHERS:

@@ -73,7 +73,7 @@ def draw_implicit(run, path):
     for name in {"potential energy", "total energy"} & energies.keys():
         energies[name] = energies[name] - potential.min()
     energy = run.summary.get("energy", {})
-    initial = energy.get("initial_J_per_m", energy.get("initial_J", 0.)) - potential[0]
+    initial = energy.get(f"initial_{unit.replace('/', '_per_')}", 0.) - potential[0]
     whole, name = max((potential[0] - potential.min(), "released\npotential energy"),
                       (np.abs(table[f"external work ({unit})"]).max(), "\nexternal work"),
                       (initial, "\ninitial energy"))

@@ -110,7 +110,7 @@ def look_of(fields, values):
 def draw_points(run, path, times=None):
     """Draws plastic strain or, of an elastic body, shear stress."""
     fields = snapshots_of(run, times)
-    values, label, norm, extend = strain_or_shear(fields)
+    values, label, norm, extend = strain_or_shear(run, fields)
     draw_panels(run, path, fields, look_of(fields, values), values, norm, label,
                 extend=extend)
 

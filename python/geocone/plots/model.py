@@ -17,7 +17,7 @@ from matplotlib.transforms import offset_copy
 
 from geocone.parameter_file import IncludeError, parameters_of
 from geocone.plots.solid import View, add_directions
-from geocone.reader import Missing, ReadError
+from geocone.reader import Missing, ReadError, mass_unit
 from geocone.style import (WATER, draw_free_surface, draw_table, plain, save, subplots, table_of,
                            unit_for)
 
@@ -47,6 +47,13 @@ class Model:
                 RecursionError) as problem:
             raise ReadError(f"the model of '{folder}' cannot be read: {problem!r}")
         self.size = float(np.max(self.high - self.low))
+        # Of one number: 1 kg, or 1 t where forces are in kN (kg).
+        self.mass_unit = mass_unit(self.parameters)
+
+    @property
+    def stress_unit(self):
+        """The unit of stresses in its numbers."""
+        return "Pa" if self.mass_unit == 1. else "kPa"
 
     def materials(self):
         """Names of the materials that are drawn, with their places in the list."""
@@ -84,19 +91,19 @@ class Model:
         parts = [value["Type"]] if value["Type"] else []
         for key, symbol in (("Cohesion", "c"), ("Undrained strength", "$s_u$")):
             if number(key) is not None:
-                parts.append(f"{symbol} = {number(key) / 1e3:g} kPa")
+                parts.append(f"{symbol} = {number(key) * self.mass_unit / 1e3:g} kPa")
         for key, symbol in (("Friction angle", "φ"), ("Dilatancy angle", "ψ")):
             if number(key) is not None:
                 parts.append(f"{symbol} = {number(key):g}°")
         if number("Tensile strength") is not None:
-            unit, size = unit_for(number("Tensile strength"), "Pa")
+            unit, size = unit_for(number("Tensile strength"), self.stress_unit)
             parts.append(f"$\\sigma_t$ = {number('Tensile strength') / size:g} {unit}")
         weights = [("Unit weight", "γ"), ("Saturated unit weight", "$\\gamma_{sat}$")]
         for key, symbol in weights:
             if number(key):  # 0: not given
-                parts.append(f"{symbol} = {number(key) / 1e3:.4g} kN/m³")
+                parts.append(f"{symbol} = {number(key) * self.mass_unit / 1e3:.4g} kN/m³")
         if number("Density") is not None and not number("Unit weight"):
-            parts.append(f"ρ = {number('Density'):g} kg/m³")
+            parts.append(f"ρ = {number('Density') * self.mass_unit:g} kg/m³")
         return ", ".join(parts)
 
 
@@ -327,7 +334,7 @@ def draw_tractions(axes, model):
             continue
         index, places, outward = spaced(condition["faces"], model.size / 45.)
         draw_arrows(axes, places, values[index], outward, LOAD, 0.1 * model.size)
-        entries[f"{plain(condition['name'])}: {value_text(values, 'Pa')}"] = arrow_entry(LOAD)
+        entries[f"{plain(condition['name'])}: {value_text(values, model.stress_unit)}"] = arrow_entry(LOAD)
     return entries
 
 

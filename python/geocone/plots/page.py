@@ -57,7 +57,7 @@ OF_COMPUTATION = {"bounds.png": "Both bounds and their gap",
                   "discharge.png": "Discharge by mesh", "energy.png": "Energies",
                   "newton.png": "Newton's method: residuals"}
 # The unit at the end of a name of the summary, as in "angular_N_m_s_per_m".
-UNIT = re.compile(r"_((?:(?:MB|Pa|kg|J|N|m|m2|m3|s)_)*(?:MB|Pa|kg|J|N|m|m2|m3|s)"
+UNIT = re.compile(r"_((?:(?:MB|k?Pa|kg|t|k?J|k?N|m|m2|m3|s)_)*(?:MB|k?Pa|kg|t|k?J|k?N|m|m2|m3|s)"
                   r"(?:_per_(?:m|s))?)(_least|_most)?$")
 LONG = 32  # texts from here on have a line of their own
 
@@ -170,7 +170,7 @@ def frames_of(run):
         chosen = np.unique(np.linspace(0, len(times) - 1,
                                        min(len(times), MOST_FRAMES)).astype(int))
         fields = run.states(series, tuple(int(i) for i in chosen))
-        values, label, norm, _ = strain_or_shear(fields)
+        values, label, norm, _ = strain_or_shear(run, fields)
         look = (CellsLook(fields, lambda size: 0.5 * size) if cells else
                 points.look_at(fields, values, lambda size: 0.5 * size))
     except (Missing, Skipped):

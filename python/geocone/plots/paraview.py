@@ -121,6 +121,7 @@ def write_state(run, folder):
     if text.count(PLACE) != 1:
         raise RuntimeError(f"'{TEMPLATE}' has no place for what is shown")
     path = folder / NAME
-    write_listed(path, text.replace(
-        PLACE, f"RUN = {pprint.pformat(shown, width=88, sort_dicts=False)}\n"))
+    words = pprint.pformat(shown, width=88, sort_dicts=False)
+    words = words.replace("(Pa)", f"({run.unit('Pa')})")
+    write_listed(path, text.replace(PLACE, f"RUN = {words}\n"))
     return path

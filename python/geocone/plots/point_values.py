@@ -50,7 +50,7 @@ def level_of(fields, values):
             np.finfo(float).tiny)
 
 
-def strain_or_shear(fields):
+def strain_or_shear(run, fields):
     """Quantity shown at the points: plastic strain, on a logarithmic scale, or the shear
     stress of an elastic body.
 
@@ -60,7 +60,7 @@ def strain_or_shear(fields):
         most = level_of(fields, values)
         return values, "cumulative plastic strain (-)", LogNorm(1e-3 * most, most), "both"
     values = shear_stress(fields)
-    return values, SHEAR, Normalize(0., level_of(fields, values)), "max"
+    return values, SHEAR.replace("Pa", run.unit("Pa")), Normalize(0., level_of(fields, values)), "max"
 
 
 def view_of(fields, reach):

@@ -78,7 +78,7 @@ def draw_strains(run, path, times=None):
     values, label = values_of(fields, STRAIN), "cumulative plastic strain (-)"
     if not np.any(np.concatenate(values)):
         # Nothing yields in an elastic body: its stress is shown.
-        values, label = shear_stress(fields), SHEAR
+        values, label = shear_stress(fields), SHEAR.replace("Pa", run.unit("Pa"))
         path = path.with_stem("shear_stress")
     draw_panels(run, path, fields, look_at(fields, values, lambda size: size / 2.),
                 values, Normalize(0., level_of(fields, values)), label, extend="max")

@@ -28,7 +28,7 @@ def draw_run(run, path):
     series = "points" if run.method == "MPM" else "cells"
     field, = run.states(series)
     in_plane(field)
-    pressure = field.data[NAME][:, 0] / 1e3
+    pressure = field.data[NAME][:, 0] * run.mass_unit / 1e3
     most = level_of([field], [np.abs(pressure)])
     points = field.points
     figure, (axes,) = panels(1, (points.min(axis=0), points.max(axis=0)))

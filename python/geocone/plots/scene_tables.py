@@ -8,7 +8,7 @@ from collections import namedtuple
 import numpy as np
 
 from geocone.plots.model import Model, color_of, value_text, words_of
-from geocone.reader import ReadError
+from geocone.reader import ReadError, mass_unit
 from geocone.style import plain
 
 # head  names of the columns; rows  cells, each a text; swatches  a colour for each row
@@ -47,16 +47,20 @@ def constants_of(parameters, material):
             if key.startswith(prefix) and text not in ("", "none")}
 
 
-def soil_text(values, key):
-    """A constant of a soil in the unit of its column."""
+def soil_text(values, key, mass_unit):
+    """A constant of a soil in the unit of its column. @param mass_unit of the values (kg)"""
     value = number(values.get(key))
-    return (values.get(key, "") if value is None else f"{value / CONSTANTS[key][2]:.6g}")
+    _, unit, size = CONSTANTS[key]
+    if unit not in ("-", "°", "m"):
+        size /= mass_unit
+    return (values.get(key, "") if value is None else f"{value / size:.6g}")
 
 
 def soils_of(parameters, names, absent=()):
     """The table of the soils; a constant is a column if it is not zero in all of them, the
     tensile strength if it is given: zero is soil without tension."""
     values = [constants_of(parameters, name) for name in names]
+    kilograms = mass_unit(parameters)
     keys = [key for key in CONSTANTS if any(
         number(of.get(key, "0")) != 0. or (key == "Tensile strength" and key in of)
         for of in values)]
@@ -65,10 +69,13 @@ def soils_of(parameters, names, absent=()):
     rest = [", ".join(f"{key} {text}" for key, text in of.items()
                       if key not in CONSTANTS and key not in SETTINGS and
                       number(text) not in (None, 0.)) for of in values]
-    head = ["soil", "law", *(f"{CONSTANTS[key][0]} ({CONSTANTS[key][1]})" for key in keys),
-            *(["further constants (SI units)"] if any(rest) else [])]
+    units = {key: "kPa" if CONSTANTS[key][1] == "Pa" and kilograms != 1. else CONSTANTS[key][1]
+             for key in keys}
+    head = ["soil", "law", *(f"{CONSTANTS[key][0]} ({units[key]})" for key in keys),
+            *(["further constants (SI units)" if kilograms == 1. else
+               "further constants (t, kN, kPa)"] if any(rest) else [])]
     rows = [[name + (" (later)" if name in absent else ""), of.get("Type", ""),
-             *(soil_text(of, key) for key in keys), *([more] if any(rest) else [])]
+             *(soil_text(of, key, kilograms) for key in keys), *([more] if any(rest) else [])]
             for name, of, more in zip(names, values, rest)]
     return Table("Soils", head, rows, [color_of(i) for i in range(len(names))])
 
@@ -88,7 +95,7 @@ def loads_of(model):
         rows.append(["weight", f"{gravity:.4g} m/s²", "body"])
     components = [f"{kind} {c}" for kind in ("Velocity", "Traction")
                   for c in ("x", "y", "z", "normal", "tangential")]
-    for kind, section, unit in (("tractions", "Tractions", "Pa"),
+    for kind, section, unit in (("tractions", "Tractions", model.stress_unit),
                                 ("supports", "Boundary conditions", "m/s")):
         for condition in model.data[kind]:
             values = np.array(condition["values"], dtype=float)
@@ -126,7 +133,7 @@ def water_of(model):
                      ("open to the air" if level == "none" else f"water level {level} m") +
                      (f", rain {rain:g} m/s" if rain else "")])
     if rows and weight:
-        rows.append(["unit weight of water", f"{weight / 1e3:g} kN/m³"])
+        rows.append(["unit weight of water", f"{weight * model.mass_unit / 1e3:g} kN/m³"])
     return Table("Water", ["water", "value"], rows, None)
 
 
