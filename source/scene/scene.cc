@@ -249,6 +249,7 @@ namespace geocone::GEOCONE_DIM
   {
     constexpr double largest_body = 1e4, smallest_body = 1e-3; // m
     const double     lightest = 100. / mass_unit(), heaviest = 100. * lightest;
+    const double     in_kilopascals = 500. / mass_unit(); // rather kPa than Pa
     constexpr double least_strength = 1e-5; // over gamma H, frictionless
     std::vector<std::string> warnings;
     double                   size = 0.;
@@ -282,6 +283,13 @@ namespace geocone::GEOCONE_DIM
                    name.c_str(),
                    strength->c,
                    weight));
+        else if (size >= 1. && weight > 0. && strength->gradient == 0. &&
+                 strength->c > 0. && strength->c < in_kilopascals)
+          warnings.push_back(
+            format("the cohesion of '%s' is %g Pa: is it meant in "
+                   "larger units? Strengths are in Pa",
+                   name.c_str(),
+                   strength->c));
         const std::string stiffness =
           ParameterFile::value("Materials/" + name + "/Young modulus");
         if (const double E = std::strtod(stiffness.c_str(), nullptr);

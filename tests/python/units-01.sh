@@ -57,7 +57,7 @@ of_kn = run(Path.cwd() / "slope.prm", {**slope, "Gravity/Acceleration": "0, -9.8
 for end in "lower", "upper":
     close(of_kn.value(f"safety/{end}"), of_si.value(f"safety/{end}"), 1e-5)
 
-# Refusals and questions name the unit.
+# Refusals and questions name the unit; a cohesion that may be meant in kPa is asked about.
 def said(*settings):
     words = [word for one in settings for word in ("--set", one)]
     ended = subprocess.run([program, "--dry-run", "slope.prm", *words], text=True,
@@ -66,6 +66,9 @@ def said(*settings):
 kN = "Analysis/Units = kN-m"
 assert "kN/m^3" in said(kN, "Water/Unit weight = -1") and "9.81 is usual" in said(
     kN, "Water/Unit weight = -1")
+question = said("Materials/soil/Cohesion = 12")
+assert "'soil' is 12 Pa: is it meant in larger units" in question, question
+assert "larger units" not in said(kN, "Materials/soil/Cohesion = 12")
 assert "density of 'soil' is 2000 t/m^3" in said(kN, "Materials/soil/Density = 2000")
 assert "SI | kN-m" in said("Analysis/Units = kPa") or "Analysis/Units" in said("Analysis/Units = kPa")
 PYTHON
