@@ -4,6 +4,7 @@
 #include <geocone/base/exceptions.h>
 #include <geocone/base/files.h>
 #include <geocone/base/log.h>
+#include <geocone/base/terminal.h>
 #include <geocone/base/units.h>
 
 #include <deal.II/base/mpi.h>
@@ -17,6 +18,11 @@
 
 namespace geocone
 {
+  namespace
+  {
+    const std::string warning_word = "warning: ";
+  } // namespace
+
   Log::Log(const MPI_Comm comm, const bool quiet)
     : speaks(dealii::Utilities::MPI::this_mpi_process(comm) == 0)
     , quiet(quiet)
@@ -57,7 +63,11 @@ namespace geocone
     const std::string text = in_units(of_si);
     end_progress_line();
     if (!quiet)
-      std::cout << text << std::endl;
+      std::cout << (text.compare(0, warning_word.size(), warning_word) == 0
+                      ? coloured(warning_word, Colour::yellow, STDOUT_FILENO) +
+                          text.substr(warning_word.size())
+                      : text)
+                << std::endl;
     if (file.is_open())
       file << text << std::endl;
     else
@@ -71,8 +81,9 @@ namespace geocone
     if (!speaks)
       return;
     if (quiet)
-      std::cerr << "warning: " << in_units(text) << std::endl;
-    print("warning: " + text);
+      std::cerr << coloured(warning_word, Colour::yellow, STDERR_FILENO)
+                << in_units(text) << std::endl;
+    print(warning_word + text);
   }
 
   void

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/stop_request.h>
+#include <geocone/base/terminal.h>
 #include <geocone/base/units.h>
 
 #include <csignal>
@@ -89,7 +90,8 @@ namespace geocone
   void
   say_error(const std::string &what)
   {
-    std::cerr << "error: " << in_units(what) << std::endl;
+    std::cerr << coloured("error: ", Colour::red, STDERR_FILENO)
+              << in_units(what) << std::endl;
   }
 
   void
