@@ -59,8 +59,8 @@ def draw_net(run, path):
     if not np.any(is_wet):
         raise Skipped("the soil is dry")
     figure, (axes,) = panels(1, (mesh.points.min(axis=0), mesh.points.max(axis=0)))
-    drawn = axes.tripcolor(mesh.triangles(), pressure / 1e3, shading="gouraud", cmap="Blues",
-                           vmin=0.)
+    drawn = axes.tripcolor(mesh.triangles(), pressure * run.mass_unit / 1e3, shading="gouraud",
+                           cmap="Blues", vmin=0.)
     add_bar(axes, drawn, "pore pressure (kPa)")
     heads = head[is_wet]
     if np.ptp(heads) > 1e-9 * max(np.abs(heads).max(), 1e-300):
