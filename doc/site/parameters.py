@@ -25,6 +25,7 @@ SEE = {
     "Gravity": ["cookbook/column", "cookbook/slope"],
     "Tractions": ["theory/stages", "cookbook/safety"],
     "Water": ["theory/stages", "cookbook/safety"],
+    "Seepage": ["theory/seepage", "cookbook/seepage"],
     "Obstacles": ["theory/contact", "cookbook/contact"],
     "Contacts": ["theory/contact", "cookbook/contact"],
     "Absorbing boundaries": ["cookbook/waves"],

@@ -334,7 +334,8 @@ def draw_tractions(axes, model):
             continue
         index, places, outward = spaced(condition["faces"], model.size / 45.)
         draw_arrows(axes, places, values[index], outward, LOAD, 0.1 * model.size)
-        entries[f"{plain(condition['name'])}: {value_text(values, model.stress_unit)}"] = arrow_entry(LOAD)
+        text = f"{plain(condition['name'])}: {value_text(values, model.stress_unit)}"
+        entries[text] = arrow_entry(LOAD)
     return entries
 
 
