@@ -118,6 +118,8 @@ namespace geocone::GEOCONE_DIM
     scene.water.prepare_stages(scene.loading);
     flow.emplace(scene, scene.water.seepage.levels(), comm);
     flow->refine();
+    for (const Seepage::Step &step : scene.water.flow_steps())
+      flow->check(step.levels);
     return {};
   }
 

@@ -73,7 +73,11 @@ namespace geocone::GEOCONE_DIM
     , is_transient(scene.water.flows_in_time())
   {
     for (unsigned int m = 0; m < scene.materials.size(); ++m)
-      permeability.push_back(scene.materials.law(m).permeability());
+      {
+        permeability.push_back(scene.materials.law(m).permeability());
+        if (is_transient)
+          scene.materials.law(m).drainable_porosity();
+      }
   }
 
   unsigned int
@@ -180,6 +184,27 @@ namespace geocone::GEOCONE_DIM
     return all;
   }
 
+  void
+  FlowOnMesh::check(const Seepage::Levels &levels) const
+  {
+    for (unsigned int b = 0; b < levels.size(); ++b)
+      if (levels[b])
+        {
+          const SeepageBoundary &boundary = *scene.water.seepage.list[b];
+          double                 lowest   = std::numeric_limits<double>::max();
+          for (const unsigned int e : edges_of(boundary))
+            for (const unsigned int v : mesh->edges[e].vertices)
+              lowest = std::min(lowest, mesh->vertices[v][1]);
+          if (!(*levels[b] > lowest))
+            throw InputError(boundary.parameter("Level"),
+                             *levels[b],
+                             format("above the lowest point of its sides, y = "
+                                    "%g m",
+                                    lowest),
+                             "a side in the air has no level: none");
+        }
+  }
+
   FlowConditions
   FlowOnMesh::conditions()
   {
@@ -189,25 +214,13 @@ namespace geocone::GEOCONE_DIM
     boundary_of.assign(n, -1);
     boundary_of_edge.assign(mesh->edges.size(), -1);
     for (unsigned int b = 0; b < listed.size(); ++b)
-      {
-        double lowest = std::numeric_limits<double>::max();
-        for (const unsigned int e : edges_of(*listed[b]))
-          {
-            boundary_of_edge[e] = b;
-            for (const unsigned int v : mesh->edges[e].vertices)
-              {
-                boundary_of[v] = b;
-                lowest         = std::min(lowest, mesh->vertices[v][1]);
-              }
-          }
-        if (levels[b] && !(*levels[b] > lowest))
-          throw InputError(listed[b]->parameter("Level"),
-                           *levels[b],
-                           format("above the lowest point of its sides, y = "
-                                  "%g m",
-                                  lowest),
-                           "a side in the air has no level: none");
-      }
+      for (const unsigned int e : edges_of(*listed[b]))
+        {
+          boundary_of_edge[e] = b;
+          for (const unsigned int v : mesh->edges[e].vertices)
+            boundary_of[v] = b;
+        }
+    check(levels);
     FlowConditions all;
     all.kind.assign(n, Kind::none);
     all.head.assign(n, 0.);

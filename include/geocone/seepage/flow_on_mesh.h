@@ -26,6 +26,11 @@ namespace geocone::GEOCONE_DIM
                const Seepage::Levels &levels,
                const MPI_Comm         comm);
 
+    /** @throws InputError for a level that is not above the lowest point of its side on
+     *  the present mesh */
+    void
+    check(const Seepage::Levels &levels) const;
+
     /** Solves a step of a transient flow on the present mesh. @throws RunError */
     void
     advance(const Seepage::Step &step);
@@ -97,7 +102,6 @@ namespace geocone::GEOCONE_DIM
     std::vector<unsigned int>
     edges_of(const SeepageBoundary &boundary) const;
 
-    /** @throws InputError for a level that is not above the lowest point of its side */
     FlowConditions
     conditions();
 
