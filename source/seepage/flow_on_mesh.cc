@@ -357,7 +357,7 @@ namespace geocone::GEOCONE_DIM
   std::optional<double>
   FlowOnMesh::change() const
   {
-    if (!discharge_before || !(discharge() > 0.))
+    if (!discharge_before || !flows())
       return std::nullopt;
     return discharge() / *discharge_before - 1.;
   }
@@ -368,7 +368,17 @@ namespace geocone::GEOCONE_DIM
     double sum = 0.;
     for (const double inflow : inflows())
       sum += inflow;
-    return discharge() > 0. ? sum / discharge() : 0.;
+    return flows() ? sum / discharge() : 0.;
+  }
+
+  bool
+  FlowOnMesh::flows() const
+  {
+    const dealii::BoundingBox<dim> body(mesh->vertices);
+    double                         largest = 0.;
+    for (const auto &k : permeability)
+      largest = std::max(largest, trace(k));
+    return discharge() > 1e-14 * largest * body.side_length(1);
   }
 
   std::string

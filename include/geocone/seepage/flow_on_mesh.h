@@ -89,6 +89,10 @@ namespace geocone::GEOCONE_DIM
     std::optional<double>
     change() const;
 
+    /** Whether more water flows than by rounding. */
+    bool
+    flows() const;
+
     /** Sum of the flows through all boundaries over the discharge. */
     double
     imbalance() const;
