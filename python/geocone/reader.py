@@ -53,7 +53,7 @@ def kilo(unit: str) -> str:
 
 
 def mass_unit(parameters: Mapping[str, str]) -> float:
-    """What a mass of one is in a scene (kg)."""
+    """The unit of mass of a scene (kg)."""
     return 1e3 if parameters.get("Analysis/Units") == "kN-m" else 1.
 
 
@@ -166,7 +166,7 @@ class Run:
 
     @property
     def mass_unit(self) -> float:
-        """What a mass of one is (kg): 1000 where `Analysis/Units` are kN-m."""
+        """Unit of mass (kg): 1000 where `Analysis/Units` are kN-m."""
         return mass_unit(self.parameters)
 
     def unit(self, of_si: str) -> str:
