@@ -178,18 +178,6 @@ namespace geocone::GEOCONE_DIM
         }
     }
 
-    /** Weight of a cell per area, in units. */
-    Tensor<1, dim>
-    weight(const BoundScene &bound, const unsigned int cell)
-    {
-      // Triangles do not cross the water, whose lines are edges of the mesh.
-      const Scene &scene = bound.scene;
-      return scene.density(bound.triangles.material[cell],
-                           bound.triangles.centre(cell)) *
-             scene.gravity.at(std::numeric_limits<double>::max()) *
-             bound.units.length / bound.units.stress;
-    }
-
     /** Seepage force of a cell: of the water, or of its pressures at the vertices with
      *  linear pressures between them (N/m^3). */
     Tensor<1, dim>
@@ -207,21 +195,27 @@ namespace geocone::GEOCONE_DIM
       return force;
     }
 
-    /** Adds the forces of a cell per area, in units: weight, and the force of water,
-     *  which is a dead load unless the weight is bounded with all other loads.
-     *  @param add called with a vector of loads and the force */
-    template <typename Function>
+    /** Adds the forces of a cell: weight, and the force of water, which is a dead load
+     *  unless the weight is bounded with all other loads. */
     void
     add_body_forces(BoundProblem      &problem,
                     const BoundScene  &bound,
-                    const unsigned int cell,
-                    const Function    &add)
+                    const BoundSide    side,
+                    const unsigned int cell)
     {
-      add(bound.loads(problem, LoadFactor::weight), weight(bound, cell));
+      add_force_of_cell(bound,
+                        side,
+                        cell,
+                        weight_of_cell(bound, cell),
+                        bound.loads(problem, LoadFactor::weight));
       if (bound.scene.water.acts())
-        add(bound.loads(problem, LoadFactor::all),
-            seepage_force(bound, cell) *
-              (bound.units.length / bound.units.stress));
+        add_force_of_cell(
+          bound,
+          side,
+          cell,
+          seepage_force(bound, cell) *
+            (bound.units.length / bound.units.stress),
+          bound.loads(problem, LoadFactor::all));
     }
 
     /** The outward normal of a boundary edge. */
@@ -275,18 +269,57 @@ namespace geocone::GEOCONE_DIM
       double       part;                     ///< share of the edge's length
     };
 
-    /** Prescribes velocities and adds tractions. @param nodes_of (edge) -> its
-     *  EdgeNodes */
-    template <typename NodesOfEdge>
+    /** The x dof of w at an end of an edge, in the lower problem. */
+    unsigned int
+    dof_at_end(const Triangles   &triangles,
+               const unsigned int edge,
+               const unsigned int vertex)
+    {
+      const unsigned int end =
+        triangles.edges[edge].vertices[0] == vertex ? 0 : 1;
+      return dim * (triangles.cells.size() + 2 * edge + end);
+    }
+
+    /**
+     * Nodes of an edge. In the upper problem both ends and the middle: Simpson's rule is
+     * exact for linear tractions. In the lower one w at both ends, the value of a linear
+     * velocity at the third point next to the end; the integral of its function with a
+     * linear traction equals the traction at the end.
+     */
+    std::vector<EdgeNode>
+    nodes_of(const BoundSide    side,
+             const Triangles   &triangles,
+             const unsigned int edge)
+    {
+      const auto       &ends = triangles.edges[edge].vertices;
+      const Point<dim> &a    = triangles.vertices[ends[0]],
+                       &b    = triangles.vertices[ends[1]];
+      if (side == BoundSide::lower)
+        return {{dof_at_end(triangles, edge, ends[0]),
+                 Point<dim>(a + (b - a) / 3.),
+                 a,
+                 1. / 2.},
+                {dof_at_end(triangles, edge, ends[1]),
+                 Point<dim>(b + (a - b) / 3.),
+                 b,
+                 1. / 2.}};
+      const Point<dim>   middle(a + (b - a) / 2.);
+      const unsigned int n_vertices = triangles.vertices.size();
+      return {{dim * ends[0], a, a, 1. / 6.},
+              {dim * ends[1], b, b, 1. / 6.},
+              {dim * (n_vertices + edge), middle, middle, 2. / 3.}};
+    }
+
+    /** Prescribes velocities and adds tractions. */
     void
-    apply_conditions(const BoundScene  &bound,
-                     const NodesOfEdge &nodes_of,
-                     BoundProblem      &problem)
+    apply_conditions(const BoundScene &bound,
+                     const BoundSide   side,
+                     BoundProblem     &problem)
     {
       const Triangles &triangles = bound.triangles;
       for (const auto &condition : bound.scene.dirichlet.list)
         for (const auto &held : triangles.held_edges(*condition))
-          for (const EdgeNode &node : nodes_of(held.edge))
+          for (const EdgeNode &node : nodes_of(side, triangles, held.edge))
             prescribe(
               *condition,
               node.of_velocity,
@@ -296,25 +329,9 @@ namespace geocone::GEOCONE_DIM
                 problem.is_prescribed[node.dof + d] = true;
                 problem.prescribed[node.dof + d]    = value;
               });
-      Eigen::VectorXd &F = bound.loads(problem, LoadFactor::tractions);
       for (const auto &load : bound.scene.tractions.list)
-        for (const auto &held : triangles.held_edges(*load))
-          {
-            const auto  &ends   = triangles.edges[held.edge].vertices;
-            const double length = triangles.vertices[ends[0]].distance(
-                                    triangles.vertices[ends[1]]) /
-                                  bound.units.length;
-            for (const EdgeNode &node : nodes_of(held.edge))
-              {
-                const Tensor<1, dim> t = traction(
-                  *load,
-                  node.of_traction,
-                  outward_normal(triangles, held.cell, held.opposite_vertex),
-                  bound.units.stress);
-                for (unsigned int d = 0; d < dim; ++d)
-                  F[node.dof + d] += node.part * length * t[d];
-              }
-          }
+        add_tractions(
+          bound, side, *load, bound.loads(problem, LoadFactor::tractions));
     }
 
     /** StrainMatrix at vertex i of a cell of quadratic velocities, in cone axes.
@@ -453,17 +470,83 @@ namespace geocone::GEOCONE_DIM
               add_point_of_triangle(
                 problem, c, i, bound.units.length * B, dofs);
             }
-          add_body_forces(problem,
-                          bound,
-                          c,
-                          [&](Eigen::VectorXd &F, const Tensor<1, dim> &w) {
-                            for (unsigned int d = 0; d < dim; ++d)
-                              F[dim * c + d] +=
-                                w[d] * 3. * problem.volume[3 * c];
-                          });
+          add_body_forces(problem, bound, BoundSide::lower, c);
         }
     }
   } // namespace
+
+  Tensor<1, dim>
+  weight_of_cell(const BoundScene &bound, const unsigned int cell)
+  {
+    // Triangles do not cross the water, whose lines are edges of the mesh.
+    const Scene &scene = bound.scene;
+    return scene.density(bound.triangles.material[cell],
+                         bound.triangles.centre(cell)) *
+           scene.gravity.at(std::numeric_limits<double>::max()) *
+           bound.units.length / bound.units.stress;
+  }
+
+  void
+  add_force_of_cell(const BoundScene     &bound,
+                    const BoundSide       side,
+                    const unsigned int    cell,
+                    const Tensor<1, dim> &force,
+                    Eigen::VectorXd      &F)
+  {
+    const Triangles &triangles = bound.triangles;
+    const double     area =
+      triangles.area(cell) / (bound.units.length * bound.units.length);
+    for (unsigned int d = 0; d < dim; ++d)
+      if (side == BoundSide::lower)
+        F[dim * cell + d] += force[d] * area;
+      else // the integral is zero for a vertex function and A/3 for an edge function
+        for (const unsigned int edge : triangles.edges_of_cell[cell])
+          F[dim * (triangles.vertices.size() + edge) + d] +=
+            force[d] * area / 3.;
+  }
+
+  void
+  add_tractions(const BoundScene        &bound,
+                const BoundSide          side,
+                const BoundaryCondition &load,
+                Eigen::VectorXd         &F)
+  {
+    const Triangles &triangles = bound.triangles;
+    for (const auto &held : triangles.held_edges(load))
+      {
+        const auto  &ends = triangles.edges[held.edge].vertices;
+        const double length =
+          triangles.vertices[ends[0]].distance(triangles.vertices[ends[1]]) /
+          bound.units.length;
+        for (const EdgeNode &node : nodes_of(side, triangles, held.edge))
+          {
+            const Tensor<1, dim> t = traction(
+              load,
+              node.of_traction,
+              outward_normal(triangles, held.cell, held.opposite_vertex),
+              bound.units.stress);
+            for (unsigned int d = 0; d < dim; ++d)
+              F[node.dof + d] += node.part * length * t[d];
+          }
+      }
+  }
+
+  double
+  largest_traction(const BoundScene &bound, const BoundaryCondition &load)
+  {
+    const Triangles &triangles = bound.triangles;
+    double           largest   = 0.;
+    for (const auto &held : triangles.held_edges(load))
+      for (const unsigned int v : triangles.edges[held.edge].vertices)
+        largest = std::max(
+          largest,
+          traction(load,
+                   triangles.vertices[v],
+                   outward_normal(triangles, held.cell, held.opposite_vertex),
+                   1.)
+            .norm());
+    return largest;
+  }
 
   BoundProblem
   upper_problem(const BoundScene &bound)
@@ -491,33 +574,14 @@ namespace geocone::GEOCONE_DIM
             problem, c, i, L * strains_of_quadratic(g, i), dofs);
         for (const unsigned int v : triangles.cells[c])
           is_used[v] = true;
-        // The integral is zero for a vertex function and A/3 for an edge function.
-        add_body_forces(
-          problem, bound, c, [&](Eigen::VectorXd &F, const Tensor<1, dim> &w) {
-            for (unsigned int f = 3; f < 6; ++f)
-              for (unsigned int d = 0; d < dim; ++d)
-                F[dofs[dim * f + d]] += w[d] * problem.volume[3 * c];
-          });
+        add_body_forces(problem, bound, BoundSide::upper, c);
       }
     for (unsigned int v = 0; v < n_vertices; ++v)
       if (!is_used[v]) // gmsh keeps outline points without cells
         for (unsigned int d = 0; d < dim; ++d)
           problem.is_prescribed[dim * v + d] = true;
 
-    // Simpson's rule is exact for linear tractions.
-    apply_conditions(
-      bound,
-      [&](const unsigned int edge) {
-        const auto       &ends = triangles.edges[edge].vertices;
-        const Point<dim> &a    = triangles.vertices[ends[0]],
-                         &b    = triangles.vertices[ends[1]];
-        const Point<dim> middle(a + (b - a) / 2.);
-        return std::array<EdgeNode, 3>{
-          {{dim * ends[0], a, a, 1. / 6.},
-           {dim * ends[1], b, b, 1. / 6.},
-           {dim * (n_vertices + edge), middle, middle, 2. / 3.}}};
-      },
-      problem);
+    apply_conditions(bound, BoundSide::upper, problem);
     add_interfaces(
       bound,
       [&](const unsigned int edge) {
@@ -548,31 +612,11 @@ namespace geocone::GEOCONE_DIM
       begin_problem(bound, 6, dim * n_nodes + n_dofs_of_interfaces(bound));
     const auto end_dof = [&](const unsigned int edge,
                              const unsigned int vertex) {
-      const unsigned int end =
-        triangles.edges[edge].vertices[0] == vertex ? 0 : 1;
-      return dim * (n_cells + 2 * edge + end);
+      return dof_at_end(triangles, edge, vertex);
     };
     add_linear_cells(bound, end_dof, problem);
 
-    // w is the value of a linear velocity at the third point next to the end; the
-    // integral of its function with a linear traction equals the traction at the end.
-    apply_conditions(
-      bound,
-      [&](const unsigned int edge) {
-        const auto             &ends = triangles.edges[edge].vertices;
-        std::array<EdgeNode, 2> nodes;
-        for (unsigned int end = 0; end < 2; ++end)
-          {
-            const Point<dim> &a = triangles.vertices[ends[end]],
-                             &b = triangles.vertices[ends[1 - end]];
-            nodes[end]          = {end_dof(edge, ends[end]),
-                                   Point<dim>(a + (b - a) / 3.),
-                                   a,
-                                   1. / 2.};
-          }
-        return nodes;
-      },
-      problem);
+    apply_conditions(bound, BoundSide::lower, problem);
     free_surfaces_without_cohesion(bound, end_dof, problem);
     add_interfaces(
       bound,

@@ -356,12 +356,13 @@ namespace geocone::GEOCONE_DIM
   BoundLevel
   LimitAnalysis::bound_factor()
   {
-    const StrengthReduction::Level found = reduction.on_mesh(
+    reduced = reduction.on_mesh(
       [&](const double F) {
         return bounded_load.reduced(scene, *triangles, F);
       },
       inner_tolerance());
-    bounds                = found.bounds;
+    const StrengthReduction::Level &found = reduced;
+    bounds                                = std::move(reduced.bounds);
     BoundLevel level      = level_of(bounds, triangles->cells.size(), 1.);
     level.lower           = found.lower.value_or(0.);
     level.upper           = found.upper.value_or(0.);
@@ -491,7 +492,27 @@ namespace geocone::GEOCONE_DIM
                     {"cpu_s", total.cpu_time()}};
     if (!levels.empty())
       json["bounds"] = limit_output.bounds(bracket());
+    if (!gradients.empty())
+      json["bounds"]["gradients"] = topic_of(gradients);
     return json;
+  }
+
+  std::vector<Gradient>
+  LimitAnalysis::gradients_of_last() const
+  {
+    const BoundScene given = bounded_load.on(scene, *triangles);
+    if (!reduces_strength())
+      return gradients_of_load(given,
+                               {given, bounds.lower},
+                               {given, bounds.upper},
+                               bounded_load.value_of_unit());
+    const double     F_lower = reduced.lower.value_or(1.),
+                     F_upper = reduced.upper.value_or(1.);
+    const BoundScene below = bounded_load.reduced(scene, *triangles, F_lower),
+                     above = bounded_load.reduced(scene, *triangles, F_upper);
+    return gradients_of_safety(given,
+                               {below, reduced.lower_proof, F_lower},
+                               {above, reduced.upper_proof, F_upper});
   }
 
   LoadBracket
@@ -537,6 +558,12 @@ namespace geocone::GEOCONE_DIM
                       100. * *gap));
     if (best.lower || best.upper)
       log.print(best.text());
+    // A run resumed after its last mesh has no fields.
+    if (bounds.gap.size() == triangles->cells.size())
+      gradients = gradients_of_last();
+    if (const std::string text = text_of(gradients, bounded());
+        !text.empty() && limit_output.verbosity >= 1)
+      log.print(text);
     if (!best.is_associated)
       log.print("for the incremental load beside both: 'Analysis/Kind' = steps "
                 "with 'Mesh/Type' = from the bounds");

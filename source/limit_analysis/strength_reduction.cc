@@ -43,15 +43,17 @@ namespace geocone::GEOCONE_DIM
     }
 
     /** A factor certified by one bound, near the root of lambda = 1.
-     *  @param sign -1: the lower bound, +1: the upper one */
+     *  @param sign -1: the lower bound, +1: the upper one
+     *  @param proof the solution that certifies it */
     template <typename Solve>
     std::optional<double>
-    prove(const Solve  &solve,
-          double        factor,
-          double        load,
-          double        exponent,
-          const int     sign,
-          unsigned int &iterations)
+    prove(const Solve           &solve,
+          double                 factor,
+          double                 load,
+          double                 exponent,
+          const int              sign,
+          unsigned int          &iterations,
+          CertifiedBounds::Side &proof)
     {
       double                margin = 1e-3;
       std::optional<double> proven;
@@ -65,11 +67,15 @@ namespace geocone::GEOCONE_DIM
             return proven;
           if (sign * (1. - side.bound.load) >= 0.)
             {
-              proven = !proven    ? tried
-                       : sign < 0 ? std::max(*proven, tried)
-                                  : std::min(*proven, tried);
               // Close enough to the root.
-              if (std::abs(std::log(side.bound.load)) < 4. * margin * exponent)
+              const bool is_close =
+                std::abs(std::log(side.bound.load)) < 4. * margin * exponent;
+              if (!proven || sign * (tried - *proven) < 0.)
+                {
+                  proven = tried;
+                  proof  = side;
+                }
+              if (is_close)
                 return proven;
             }
           else
@@ -101,7 +107,8 @@ namespace geocone::GEOCONE_DIM
         lower.bound.load,
         exponent,
         -1,
-        level.iterations_lower);
+        level.iterations_lower,
+        level.lower_proof);
     if (is_usable(upper))
       level.upper = prove(
         [&](const double F) { return certified_upper(reduced(F), tolerance); },
@@ -109,7 +116,8 @@ namespace geocone::GEOCONE_DIM
         upper.bound.load,
         exponent,
         +1,
-        level.iterations_upper);
+        level.iterations_upper,
+        level.upper_proof);
   }
 
   StrengthReduction::Level

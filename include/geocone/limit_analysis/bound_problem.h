@@ -185,6 +185,37 @@ namespace geocone::GEOCONE_DIM
            const double       tension_factor);
   };
 
+  /** Which of both problems. */
+  enum class BoundSide
+  {
+    upper,
+    lower
+  };
+
+  /** The weight of a cell per area, in units. */
+  dealii::Tensor<1, dim>
+  weight_of_cell(const BoundScene &scene, const unsigned int cell);
+
+  /** Adds a constant force per area of a cell to the forces in the dofs of a problem,
+   *  in units. */
+  void
+  add_force_of_cell(const BoundScene             &scene,
+                    const BoundSide               side,
+                    const unsigned int            cell,
+                    const dealii::Tensor<1, dim> &force,
+                    Eigen::VectorXd              &F);
+
+  /** Adds the tractions of a load to the forces in the dofs of a problem, in units. */
+  void
+  add_tractions(const BoundScene        &scene,
+                const BoundSide          side,
+                const BoundaryCondition &load,
+                Eigen::VectorXd         &F);
+
+  /** The largest traction of a load at the vertices where it acts (Pa). */
+  double
+  largest_traction(const BoundScene &scene, const BoundaryCondition &load);
+
   /**
    * Upper-bound problem: quadratic velocities with the points at the vertices. Strains
    * are linear in a cell, so flow that is admissible at its vertices is admissible

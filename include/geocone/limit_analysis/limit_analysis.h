@@ -6,6 +6,7 @@
 
 #include <geocone/limit_analysis/bounded_load.h>
 #include <geocone/limit_analysis/certified_bounds.h>
+#include <geocone/limit_analysis/gradients.h>
 #include <geocone/limit_analysis/limit_output.h>
 #include <geocone/limit_analysis/strength_reduction.h>
 #include <geocone/run/simulation.h>
@@ -112,6 +113,10 @@ namespace geocone::GEOCONE_DIM
     LoadBracket
     certified_by(const std::vector<BoundLevel> &levels) const;
 
+    /** Gradients of both bounds of the last mesh. */
+    std::vector<Gradient>
+    gradients_of_last() const;
+
     /** The bracket certified so far, with that estimate. */
     LoadBracket
     bracket() const;
@@ -171,6 +176,8 @@ namespace geocone::GEOCONE_DIM
     /** @{ */
     std::optional<Triangles> triangles;
     CertifiedBounds          bounds;
+    StrengthReduction::Level reduced; ///< of a strength reduction
+    std::vector<Gradient>    gradients;
     /** @} */
   };
 } // namespace geocone::GEOCONE_DIM

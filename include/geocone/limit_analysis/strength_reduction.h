@@ -38,6 +38,9 @@ namespace geocone::GEOCONE_DIM
       /** Bounds of F certified on this mesh, if any. */
       std::optional<double> lower, upper;
 
+      /** Their fields, near the roots. */
+      CertifiedBounds::Side lower_proof, upper_proof;
+
       /** All factorisations on the mesh, of either problem. */
       unsigned int iterations_lower = 0, iterations_upper = 0;
     };

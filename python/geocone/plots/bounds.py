@@ -1,7 +1,8 @@
 # Copyright (C) 2026 by the geocone authors
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """bounds.png: both bounds of a limit load by mesh, and their gap by mesh and by time;
-mechanism.png: how the body fails by either bound, and where on the last mesh the gap is."""
+mechanism.png: how the body fails by either bound, and where on the last mesh the gap is;
+dependence.png: what the bounds depend on."""
 
 import numpy as np
 from matplotlib.collections import PolyCollection
@@ -11,9 +12,10 @@ from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 from geocone.plots import overlay
 from geocone.plots.answer import heading
 from geocone.style import (BLUE, COLORS, GREY, RATES, STRAINS, Skipped, add_bar, level, panels,
-                           save, sizes_of, subplots, unit_for)
+                           plain, save, sizes_of, subplots, unit_for)
 
 FEWEST = 3  # meshes, from which on a trend can be seen
+LEAST = 0.005  # of an elasticity that is shown
 
 
 def column(table, name):
@@ -131,6 +133,41 @@ def draw_mechanism(run, path):
     save(figure, run, path, cropped=True)
 
 
+def dependence_of(run):
+    """Parameters on which the bounds of a run depend, the most important first: the name,
+    and the elasticities of the lower and the upper bound, nan if not certified."""
+    found = []
+    for names in run.summary.get("bounds", {}).get("gradients", {}).values():
+        for name, parameters in names.items():
+            for parameter, of in parameters.items():
+                words = parameter.replace("_", " ")
+                ends = [np.nan if of[side] is None else of[side]
+                        for side in ("elasticity_lower", "elasticity_upper")]
+                if np.nanmax(np.abs(ends), initial=0.) >= LEAST:
+                    found.append((f"{name}: " + (f"tan({words})" if parameter ==
+                                                 "friction_angle" else words), *ends))
+    return sorted(found, key=lambda row: -np.nanmax(np.abs(row[1:])))
+
+
+def draw_dependence(run, path):
+    """Draws by how much both bounds change with each parameter."""
+    found = dependence_of(run)[::-1]
+    if not found:
+        raise Skipped("there are no gradients of bounds")
+    names, lower, upper = zip(*found)
+    figure, axes = subplots(1, 1, figsize=(8., 1.6 + 0.5 * len(found)))
+    at = np.arange(len(found))
+    axes.barh(at - 0.19, upper, 0.36, color=COLORS[1], label="upper bound")
+    axes.barh(at + 0.19, lower, 0.36, color=BLUE, label="lower bound")
+    axes.axvline(0., color="k", linewidth=0.8)
+    axes.set_yticks(at, [plain(name) for name in names])
+    axes.grid(axis="y", visible=False)
+    axes.set(xlabel="change in % where the parameter grows by 1 %", title=heading(run))
+    axes.legend()
+    save(figure, run, path)
+
+
 def pictures(_run):
     """Drawing functions by picture."""
-    return {"bounds.png": draw_bounds, "mechanism.png": draw_mechanism}
+    return {"bounds.png": draw_bounds, "mechanism.png": draw_mechanism,
+            "dependence.png": draw_dependence}

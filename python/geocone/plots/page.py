@@ -14,7 +14,7 @@ import numpy as np
 from PIL import Image
 
 from geocone.files import write_listed
-from geocone.plots import load, points, rates
+from geocone.plots import bounds, load, points, rates
 from geocone.plots.answer import answer_of, meaning_of, moment
 from geocone.plots.point_values import strain_or_shear
 from geocone.plots.scene_tables import tables_of
@@ -42,6 +42,7 @@ CAPTIONS = {
     "model.png": "The model", "load_displacement.png": "Load against displacement",
     "safety.png": "Displacement while the strength is reduced",
     "mechanism.png": "Mechanisms of both bounds, and where these differ",
+    "dependence.png": "What the bounds depend on",
     "plastic_strain_rate.png": "Where the soil yields at the end, and how it moves",
     "excess_pore_pressure.png": "Excess pore pressure at the end",
     "plastic_strain.png": "Plastic strain of the material points",
@@ -113,7 +114,16 @@ def numbers_of(run, results=True):
                 len(text_of(value)) > LONG)
                for name, value in topic.items() if is_shown(key, name, value, results)])
              for key, topic in {**known, **others}.items() if isinstance(topic, dict)]
+    if results:
+        found.append(("What the bounds depend on: % per %", dependence_rows(run)))
     return [(title, rows) for title, rows in found if rows]
+
+
+def dependence_rows(run):
+    """Rows of numbers_of() for the gradients of bounds."""
+    return [(name, f"{lower:.3f} (lower), {upper:.3f} (upper)",
+             f"{name}: {lower!r}, {upper!r}", False)
+            for name, lower, upper in bounds.dependence_of(run)]
 
 
 def is_wide(png):
