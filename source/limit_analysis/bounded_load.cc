@@ -420,18 +420,31 @@ namespace geocone::GEOCONE_DIM
   }
 
   BoundScene
-  BoundedLoad::by_davis(const Scene     &scene,
-                        const Triangles &triangles,
-                        const double     F) const
+  BoundedLoad::by_davis(const Scene       &scene,
+                        const Triangles   &triangles,
+                        const double       F,
+                        const DavisVariant variant) const
   {
     BoundScene bound = on(scene, triangles);
     for (unsigned int m = 0; m < flow_cones.size(); ++m)
       {
-        const FlowCone &cone      = flow_cones[m];
-        const double    cos_theta = std::sqrt(1. - cone.b * cone.b),
-                     by           = scene.materials[m].is_reduced() ? F : 1.,
-                     reduction    = cos_theta / (1. - cone.a * cone.b) / by;
-        bound.change(m, reduction * cone.a, reduction, 1. / by);
+        const FlowCone &cone   = flow_cones[m];
+        const double    by     = scene.materials[m].is_reduced() ? F : 1.;
+        const auto      cosine = [](const double sine) {
+          return std::sqrt(1. - sine * sine);
+        };
+        const auto reduced_sine = [&](const double sine) {
+          return sine / std::hypot(by * cosine(sine), sine);
+        };
+        double a = cone.a, b = cone.b;
+        if (variant != DavisVariant::A)
+          a = reduced_sine(a);
+        if (variant == DavisVariant::B)
+          b = reduced_sine(b);
+        b                 = std::min(a, b);
+        const double part = cosine(a) * cosine(b) / (1. - a * b) / by;
+        bound.change(
+          m, part * cone.a / cosine(cone.a), part / cosine(cone.a), 1. / by);
       }
     return bound;
   }

@@ -120,7 +120,8 @@ namespace geocone::GEOCONE_DIM
                  const Triangles   &triangles,
                  const double       tolerance)
   {
-    const BoundScene davis = load.by_davis(scene, triangles, 1.);
+    const BoundScene davis =
+      load.by_davis(scene, triangles, 1., DavisVariant::A);
     return {
       {load.value_of_unit() * certified_lower(davis, tolerance).bound.load,
        load.value_of_unit() * certified_upper(davis, tolerance).bound.load}};

@@ -506,8 +506,8 @@ namespace geocone::GEOCONE_DIM
                                {given, bounds.lower},
                                {given, bounds.upper},
                                bounded_load.value_of_unit());
-    const double     F_lower = reduced.lower.value_or(1.),
-                     F_upper = reduced.upper.value_or(1.);
+    const double F_lower   = reduced.lower.value_or(1.),
+                 F_upper   = reduced.upper.value_or(1.);
     const BoundScene below = bounded_load.reduced(scene, *triangles, F_lower),
                      above = bounded_load.reduced(scene, *triangles, F_upper);
     return gradients_of_safety(given,
@@ -544,7 +544,7 @@ namespace geocone::GEOCONE_DIM
   LimitAnalysis::finish(const double)
   {
     if (bounded_load.non_associated())
-      davis = estimate_by_davis();
+      davis = estimates_by_davis();
     const LoadBracket best = bracket();
     const auto        gap  = best.gap();
     if (!gap)
@@ -569,18 +569,26 @@ namespace geocone::GEOCONE_DIM
                 "with 'Mesh/Type' = from the bounds");
   }
 
-  std::array<double, 2>
-  LimitAnalysis::estimate_by_davis() const
+  std::vector<std::array<double, 2>>
+  LimitAnalysis::estimates_by_davis() const
   {
     if (!reduces_strength())
-      return davis_estimate(bounded_load, scene, *triangles, inner_tolerance());
-    const StrengthReduction::Level estimate =
-      StrengthReduction(reduction).on_mesh(
-        [&](const double F) {
-          return bounded_load.by_davis(scene, *triangles, F);
-        },
-        inner_tolerance());
-    return {{estimate.lower.value_or(0.), estimate.upper.value_or(0.)}};
+      return {
+        davis_estimate(bounded_load, scene, *triangles, inner_tolerance())};
+    std::vector<std::array<double, 2>> estimates;
+    for (const DavisVariant variant :
+         {DavisVariant::A, DavisVariant::B, DavisVariant::C})
+      {
+        const StrengthReduction::Level estimate =
+          StrengthReduction(reduction).on_mesh(
+            [&](const double F) {
+              return bounded_load.by_davis(scene, *triangles, F, variant);
+            },
+            inner_tolerance());
+        estimates.push_back(
+          {{estimate.lower.value_or(0.), estimate.upper.value_or(0.)}});
+      }
+    return estimates;
   }
 
   void

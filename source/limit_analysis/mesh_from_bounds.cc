@@ -80,8 +80,8 @@ namespace geocone::GEOCONE_DIM
                     proven(bounds.upper.bound, load.value_of_unit()));
                   bracket.cells = triangles.cells.size();
                   if (is_last && load.non_associated())
-                    bracket.davis =
-                      davis_estimate(load, scene, triangles, tolerance);
+                    bracket.davis = {
+                      davis_estimate(load, scene, triangles, tolerance)};
                 }
             }
           catch (const Stopped &)

@@ -43,10 +43,17 @@ namespace geocone
   Json
   LoadBracket::non_associated() const
   {
-    return {{"upper_is_certified", upper.has_value()},
-            {"lower_is_certified", false},
-            {"davis_lower", davis ? Json((*davis)[0]) : Json()},
-            {"davis_upper", davis ? Json((*davis)[1]) : Json()}};
+    Json topic = {{"upper_is_certified", upper.has_value()},
+                  {"lower_is_certified", false},
+                  {"davis_lower", davis.empty() ? Json() : Json(davis[0][0])},
+                  {"davis_upper", davis.empty() ? Json() : Json(davis[0][1])}};
+    for (unsigned int i = 1; i < davis.size(); ++i)
+      {
+        const std::string name = format("davis_%c_", 'a' + i);
+        topic[name + "lower"]  = davis[i][0];
+        topic[name + "upper"]  = davis[i][1];
+      }
+    return topic;
   }
 
   std::string
@@ -69,11 +76,13 @@ namespace geocone
       upper ? "certified for any dilatancy (Radenkovic 1961): " + name +
                 format(" <= %.6g", *upper) + after
             : "no upper bound is certified";
-    if (davis)
-      line += format("; estimate, which is no bound (Davis 1968): %.6g to %.6g",
-                     (*davis)[0],
-                     (*davis)[1]) +
-              after;
+    if (!davis.empty())
+      line += "; estimate, which is no bound (Davis 1968): ";
+    for (unsigned int i = 0; i < davis.size(); ++i)
+      line += (davis.size() == 1 ? ""
+               : i == 0          ? "A "
+                                 : format(", %c ", 'A' + i)) +
+              format("%.6g to %.6g", davis[i][0], davis[i][1]) + after;
     return line + "; were flow associated: " + between;
   }
 
@@ -92,8 +101,8 @@ namespace geocone
     };
     if (upper)
       against(*upper, "the certified upper bound");
-    if (davis)
-      against(((*davis)[0] + (*davis)[1]) / 2., "Davis's estimate");
+    if (!davis.empty())
+      against((davis[0][0] + davis[0][1]) / 2., "Davis's estimate");
     if (is_associated && lower)
       against(*lower, "the certified lower bound");
     return line;

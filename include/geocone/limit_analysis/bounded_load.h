@@ -14,6 +14,18 @@
 
 namespace geocone::GEOCONE_DIM
 {
+  /**
+   * Angles of Davis's factor (1968) where the strength is divided by F. All are the same
+   * for F = 1. A: those that are given. B: both are reduced, tan(phi)/F and
+   * tan(theta)/F. C: phi is, and theta as far as it would exceed it.
+   */
+  enum class DavisVariant
+  {
+    A,
+    B,
+    C
+  };
+
   /** The load bounded by a limit analysis: the choice of the load factor, the strengths
    *  of the materials, and the units in which both are of order one. */
   class BoundedLoad
@@ -51,15 +63,13 @@ namespace geocone::GEOCONE_DIM
             const Triangles &triangles,
             const double     F) const;
 
-    /**
-     * The same with the strength of Davis (1968), whose flow is associated:
-     *   tan(phi*) = cos(theta) sin(phi)/(1 - sin(theta) sin(phi)),
-     * and c* likewise with c cos(phi); both are divided by F.
-     */
+    /** The same with the strength of Davis, whose flow is associated: q c/F and
+     *  q tan(phi)/F with q = cos(theta) cos(phi)/(1 - sin(theta) sin(phi)). */
     BoundScene
-    by_davis(const Scene     &scene,
-             const Triangles &triangles,
-             const double     F) const;
+    by_davis(const Scene       &scene,
+             const Triangles   &triangles,
+             const double       F,
+             const DavisVariant variant) const;
 
     /** Loads multiplied by the factor, never automatic. */
     LoadFactor

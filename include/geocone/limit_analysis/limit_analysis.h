@@ -103,10 +103,10 @@ namespace geocone::GEOCONE_DIM
     double
     next_cells(const BoundLevel &level);
 
-    /** Davis's estimate for non-associated flow: both bounds of the bounded quantity on
-     *  the last mesh. */
-    std::array<double, 2>
-    estimate_by_davis() const;
+    /** Davis's estimates for non-associated flow: both bounds of the bounded quantity on
+     *  the last mesh (LoadBracket::davis). */
+    std::vector<std::array<double, 2>>
+    estimates_by_davis() const;
 
     /** The bracket certified by meshes: by the last one of both bounds where water
      *  pressures differ between the meshes, otherwise by all. */
@@ -170,7 +170,7 @@ namespace geocone::GEOCONE_DIM
     std::optional<CellSizes> sizes; ///< of the next mesh
     double asked_cells = 0.;        ///< requested of it, or 0 for the first one
 
-    std::optional<std::array<double, 2>> davis; ///< of the last mesh
+    std::vector<std::array<double, 2>> davis; ///< of the last mesh
 
     /** @name Last level */
     /** @{ */

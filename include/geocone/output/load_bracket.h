@@ -9,6 +9,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace geocone
 {
@@ -24,9 +25,10 @@ namespace geocone
     std::string           unit;         ///< of a reaction; empty for a factor
     std::optional<double> lower, upper; ///< empty if not certified
 
-    /** Both bounds of the load for Davis's soil, for non-associated flow. */
-    std::optional<std::array<double, 2>> davis;
-    bool                                 is_associated = true;
+    /** Both bounds for Davis's soil, for non-associated flow: of a load, or of a factor
+     *  of safety by the variants A, B and C. */
+    std::vector<std::array<double, 2>> davis;
+    bool                               is_associated = true;
 
     unsigned int cells   = 0;  ///< of the last mesh
     double       seconds = 0.; ///< of all meshes
