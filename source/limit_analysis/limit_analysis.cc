@@ -521,10 +521,14 @@ namespace geocone::GEOCONE_DIM
     if (!scene.water.varies_in_cells())
       return best_of(levels);
     // The pressures between the vertices of a mesh are its own.
-    auto last = levels.rbegin();
-    while (last != levels.rend() && !last->certified())
-      ++last;
-    return best_of(last == levels.rend() ? levels : std::vector{*last});
+    const auto last = std::find_if(levels.rbegin(),
+                                   levels.rend(),
+                                   [](const auto &l) { return l.certified(); });
+    if (last == levels.rend())
+      return best_of(levels);
+    LoadBracket of_last = best_of({*last});
+    of_last.seconds     = best_of(levels).seconds;
+    return of_last;
   }
 
   LoadBracket
