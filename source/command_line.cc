@@ -5,6 +5,7 @@
 #include <geocone/base/stop_request.h>
 #include <geocone/base/version.h>
 #include <geocone/command_line.h>
+#include <geocone/materials/umat_library.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -146,6 +147,8 @@ namespace geocone
           call.force = true;
         else if (argument == "--run-gmsh-script")
           call.may_run_scripts = true;
+        else if (argument == option_for_libraries)
+          may_load_libraries() = true;
         else if (argument == "--help" || argument == "-h")
           {
             // The names of sections have blanks: all words up to the next option.

@@ -130,6 +130,7 @@ namespace
                                                  "--defaults",
                                                  "--dry-run",
                                                  "--force",
+                                                 "--load-library",
                                                  "--resume",
                                                  "--run-gmsh-script",
                                                  "--schema"},

@@ -35,8 +35,8 @@ namespace geocone
 
   /**
    * Reads FILE, --output, --set, --quiet, --dry-run, --picture, --check FILE...,
-   * --force, --run-gmsh-script, --resume, --defaults, --help [TOPIC], --schema and
-   * --version.
+   * --force, --run-gmsh-script, --load-library (may_load_libraries()), --resume,
+   * --defaults, --help [TOPIC], --schema and --version.
    * @param lacking those of these options that the program does not have
    * @param many whether the program takes any number of files
    * @throws InputError on anything else

@@ -51,6 +51,7 @@ def run(file: str | os.PathLike | Scene, parameters: Mapping[str, Any] | None = 
         ranks: int = 1, output: str | os.PathLike | None = None,
         program: str | os.PathLike = "geocone", time_limit: float | None = None,
         force: bool = False, run_gmsh_script: bool = False,
+        load_library: bool = False,
         progress: Callable[[Progress], Any] | bool | None = None) -> Run:
     """Runs a parameter file or a scene, and reads its results.
 
@@ -75,6 +76,8 @@ def run(file: str | os.PathLike | Scene, parameters: Mapping[str, Any] | None = 
     run_gmsh_script
         Run the geo script of 'Geometry/File': a program, which can run commands and write
         files with your rights.
+    load_library
+        Load the shared objects of 'Materials/NAME/Library': programs with your rights.
     progress
         A function that is called with a `Progress` as the run proceeds; an error that it
         raises ends the run. True: print one line, which is replaced. Nothing is reported
@@ -97,12 +100,13 @@ def run(file: str | os.PathLike | Scene, parameters: Mapping[str, Any] | None = 
     with reporter(progress) as report:
         return result_of(call, file, parameters, ranks,
                          Path(output) if output is not None else free_folder(file),
-                         program, options_of(force, run_gmsh_script), report)
+                         program, options_of(force, run_gmsh_script, load_library), report)
 
 
-def options_of(force: bool, run_gmsh_script: bool) -> list[str]:
+def options_of(force: bool, run_gmsh_script: bool, load_library: bool) -> list[str]:
     """Options that no parameter file has, as words of a call."""
-    return ["--force"] * force + ["--run-gmsh-script"] * run_gmsh_script
+    return (["--force"] * force + ["--run-gmsh-script"] * run_gmsh_script
+            + ["--load-library"] * load_library)
 
 
 def result_of(call: Callable, file: str | os.PathLike | Scene,

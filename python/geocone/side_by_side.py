@@ -109,7 +109,8 @@ def run_many(file: str | os.PathLike | Scene, variants: Mapping[Hashable, Mappin
              *, cores: int | None = None, ranks: int = 1,
              output: str | os.PathLike | None = None, program: str | os.PathLike = "geocone",
              time_limit: float | None = None, force: bool = False,
-             run_gmsh_script: bool = False, keep_failed: bool = False,
+             run_gmsh_script: bool = False, load_library: bool = False,
+             keep_failed: bool = False,
              progress: Callable[[Hashable, Progress], Any] | bool | None = None
              ) -> dict[Hashable, Run | RunFailed]:
     """Runs variants of a parameter file or a scene side by side, as run() does each.
@@ -134,7 +135,7 @@ def run_many(file: str | os.PathLike | Scene, variants: Mapping[Hashable, Mappin
         A function that is called with the name of a variant and a `Progress`, never twice at
         a time; an error that it raises ends all runs. True: print one line, which is
         replaced.
-    ranks, program, time_limit, force, run_gmsh_script
+    ranks, program, time_limit, force, run_gmsh_script, load_library
         As run() has them.
 
     Returns
@@ -170,7 +171,7 @@ def run_many(file: str | os.PathLike | Scene, variants: Mapping[Hashable, Mappin
 
         try:
             results[name] = result_of(call, file, parameters, ranks, folder / folders[name],
-                                      program, options_of(force, run_gmsh_script),
+                                      program, options_of(force, run_gmsh_script, load_library),
                                       report and report_of_variant)
         except RunFailed as problem:
             results[name] = problem

@@ -13,6 +13,7 @@
 #include <geocone/materials/mohr_coulomb.h>
 #include <geocone/materials/spatial_mohr_coulomb.h>
 #include <geocone/materials/subloading.h>
+#include <geocone/materials/umat.h>
 
 #include <algorithm>
 #include <functional>
@@ -42,7 +43,8 @@ namespace geocone::GEOCONE_DIM
                    {"von Mises", &make<VonMises>},
                    {"modified Cam-Clay", &make<ModifiedCamClay>},
                    {"linear elastic", &make<LinearElastic>},
-                   {"subloading", &make<Subloading>}};
+                   {"subloading", &make<Subloading>},
+                   {"umat", &make<Umat>}};
       if constexpr (dim == 2)
         list.insert(list.begin(),
                     {{"Mohr-Coulomb", &make<MohrCoulomb>},
@@ -147,6 +149,8 @@ namespace geocone::GEOCONE_DIM
         add_parameter("Type", types[i], documentation);
         leave_subsection();
         list.push_back(make_material(types[i], section));
+        if (auto *const umat = dynamic_cast<Umat *>(list.back().get()))
+          umat->set_folder(file.folder());
       }
   }
 
@@ -171,8 +175,8 @@ namespace geocone::GEOCONE_DIM
                          types[i],
                          "spatial Mohr-Coulomb | spatial Tresca | "
                          "Drucker-Prager | von Mises | modified Cam-Clay | "
-                         "linear elastic | subloading (explicit MPM) where "
-                         "strains are axisymmetric",
+                         "linear elastic | subloading (explicit MPM) | umat "
+                         "where strains are axisymmetric",
                          "around an axis the stress out of the plane counts: "
                          "choose one of these");
     found = gather();

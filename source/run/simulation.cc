@@ -4,6 +4,7 @@
 #include <geocone/base/exceptions.h>
 #include <geocone/base/stop_request.h>
 #include <geocone/linear/blas_kernels.h>
+#include <geocone/materials/umat_library.h>
 #include <geocone/run/simulation.h>
 
 #include <deal.II/base/mpi.h>
@@ -75,7 +76,10 @@ namespace geocone::GEOCONE_DIM
                   save_checkpoint();
                   log.print(
                     "to go on: geocone --resume " + output().folder() +
-                    (options.may_run_scripts ? " --run-gmsh-script" : ""));
+                    (options.may_run_scripts ? " --run-gmsh-script" : "") +
+                    (may_load_libraries()
+                       ? std::string(" ") + option_for_libraries
+                       : ""));
                 }
               catch (const RunError &failure)
                 {

@@ -65,6 +65,9 @@ def report(arguments, prog):
     parser.add_argument("--run-gmsh-script", action="store_true",
                         help="run the geo scripts that the scenes name: programs, which "
                         "can run commands and write files with your rights")
+    parser.add_argument("--load-library", action="store_true",
+                        help="load the shared objects of laws that the scenes name: programs "
+                        "with your rights")
     parser.add_argument("--only", action="append", metavar="GROUP",
                         help="only this group of runs; repeatable")
     parser.add_argument("--list", action="store_true",
@@ -72,7 +75,7 @@ def report(arguments, prog):
     parser.add_argument("--report-only", action="store_true",
                         help="compute nothing; report what is there")
     call = parser.parse_args(arguments)
-    options = options_of(False, call.run_gmsh_script)
+    options = options_of(False, call.run_gmsh_script, call.load_library)
     files = call.files or [ROOT / "studies" / f"{name}.toml"
                            for name in (["quick"] if call.quick else ALL)]
     output = call.output or ROOT / "results" / (

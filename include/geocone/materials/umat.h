@@ -1,0 +1,143 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_materials_umat_h
+#define geocone_materials_umat_h
+
+#include <geocone/materials/spatial_law.h>
+#include <geocone/materials/umat_library.h>
+
+#include <string>
+#include <vector>
+
+namespace geocone::GEOCONE_DIM
+{
+  /**
+   * A law of a user: a function with the interface UMAT of Abaqus/Standard in a
+   * shared object, for small strains. It has four components xx, yy, zz, xy in
+   * plane strain and around an axis, and six, xx, yy, zz, xy, xz, yz, in three
+   * dimensions; tension is positive, and shear strains are doubled.
+   *
+   * Young's modulus and Poisson's ratio are those of small elastic strains:
+   * they determine the initial guess of a step, the speed of waves, energies
+   * and the plastic strain shown, not the stress.
+   *
+   * The history is Material's, the state variables, the total strain
+   * (components in the order of Mandel vectors), half of the axial vector of
+   * the spin increment (explicit steps only), the time (s) and the size of the
+   * cell (m). A function that asks for a smaller step (PNEWDT < 1) makes the
+   * stress NaN, by which the step fails.
+   */
+  class Umat : public SpatialLaw
+  {
+  public:
+    explicit Umat(const std::string &section);
+
+    /** Sets the folder to which the name of the library is relative. */
+    void
+    set_folder(const std::string &folder)
+    {
+      folder_of_parameters = folder;
+    }
+
+    /** Loads the library. @throws InputError if the command line does not allow
+     *  it */
+    void
+    prepare() override;
+
+    /** Rotates the total strain with the stress. */
+    void
+    advance(const PointBlock &block, LawCounts &counts) const override;
+
+    unsigned int
+    n_history() const override
+    {
+      return place_of_size() + 1;
+    }
+
+    std::string
+    initialise(const Stress &stress,
+               const double  size,
+               double       *history) const override;
+
+    double
+    size(const double *history) const override
+    {
+      return history[place_of_size()];
+    }
+
+    std::vector<Shown>
+    shown() const override;
+
+    void
+    show(const Components &stress,
+         const double     *history,
+         double           *values) const override;
+
+    SpatialMandel
+    elastic_strain(const SpatialMandel &from,
+                   const SpatialMandel &to) const override
+    {
+      return elasticity().strain(SpatialMandel(to - from));
+    }
+
+    bool
+    has_symmetric_tangent() const override
+    {
+      return false;
+    }
+
+    /** @throws InputError always: the constants are known to the function
+     *  only */
+    void
+    reduce_strength(const double F) override;
+
+  protected:
+    Mode
+    respond(const SpatialMandel &strain,
+            const SpatialMandel &stress_n,
+            const double        *history_n,
+            const StepLaw       &step,
+            SpatialMandel       &stress,
+            double              *history,
+            SpatialMandelMatrix *tangent) const override;
+
+  private:
+    static unsigned int
+    place_of_state()
+    {
+      return dim == 2 ? 1 : 0;
+    }
+    unsigned int
+    place_of_strain() const
+    {
+      return place_of_state() + n_state;
+    }
+    unsigned int
+    place_of_spin() const
+    {
+      return place_of_strain() + n_spatial;
+    }
+    unsigned int
+    place_of_time() const
+    {
+      return place_of_spin() + n_rotations;
+    }
+    unsigned int
+    place_of_size() const
+    {
+      return place_of_time() + 1;
+    }
+
+    std::string         folder_of_parameters;
+    std::string         library;
+    std::string         function = "umat";
+    std::vector<double> constants;
+    unsigned int        n_state = 0;
+    std::vector<double> state; ///< initial values, or empty
+    std::string         name;  ///< CMNAME, 80 characters
+    UmatFunction        umat = nullptr;
+  };
+} // namespace geocone::GEOCONE_DIM
+
+#endif
