@@ -55,8 +55,8 @@ for pair in sys.argv[1:]:
     built_in, umat = map(table, pair.split(":"))
     assert len(built_in) == len(umat) > 3, pair
     compared = [name for name in umat[0] if name.startswith(
-        ("load", "reaction plate y", "largest plastic strain", "elastic energy",
-         "plastic dissipation", "external work"))]
+        ("load", "force plate", "largest plastic strain", "elastic energy", "plastic dissipation",
+         "external work", "stress work", "kinetic energy"))]
     assert len(compared) > 2, list(umat[0])
     for name in compared:
         values = [[float(row[name]) for row in rows] for rows in (built_in, umat)]
