@@ -237,7 +237,8 @@ namespace geocone::GEOCONE_DIM
     if (!table.empty())
       add_lines(table, lower, upper, all);
     for (const Later &of_stage : later)
-      add_lines(of_stage.table, lower, upper, all);
+      if (!of_stage.table.empty())
+        add_lines(of_stage.table, lower, upper, all);
     return all;
   }
 
