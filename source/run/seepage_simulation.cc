@@ -222,6 +222,10 @@ namespace geocone::GEOCONE_DIM
   {
     scene.water.set_flows(results);
     seepage_output.write_model(model());
-    log.print("discharge " + flow->text());
+    if (scene.water.flows_in_time())
+      log.print(format("%.5g ", flow->stored()) +
+                scene.geometry.unit("m^3/m") + " of drainable water left");
+    else
+      log.print("discharge " + flow->text());
   }
 } // namespace geocone::GEOCONE_DIM

@@ -60,6 +60,9 @@ def short_answer(run):
         name, factor = unit_of(run.value("limit_load/unit"), abs(value))
         return (("limit load " if name else "limit load factor ") +
                 f"{digits_of(value / factor)} {name}".rstrip())
+    value = number_in(run, "seepage/stored")
+    if value is not None:
+        return f"{value:.3g} {run.value('seepage/stored_unit')} of water left"
     value = number_in(run, "seepage/discharge")
     return "" if value is None else f"discharge {value:.3g} {run.value('seepage/unit')}"
 
@@ -92,6 +95,9 @@ def answer_of(run):
         return (f"Limit load: {number('limit_load/value'):.6g} "
                 f"{run.value('limit_load/unit')}".removesuffix("-").rstrip() +
                 beside * (quantity == "limit_load/value"))
+    if number("seepage/stored") is not None:
+        return (f"Drainable water at the end: {number('seepage/stored'):.5g} "
+                f"{run.value('seepage/stored_unit')}" + beside * (quantity == "seepage/stored"))
     if number("seepage/discharge") is not None:
         return (f"Discharge: {number('seepage/discharge'):.5g} {run.value('seepage/unit')}" +
                 beside * (quantity == "seepage/discharge"))
@@ -125,7 +131,9 @@ def meaning_of(run):
         kind = "factor" if run.value("bounds/unit") == "-" else "limit load"
         return [f"Bracket of the {kind} {which} at full strength.", proof, *associated]
     if run.method == "seepage":
-        return ["Water that flows through the body per time, steadily."]
+        return ["Water that flows through the body per time, steadily."
+                if number_in(run, "seepage/stored") is None else
+                "Water in the body that can still drain."]
     if number_in(run, "limit_load/value") is None:
         return []
     sentences = ["Mean of the plateau of the load, by steps on this mesh; it is no bound."]

@@ -434,21 +434,23 @@ def frame(axes, view):
 def draw_stages(axes_of, model, stages, view):
     """A small picture of the body in each of some stages."""
     absent, changed, removed, table = model.absent(), {}, [], water_of(model)
-    pictures = []
+    pictures, end = [], 0.
     for stage in model.data["stages"]:
+        end += stage["duration_s"]
         absent = absent - set(stage.get("added", ())) - set(stage.get("changed", {}).values())
         changed = {**changed, **stage.get("changed", {})}
         removed = removed + ([stage["removed"]] if "removed" in stage else [])
         table = np.array(stage.get("water_table", table), dtype=float)
         if stage in stages:
-            pictures.append((stage, absent, changed, removed, table))
-    for axes, (stage, absent, changed, removed, table) in zip(axes_of, pictures):
+            pictures.append((stage, absent, changed, removed, table, end))
+    for axes, (stage, absent, changed, removed, table, end) in zip(axes_of, pictures):
         frame(axes, view)
         draw_soils(axes, model, absent, changed, removed)
         if "removed_lattice" in stage:
             draw_lattice(axes, stage["removed_lattice"], "#ffffff", zorder=1.4)
         draw_outlines(axes, model)
         draw_table(axes, table)
+        draw_free_surface(axes, model.free_surface(end))
         axes.set_title(words_of(stage), fontsize=8)
         axes.set(xticks=[], yticks=[])
 

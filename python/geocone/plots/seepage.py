@@ -10,7 +10,7 @@ from geocone.plots import overlay
 from geocone.plots.answer import heading
 from geocone.plots.bounds import column, plain_ticks
 from geocone.plots.solid import vertices_of
-from geocone.style import BLUE, WATER, Skipped, add_bar, panels, save, subplots
+from geocone.style import BLUE, WATER, Skipped, add_bar, panels, plain, save, subplots
 
 HEADS = 14  # lines of equal head
 LATTICE = 120  # places along the longer side on which lines of flow are followed
@@ -75,13 +75,24 @@ def draw_net(run, path):
 
 
 def draw_discharge(run, path):
-    """Draws the discharge against the triangles of the meshes."""
+    """Draws the discharge against the triangles of the meshes; of a transient flow the flow
+    through each boundary against time."""
     table = run.table("seepage")
-    cells = table["triangles (-)"]
+    times, cells = table["time (s)"], table["triangles (-)"]
     if len(cells) < 2:
         raise Skipped("there is one mesh only")
     discharge, unit = column(table, "discharge")
     figure, axes = subplots(1, 1, figsize=(6.5, 4.4))
+    if run.value("seepage/stored") is not None:
+        name, second = ("days", 86400.) if times[-1] > 2. * 86400. else ("s", 1.)
+        for key in table:
+            if key.startswith("inflow of "):
+                axes.plot(times / second, -table[key],
+                          label=plain(key.removeprefix("inflow of ").rsplit(" (", 1)[0]))
+        axes.legend()
+        axes.set(xlabel=f"time ({name})", ylabel=f"outflow ({unit})", title=heading(run))
+        save(figure, run, path)
+        return
     axes.semilogx(cells, discharge, "o-", color=BLUE)
     reference = run.value("reference/expected")
     if reference is not None and run.value("reference/quantity") == "seepage/discharge":
