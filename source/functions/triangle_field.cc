@@ -13,6 +13,12 @@ namespace geocone::GEOCONE_DIM
   using dealii::Point;
   using dealii::Tensor;
 
+  namespace
+  {
+    /** Relative distance up to which points beside a triangle belong to it. */
+    constexpr double rounding = 1e-6;
+  } // namespace
+
   TriangleField::TriangleField(std::vector<Point<dim>> vertices_of_mesh,
                                std::vector<Cell>       cells_of_mesh,
                                std::vector<double>     values_at_vertices)
@@ -40,8 +46,13 @@ namespace geocone::GEOCONE_DIM
     const auto for_boxes_of = [&](const Cell &cell, const auto &f) {
       std::array<double, 2> low, high;
       for (unsigned int d = 0; d < 2; ++d)
-        std::tie(low[d], high[d]) = std::minmax(
-          {vertices[cell[0]][d], vertices[cell[1]][d], vertices[cell[2]][d]});
+        {
+          std::tie(low[d], high[d]) = std::minmax(
+            {vertices[cell[0]][d], vertices[cell[1]][d], vertices[cell[2]][d]});
+          const double margin = rounding * (high[d] - low[d]);
+          low[d] -= margin;
+          high[d] += margin;
+        }
       const auto first = box_at(low[0], low[1]),
                  last  = box_at(high[0], high[1]);
       for (unsigned int j = first[1]; j <= last[1]; ++j)
@@ -93,7 +104,6 @@ namespace geocone::GEOCONE_DIM
   std::optional<TriangleField::At>
   TriangleField::locate(const Point<dim> &x) const
   {
-    constexpr double rounding = 1e-6;
     if (!std::isfinite(x[0] + x[1]))
       return std::nullopt;
     const auto         box     = box_at(x[0], x[1]);

@@ -179,7 +179,7 @@ namespace geocone::GEOCONE_DIM
                            format("0 to %g s, the duration of 'Loading'",
                                   scene.loading.duration()),
                            "0: the initial pressures");
-        let_water_flow(scene, comm, log, seepage.time);
+        let_water_flow(scene, comm, log, options.dry_run, seepage.time);
       }
     scene.dirichlet.prepare();
     scene.tractions.prepare();

@@ -11,6 +11,7 @@
 #include <geocone/run/run_estimate.h>
 #include <geocone/scene/magnitudes.h>
 #include <geocone/scene/small_motion.h>
+#include <geocone/seepage/flow_on_mesh.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
@@ -221,6 +222,8 @@ namespace geocone::GEOCONE_DIM
     newton.prepare();
     step_control.prepare();
     exact_solution.prepare();
+    if constexpr (dim == 2)
+      let_water_flow(scene, comm, log, options.dry_run);
     prepare_mesh(options);
     remember_friction();
     if (const std::string text = text_of_memory(scene); !text.empty())

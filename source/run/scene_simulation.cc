@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/run/scene_simulation.h>
-#include <geocone/seepage/flow_on_mesh.h>
 
 namespace geocone::GEOCONE_DIM
 {
@@ -18,8 +17,6 @@ namespace geocone::GEOCONE_DIM
   {
     scene.geometry.may_run_script = options.may_run_scripts;
     scene.prepare();
-    if constexpr (dim == 2)
-      let_water_flow(scene, comm, log);
     return prepare_method(options);
   }
 

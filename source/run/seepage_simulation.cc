@@ -6,6 +6,8 @@
 #include <geocone/output/model_of_triangles.h>
 #include <geocone/run/seepage_simulation.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <utility>
 
 namespace geocone::GEOCONE_DIM
@@ -45,8 +47,11 @@ namespace geocone::GEOCONE_DIM
       return;
     const Triangles &triangles = flow.triangles();
     FieldTable       table;
-    table.cell     = FieldTable::Cell::triangle;
-    table.n_nodes  = 3 * triangles.cells.size();
+    table.cell    = FieldTable::Cell::triangle;
+    table.n_nodes = // all ranks have the whole flow
+      dealii::Utilities::MPI::this_mpi_process(comm) == 0
+        ? 3 * triangles.cells.size()
+        : 0;
     const auto add = [&](const std::string &name,
                          const unsigned int size,
                          const auto        &value) {
@@ -113,12 +118,13 @@ namespace geocone::GEOCONE_DIM
                        "",
                        "at least one name with 'Analysis/Kind' = seepage",
                        "e.g. upstream, downstream, each with its subsection");
-    scene.water.seepage.prepare(scene.geometry);
+    scene.water.prepare_pressures(scene.geometry);
     scene.loading.prepare(scene.materials.names(), scene.tractions.names());
     scene.water.prepare_stages(scene.loading);
     flow.emplace(scene, scene.water.seepage.levels(), comm);
     flow->refine();
-    for (const Seepage::Step &step : scene.water.flow_steps())
+    steps = scene.water.flow_steps();
+    for (const Seepage::Step &step : steps)
       flow->check(step.levels);
     return {};
   }
@@ -138,8 +144,8 @@ namespace geocone::GEOCONE_DIM
     return model_of(scene, model_mesh_of(flow->triangles()));
   }
 
-  void
-  SeepageSimulation::add_record(const double time)
+  FlowLevel
+  SeepageSimulation::record_of(const double time) const
   {
     FlowLevel record;
     record.time       = time;
@@ -150,37 +156,51 @@ namespace geocone::GEOCONE_DIM
     record.inflows    = flow->inflows();
     if (scene.water.flows_in_time())
       record.stored = flow->stored();
-    seepage_output.add_record(record);
+    return record;
   }
 
-  Simulation::Ended
-  SeepageSimulation::advance(Place &place)
+  std::vector<FlowLevel>
+  SeepageSimulation::solve_next()
   {
-    results.clear();
-    for (const Seepage::Step &step : scene.water.flow_steps())
+    const Seepage::Step   &step = steps[results.size()];
+    std::vector<FlowLevel> records;
+    stop_if_asked(comm);
+    if (step.duration > 0.)
       {
-        if (!results
-               .empty()) // the fields of the last flow are written at the end
-          write_fields(place.time);
-        if (step.duration > 0.)
-          flow->advance(step);
-        else if (!results.empty())
+        flow->advance(step);
+        records.push_back(record_of(step.time));
+      }
+    else
+      {
+        if (!results.empty())
           {
             flow.emplace(scene, step.levels, comm);
             flow->refine();
           }
         for (unsigned int level = 1;; ++level)
           {
-            stop_if_asked(comm);
-            add_record(step.time);
-            if (step.duration > 0. || level == flow->n_levels())
+            records.push_back(record_of(step.time));
+            if (level == flow->n_levels())
               break;
+            stop_if_asked(comm);
             flow->refine();
           }
-        place.time = step.time;
-        results.push_back(flow->result());
       }
-    return Ended::stage;
+    results.push_back(flow->result());
+    return records;
+  }
+
+  Simulation::Ended
+  SeepageSimulation::advance(Place &place)
+  {
+    // A resumed run solves the earlier flows again: they take less time than steps of
+    // other methods, and are not stored.
+    while (results.size() < place.in_stage)
+      solve_next();
+    for (const FlowLevel &record : solve_next())
+      seepage_output.add_record(record);
+    place.time = steps[place.in_stage].time;
+    return results.size() == steps.size() ? Ended::stage : Ended::well;
   }
 
   void
@@ -223,8 +243,8 @@ namespace geocone::GEOCONE_DIM
     scene.water.set_flows(results);
     seepage_output.write_model(model());
     if (scene.water.flows_in_time())
-      log.print(format("%.5g ", flow->stored()) +
-                scene.geometry.unit("m^3/m") + " of drainable water left");
+      log.print(format("%.5g ", flow->stored()) + scene.geometry.unit("m^3/m") +
+                " of drainable water left");
     else
       log.print("discharge " + flow->text());
   }

@@ -56,16 +56,17 @@ namespace geocone::GEOCONE_DIM
       stage.add_parameter(
         "Water levels",
         stage.water_levels,
-        "FEM and MPM: NAME: LEVEL, ...: levels of open water [m] at the end of "
+        "FEM, MPM, seepage: NAME: LEVEL, ...: levels of open water [m] at the end of "
         "the stage, of boundaries of 'Seepage/Names'; pore pressures change "
         "linearly in time from those of the steady flow before to those of "
         "the steady flow after. Empty: unchanged.");
       stage.add_parameter(
         "Flow steps",
         stage.flow_steps,
-        "FEM and MPM: number of equal time steps of a transient flow during "
-        "the stage, in which 'Water levels' change linearly and the free "
-        "surface follows with 'Drainable porosity'. 0: the flow is steady.");
+        "FEM, MPM, seepage: number of equal time steps of a transient flow "
+        "during the stage, in which 'Water levels' change linearly and the "
+        "free surface follows with 'Drainable porosity'. 0: the flow is steady "
+        "where levels change, and stays as it is where they do not.");
       stage.add_parameter(
         "Until failure",
         stage.until_failure,

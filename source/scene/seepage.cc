@@ -52,6 +52,11 @@ namespace geocone::GEOCONE_DIM
                            dealii::Patterns::Tools::to_string(sides),
                            "empty where there is a drain",
                            "give a boundary of its own for the sides");
+        if (is_restricted())
+          throw InputError(parameter("Box"),
+                           part(),
+                           "no box and no formula where there is a drain",
+                           "end the line where the drain ends");
         if (drain.size() < 2 ||
             !std::all_of(drain.begin(), drain.end(), [](const auto &x) {
               return std::isfinite(x.square());
@@ -69,7 +74,8 @@ namespace geocone::GEOCONE_DIM
       {
         char        *end   = nullptr;
         const double value = std::strtod(level_text.c_str(), &end);
-        if (level_text.empty() || *end != '\0' || !std::isfinite(value))
+        if (level_text.empty() || *end != '\0' ||
+            !(std::abs(value) <= largest_coordinate))
           throw InputError(parameter("Level"),
                            level_text,
                            "a height y in m, or none",
@@ -94,19 +100,20 @@ namespace geocone::GEOCONE_DIM
   }
 
   Seepage::Seepage(const ParameterFile &file)
-    : NamedList(file,
-                "Seepage",
-                "Names of the boundaries with open water, air or rain, "
-                "comma-separated; each has a subsection of its name. Later "
-                "ones override earlier ones. All other boundaries are "
-                "impervious. The pore pressures of the steady flow between "
-                "them act in all methods. Empty: water does not flow.")
+    : NamedList(
+        file,
+        "Seepage",
+        "Names of the boundaries with open water, air or rain, "
+        "comma-separated; each has a subsection of its name. Later "
+        "ones override earlier ones. All other boundaries are "
+        "impervious. The pore pressures of the flow between them act in "
+        "FEM, MPM and bounds. Empty: water does not flow.")
   {
     add_parameter("Cells",
                   n_cells,
                   "Approximate number of triangles of the finest mesh of the "
                   "flow, which is refined at the free surface and where the "
-                  "velocity changes.");
+                  "velocity changes; of transient flows all have one size.");
     add_parameter("Time",
                   time,
                   "Bounds: time [s] in the stages of 'Loading' whose pore "
@@ -179,6 +186,12 @@ namespace geocone::GEOCONE_DIM
                              (acts() ? list[0]->name : "upstream") + ": 5");
         after[found - this->names().begin()] = level;
       }
+    constexpr unsigned int most_steps = 10000;
+    if (stage.flow_steps > most_steps)
+      throw InputError("Loading/" + stage.name + "/Flow steps",
+                       stage.flow_steps,
+                       "0 to " + std::to_string(most_steps),
+                       "20 to 100 are usual");
     if (stage.flow_steps > 0 && !acts())
       throw InputError("Loading/" + stage.name + "/Flow steps",
                        stage.flow_steps,

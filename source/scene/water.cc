@@ -39,7 +39,7 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
-  Water::prepare(const Gravity &gravity, const Geometry &geometry)
+  Water::prepare_pressures(const Geometry &geometry)
   {
     if (!file.empty() && !table.empty())
       throw InputError("Water/File",
@@ -75,6 +75,14 @@ namespace geocone::GEOCONE_DIM
                        unit_weight,
                        "> 0 N/m^3, finite",
                        format("%g is usual", 9810. / mass_unit()));
+  }
+
+  void
+  Water::prepare(const Gravity &gravity, const Geometry &geometry)
+  {
+    prepare_pressures(geometry);
+    if (!acts())
+      return;
     const Tensor<1, dim> g = gravity.at(1e300);
     if (!(g[1] < 0.))
       throw InputError(
@@ -153,17 +161,20 @@ namespace geocone::GEOCONE_DIM
   std::vector<double>
   Water::parts(const double t) const
   {
+    // Only the last of those that are complete counts, and what has begun since.
+    std::size_t first = later.size();
+    while (first > 0 && t < later[first - 1].end)
+      --first;
     std::vector<double> all(1 + later.size(), 0.);
-    all[0] = 1.;
-    for (std::size_t i = 0; i < later.size(); ++i)
-      if (t > later[i].begin)
-        {
-          const double s = std::min(
-            (t - later[i].begin) / (later[i].end - later[i].begin), 1.);
-          for (std::size_t k = 0; k <= i; ++k)
-            all[k] *= 1. - s;
-          all[i + 1] = s;
-        }
+    all[first] = 1.;
+    for (std::size_t i = first; i < later.size() && t > later[i].begin; ++i)
+      {
+        const double s = std::min(
+          (t - later[i].begin) / (later[i].end - later[i].begin), 1.);
+        for (std::size_t k = first; k <= i; ++k)
+          all[k] *= 1. - s;
+        all[i + 1] = s;
+      }
     return all;
   }
 

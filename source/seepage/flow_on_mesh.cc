@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
+#include <geocone/base/stop_request.h>
 #include <geocone/mesh/adapted_sizes.h>
 #include <geocone/mesh/fitted_mesh.h>
 #include <geocone/seepage/flow_on_mesh.h>
@@ -120,20 +121,31 @@ namespace geocone::GEOCONE_DIM
       measure.push_back(
         Geometry::measure(scene.geometry.symmetry, mesh->centre(c)));
     steady =
-      steady_flow(*mesh, permeability, measure, conditions, std::move(start));
+      solve_flow(*mesh, permeability, measure, conditions, std::move(start));
   }
 
   void
   FlowOnMesh::advance(const Seepage::Step &step)
   {
     levels                 = step.levels;
+    const double   before  = stored();
     FlowConditions next    = conditions();
     next.storage           = drainable();
-    next.saturation_before = steady.saturation;
+    next.saturation_before = saturation();
     for (double &volume : next.storage)
       volume /= step.duration;
     discharge_before.reset();
     solve(next, steady.s);
+    rate_of_storage = (stored() - before) / step.duration;
+  }
+
+  std::vector<double>
+  FlowOnMesh::saturation() const
+  {
+    std::vector<double> chi = steady.s;
+    for (double &value : chi)
+      value = 1. + std::min(value, 0.);
+    return chi;
   }
 
   std::vector<double>
@@ -152,10 +164,10 @@ namespace geocone::GEOCONE_DIM
   double
   FlowOnMesh::stored() const
   {
-    const std::vector<double> volume = drainable();
-    double                    sum    = 0.;
+    const std::vector<double> volume = drainable(), chi = saturation();
+    double                    sum = 0.;
     for (unsigned int v = 0; v < volume.size(); ++v)
-      sum += volume[v] * steady.saturation[v];
+      sum += volume[v] * chi[v];
     return sum;
   }
 
@@ -180,7 +192,8 @@ namespace geocone::GEOCONE_DIM
       throw InputError(boundary.parameter("Drain"),
                        dealii::Patterns::Tools::to_string(boundary.drain),
                        "a line in the body",
-                       "in a mesh of a file it follows edges of cells");
+                       "choose points inside of it; in a mesh of a file drains "
+                       "follow edges of cells");
     return all;
   }
 
@@ -294,10 +307,10 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
-  FlowOnMesh::solve(Log &log)
+  FlowOnMesh::finish(Log &log)
   {
     dealii::Timer time;
-    for (unsigned int level = 0; level < n_levels(); ++level)
+    for (unsigned int level = 1; level < n_levels(); ++level)
       refine();
     log.print(format("seepage: %zu triangles, ", mesh->cells.size()) + text() +
               format("; %.2g s", time.cpu_time()));
@@ -348,10 +361,10 @@ namespace geocone::GEOCONE_DIM
   double
   FlowOnMesh::discharge() const
   {
-    double sum = 0.;
+    double into = 0., out = 0.;
     for (const double inflow : inflows())
-      sum += std::max(inflow, 0.);
-    return sum;
+      (inflow > 0. ? into : out) += std::abs(inflow);
+    return std::max(into, out);
   }
 
   std::optional<double>
@@ -365,7 +378,7 @@ namespace geocone::GEOCONE_DIM
   double
   FlowOnMesh::imbalance() const
   {
-    double sum = 0.;
+    double sum = -rate_of_storage;
     for (const double inflow : inflows())
       sum += inflow;
     return flows() ? sum / discharge() : 0.;
@@ -393,20 +406,35 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
-  let_water_flow(Scene &scene, const MPI_Comm comm, Log &log, const double time)
+  let_water_flow(Scene         &scene,
+                 const MPI_Comm comm,
+                 Log           &log,
+                 const bool     dry_run,
+                 const double   time)
   {
     if (!scene.water.seepage.acts())
       return;
+    const auto                steps = scene.water.flow_steps();
     std::vector<Water::Flow>  flows;
     std::optional<FlowOnMesh> flow;
-    for (const Seepage::Step &step : scene.water.flow_steps())
+    for (const Seepage::Step &step : steps)
       {
+        stop_if_asked(comm);
         if (step.duration > 0.)
           flow->advance(step);
         else
           {
             flow.emplace(scene, step.levels, comm);
-            flow->solve(log);
+            flow->refine();
+            if (flows.empty())
+              for (const Seepage::Step &later : steps)
+                flow->check(later.levels);
+            if (dry_run) // the first flow on the first mesh stands for all
+              {
+                flows.assign(steps.size(), flow->result());
+                break;
+              }
+            flow->finish(log);
           }
         flows.push_back(flow->result());
       }

@@ -78,7 +78,12 @@ namespace geocone::GEOCONE_DIM
     std::vector<unsigned int>
     programme() const override
     {
-      return {1};
+      return {static_cast<unsigned int>(steps.size())};
+    }
+    bool
+    wants_fields(const Place &) const override
+    {
+      return true;
     }
     void
     prepare_output(const RunOptions &options) override;
@@ -109,14 +114,19 @@ namespace geocone::GEOCONE_DIM
     void
     finish(const double t) override;
 
-    /** Records the present flow. */
-    void
-    add_record(const double time);
+    /** Record of the present flow. */
+    FlowLevel
+    record_of(const double time) const;
 
-    Scene                     scene;
-    SeepageOutput             seepage_output;
-    std::optional<FlowOnMesh> flow;
-    std::vector<Water::Flow>  results; ///< of the times so far
+    /** Solves the next of the flows. @return its records */
+    std::vector<FlowLevel>
+    solve_next();
+
+    Scene                      scene;
+    SeepageOutput              seepage_output;
+    std::optional<FlowOnMesh>  flow;
+    std::vector<Seepage::Step> steps;   ///< flows to be solved
+    std::vector<Water::Flow>   results; ///< of those solved so far
   };
 } // namespace geocone::GEOCONE_DIM
 

@@ -35,6 +35,13 @@ namespace geocone::GEOCONE_DIM
     bool
     is_on_side(const std::string &side) const;
 
+    /** Whether a box or a formula restricts the part. */
+    bool
+    is_restricted() const
+    {
+      return !box.empty() || !where_text.empty();
+    }
+
     /** Whether a formula selects the part. */
     bool
     has_formula() const

@@ -43,6 +43,10 @@ namespace geocone::GEOCONE_DIM
     void
     prepare(const Gravity &gravity, const Geometry &geometry);
 
+    /** Checks the parameters but gravity. @throws InputError */
+    void
+    prepare_pressures(const Geometry &geometry);
+
     bool
     acts() const
     {

@@ -8,7 +8,7 @@
 #include <geocone/functions/triangle_field.h>
 #include <geocone/mesh/gmsh_mesh.h>
 #include <geocone/scene/scene.h>
-#include <geocone/seepage/steady_flow.h>
+#include <geocone/seepage/flow_solution.h>
 
 #include <optional>
 #include <vector>
@@ -49,9 +49,10 @@ namespace geocone::GEOCONE_DIM
     void
     refine();
 
-    /** Refines up to the last mesh, and prints the result. Collective. */
+    /** Refines from the first mesh up to the last one, and prints the result.
+     *  Collective. */
     void
-    solve(Log &log);
+    finish(Log &log);
 
     /** Pore pressures and free surface. */
     Water::Flow
@@ -63,7 +64,7 @@ namespace geocone::GEOCONE_DIM
       return *mesh;
     }
 
-    const SteadyFlow &
+    const FlowSolution &
     flow() const
     {
       return steady;
@@ -81,7 +82,8 @@ namespace geocone::GEOCONE_DIM
     std::vector<double>
     inflows() const;
 
-    /** Flow through the body: the sum of all inflows (m^2/s). */
+    /** Flow through the body: the sum of all inflows, or of all outflows if it is larger
+     *  (m^2/s). */
     double
     discharge() const;
 
@@ -93,7 +95,8 @@ namespace geocone::GEOCONE_DIM
     bool
     flows() const;
 
-    /** Sum of the flows through all boundaries over the discharge. */
+    /** Sum of the flows through all boundaries, less what is stored, over the
+     *  discharge. */
     double
     imbalance() const;
 
@@ -112,6 +115,10 @@ namespace geocone::GEOCONE_DIM
     /** Contribution of each cell to the error: jumps of the normal velocity. */
     std::vector<double>
     jumps() const;
+
+    /** chi of each vertex, not restricted to [0, 1]. */
+    std::vector<double>
+    saturation() const;
 
     /** Drainable volume of each vertex (m^2). */
     std::vector<double>
@@ -133,18 +140,21 @@ namespace geocone::GEOCONE_DIM
     std::vector<dealii::SymmetricTensor<2, 2>> permeability;
     CellSizes                                  sizes;
     std::optional<Triangles>                   mesh;
-    SteadyFlow                                 steady;
+    FlowSolution                               steady;
     std::vector<int>      boundary_of; ///< of each vertex, or -1
     std::vector<int>      boundary_of_edge;
     std::optional<double> discharge_before;
+    double                rate_of_storage = 0.; ///< (m^2/s)
   };
 
   /** Solves all flows of a scene, and gives their pressures to its water. Collective.
+   *  @param dry_run whether the first flow, on a coarse mesh, will do
    *  @param time whose pressures are the initial ones (s) */
   void
   let_water_flow(Scene         &scene,
                  const MPI_Comm comm,
                  Log           &log,
+                 const bool     dry_run,
                  const double   time = 0.);
 } // namespace geocone::GEOCONE_DIM
 

@@ -1,8 +1,8 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-#ifndef geocone_seepage_steady_flow_h
-#define geocone_seepage_steady_flow_h
+#ifndef geocone_seepage_flow_solution_h
+#define geocone_seepage_flow_solution_h
 
 #include <geocone/mesh/triangles.h>
 
@@ -34,7 +34,7 @@ namespace geocone::GEOCONE_DIM
   };
 
   /** Steady flow on a mesh, by vertices. */
-  struct SteadyFlow
+  struct FlowSolution
   {
     /** Pressure head psi = u/gamma_w >= 0 (m). */
     std::vector<double> head;
@@ -72,21 +72,21 @@ namespace geocone::GEOCONE_DIM
    * See doc/theory/seepage.md.
    * @param permeability hydraulic conductivity of each material (m/s)
    * @param measure factor of the area at a centre: 1, or 2 pi r
-   * @param start SteadyFlow::s to start from
+   * @param start FlowSolution::s to start from
    * @throws RunError if Newton's method does not converge
    */
-  SteadyFlow
-  steady_flow(const Triangles                                  &triangles,
-              const std::vector<dealii::SymmetricTensor<2, 2>> &permeability,
-              const std::vector<double>                        &measure,
-              const FlowConditions                             &conditions,
-              std::vector<double>                               start);
+  FlowSolution
+  solve_flow(const Triangles                                  &triangles,
+             const std::vector<dealii::SymmetricTensor<2, 2>> &permeability,
+             const std::vector<double>                        &measure,
+             const FlowConditions                             &conditions,
+             std::vector<double>                               start);
 
   /** Flow velocity q (Darcy) of a cell (m/s). */
   dealii::Tensor<1, dim>
   darcy_velocity(const Triangles                                  &triangles,
                  const std::vector<dealii::SymmetricTensor<2, 2>> &permeability,
-                 const SteadyFlow                                 &flow,
+                 const FlowSolution                               &flow,
                  const unsigned int                                cell);
 } // namespace geocone::GEOCONE_DIM
 

@@ -4,10 +4,11 @@
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
 #include <geocone/linear/linear_solver.h>
-#include <geocone/seepage/steady_flow.h>
+#include <geocone/seepage/flow_solution.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace geocone::GEOCONE_DIM
@@ -17,8 +18,8 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    using Kind          = FlowConditions::Kind;
-    using Permeabilites = std::vector<SymmetricTensor<2, 2>>;
+    using Kind           = FlowConditions::Kind;
+    using Permeabilities = std::vector<SymmetricTensor<2, 2>>;
 
     /** psi of unsaturated vertices is a tiny negative multiple of 1 - chi, of the height
      *  of the body: this determines chi where no water arrives and none can leave. */
@@ -35,7 +36,7 @@ namespace geocone::GEOCONE_DIM
     {
     public:
       Balance(const Triangles           &triangles,
-              const Permeabilites       &permeability,
+              const Permeabilities      &permeability,
               const std::vector<double> &measure,
               const FlowConditions      &conditions)
         : conditions(conditions)
@@ -110,7 +111,10 @@ namespace geocone::GEOCONE_DIM
             if (conditions.kind[v] == Kind::head)
               r[v] = diagonal[v] * (conditions.head[v] - s[v]);
             else
-              r[v] += inflow[v];
+              {
+                r[v] += inflow[v];
+                scale[v] += conditions.rain[v] + values[v].outflow;
+              }
           }
         return r;
       }
@@ -121,7 +125,12 @@ namespace geocone::GEOCONE_DIM
       {
         double largest = 0.;
         for (unsigned int v = 0; v < n; ++v)
-          largest = std::max(largest, std::abs(r[v]) / scale[v]);
+          {
+            if (!std::isfinite(r[v] + scale[v]))
+              return std::numeric_limits<double>::infinity();
+            if (r[v] != 0.)
+              largest = std::max(largest, std::abs(r[v]) / scale[v]);
+          }
         return largest;
       }
 
@@ -247,16 +256,16 @@ namespace geocone::GEOCONE_DIM
     }
   } // namespace
 
-  SteadyFlow
-  steady_flow(const Triangles           &triangles,
-              const Permeabilites       &permeability,
-              const std::vector<double> &measure,
-              const FlowConditions      &conditions,
-              std::vector<double>        start)
+  FlowSolution
+  solve_flow(const Triangles           &triangles,
+             const Permeabilities      &permeability,
+             const std::vector<double> &measure,
+             const FlowConditions      &conditions,
+             std::vector<double>        start)
   {
     constexpr unsigned int most_iterations = 300;
     constexpr double       tolerance = 1e-11, smallest_step = 1. / 64.;
-    SteadyFlow             flow;
+    FlowSolution           flow;
     std::vector<double>   &s = flow.s = std::move(start);
     for (unsigned int v = 0; v < s.size(); ++v)
       if (conditions.kind[v] == Kind::head)
@@ -269,7 +278,8 @@ namespace geocone::GEOCONE_DIM
         const SparseMatrix &matrix = balance.derivative();
         if (flow.iterations == 0)
           solver->analyse(matrix);
-        if (++flow.iterations > most_iterations || !solver->factorise(matrix))
+        if (++flow.iterations > most_iterations || !std::isfinite(flow.error) ||
+            !solver->factorise(matrix))
           throw RunError(
             format("the flow of water was not found: after %u iterations the "
                    "balance of a vertex is missed by %.2g of its flow\n  "
@@ -303,10 +313,10 @@ namespace geocone::GEOCONE_DIM
   }
 
   Tensor<1, dim>
-  darcy_velocity(const Triangles     &triangles,
-                 const Permeabilites &permeability,
-                 const SteadyFlow    &flow,
-                 const unsigned int   cell)
+  darcy_velocity(const Triangles      &triangles,
+                 const Permeabilities &permeability,
+                 const FlowSolution   &flow,
+                 const unsigned int    cell)
   {
     const auto   g = triangles.gradients(cell);
     Tensor<1, 2> gradient;
