@@ -116,7 +116,8 @@ namespace geocone::GEOCONE_DIM
                                "Absorbing boundaries",
                                "Seepage",
                                "Obstacles",
-                               "Contacts"})
+                               "Contacts",
+                               "Structures"})
         text += std::string("subsection ") + list +
                 "\nset Names = " + any_name + "\nend\n";
       std::map<std::string, std::string> defaults;

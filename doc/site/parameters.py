@@ -28,6 +28,7 @@ SEE = {
     "Seepage": ["theory/seepage", "cookbook/seepage"],
     "Obstacles": ["theory/contact", "cookbook/contact"],
     "Contacts": ["theory/contact", "cookbook/contact"],
+    "Structures": ["theory/structures", "cookbook/structures"],
     "Absorbing boundaries": ["cookbook/waves"],
     "Loading": ["theory/stages", "cookbook/stages", "cookbook/raised_loads"],
     "Path": ["element_test", "cookbook/element_tests"],

@@ -36,6 +36,12 @@ namespace geocone::GEOCONE_DIM
                        "point",
                        "FEM | MPM | explicit MPM on several ranks",
                        "call it without mpirun: there is one point only");
+    if (const std::string structures = ParameterFile::value("Structures/Names");
+        !structures.empty())
+      throw InputError("Structures/Names",
+                       structures,
+                       "none with Discretisation/Method = point",
+                       "leave it out: there is no body");
     changed = driven.prepare();
     element_output.add_columns(*driven.point, driven.initial_volume);
     path.prepare(*driven.point, element_output.columns());

@@ -129,6 +129,8 @@ namespace geocone::GEOCONE_DIM
       throw InputError(
         section + "Courant number", courant, "0 < C <= 1", "0.3 is usual");
 
+    scene->structures.refuse("explicit MPM",
+                             "set Discretisation/Method = FEM");
     scene->water.refuse("explicit MPM",
                         "set Discretisation/Method = FEM or MPM, or give "
                         "buoyant densities");

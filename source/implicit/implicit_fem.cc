@@ -117,6 +117,17 @@ namespace geocone::GEOCONE_DIM
                        "a formula",
                        "0 without inertia",
                        "set Time stepping/Inertia = true");
+    if (!scene->structures.list.empty())
+      {
+        const std::string what = "structures";
+        scene->refuse_contact(what, "leave out 'Structures/Names'");
+        if (!integration.is_backward_euler())
+          throw InputError("Time stepping/Integration",
+                           integration.word(),
+                           "backward Euler with structures",
+                           "take it, or leave out 'Structures/Names'");
+        bars = std::make_unique<Bars>(scene->structures, mesh_, space_);
+      }
     RaisedLoads::check(*scene);
     check_round_body(*scene);
     integration.check(*scene, "Time stepping/");
@@ -204,6 +215,8 @@ namespace geocone::GEOCONE_DIM
       obstacles->exists());
     if (absorbing->exists())
       problem->add(*absorbing);
+    if (bars)
+      problem->add(*bars);
     system->set_pattern(*problem, timer);
     has_pattern = begun = true;
   }
@@ -415,6 +428,12 @@ namespace geocone::GEOCONE_DIM
     save_points(archive, points);
     if (scene->loading.changes_body())
       fading.save(archive, *mesh, *space);
+    if (bars)
+      {
+        StateRow forces;
+        bars->state(forces);
+        archive.write_row("bars", forces);
+      }
     if (obstacles->exists())
       {
         StateRow moved;
@@ -434,6 +453,11 @@ namespace geocone::GEOCONE_DIM
     take_points(archive, points);
     if (scene->loading.changes_body())
       fading.load(archive, *mesh, *space);
+    if (bars)
+      {
+        StateRow forces = archive.read_row("bars");
+        bars->state(forces);
+      }
     if (obstacles->exists())
       {
         StateRow moved = archive.read_row("obstacles");

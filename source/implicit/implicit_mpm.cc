@@ -30,6 +30,8 @@ namespace geocone::GEOCONE_DIM
     mesh  = &mesh_;
     space = &space_;
     check_parameters();
+    scene->structures.refuse("Discretisation/Method = MPM",
+                             "set Discretisation/Method = FEM");
     RaisedLoads::check(*scene);
     check_round_body(*scene);
 

@@ -105,6 +105,8 @@ namespace geocone::GEOCONE_DIM
     }
     if (absorbing->exists())
       absorbing->begin_step(step.solved_at, *constraints);
+    if (bars)
+      bars->begin_step(stage.name, step.solved_h, *constraints);
     ContactStep touching;
     if (obstacles->exists())
       touching = find_contact(step, kinematics, points);
@@ -150,6 +152,8 @@ namespace geocone::GEOCONE_DIM
       }
     if (absorbing->exists())
       sums[1] += step.h * absorbing->power(v);
+    if (bars)
+      sums[1] += step.h * bars->power();
     return {sums[0], sums[1]};
   }
 
@@ -256,6 +260,8 @@ namespace geocone::GEOCONE_DIM
     report.converged = true;
 
     // The step is accepted from here on.
+    if (bars)
+      report.bars = bars->commit();
     accept_move(step, points, v);
     report.load_factor =
       raised.take(*constraints, problem->multipliers(), force, residual);

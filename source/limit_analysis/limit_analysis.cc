@@ -188,6 +188,9 @@ namespace geocone::GEOCONE_DIM
     scene.obstacles.prepare();
     scene.contacts.refuse("'Analysis/Kind' = " + analysis.word(),
                           "let one of the bodies be an obstacle");
+    scene.structures.refuse("'Analysis/Kind' = " + analysis.word(),
+                            "load the body in time steps instead, with "
+                            "'Analysis/Kind' = time steps");
     scene.observation.prepare(
       scene.supports(), scene.materials, scene.gravity, false);
     for (const auto &condition : scene.dirichlet.list)

@@ -230,6 +230,18 @@ namespace geocone::GEOCONE_DIM
       return all;
     }
 
+    Json
+    structures_of(const Structures &structures)
+    {
+      Json all = Json::array();
+      for (const auto &structure : structures.list)
+        all.push_back({{"name", structure->name},
+                       {"type", structure->kind()},
+                       {"points", json_of_places(structure->points)},
+                       {"stages", structure->acting_stages()}});
+      return all;
+    }
+
     /** Whether a condition of particles acts on the sides of the body instead of the
      *  mesh. */
     bool
@@ -375,6 +387,7 @@ namespace geocone::GEOCONE_DIM
       {"absorbing_boundaries", conditions_of(scene.absorbing, mesh, times)},
       {"obstacles",
        obstacles_of(scene, low + (high - low) / 2., (high - low).norm())},
+      {"structures", structures_of(scene.structures)},
       {"observed_points", json_of_places(scene.observation.points)},
       {"gravity_m_per_s2", json(scene.gravity.at(times.back()))},
       {"free_surfaces", surfaces},

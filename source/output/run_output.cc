@@ -28,6 +28,7 @@ namespace geocone::GEOCONE_DIM
     table.add("energy identity error (-)",
               [](const Record &r) { return r.last.identity_error; });
     add_observed_columns();
+    add_structure_columns();
     add_pressure_columns();
     open_table("statistics.csv");
     if (!writes)
@@ -151,6 +152,26 @@ namespace geocone::GEOCONE_DIM
               [](const Record &r) { return r.last.contact.stick; });
     table.add("slipping nodes (-)",
               [](const Record &r) { return r.last.contact.slip; });
+  }
+
+  void
+  RunOutput::add_structure_columns()
+  {
+    unsigned int bar = 0; // over all structures
+    for (const auto &structure : scene->structures.list)
+      for (unsigned int i = 0; i + 1 < structure->points.size(); ++i, ++bar)
+        {
+          const std::string name  = structure->name_of_bar(i);
+          const auto        state = [bar](const Record &r) -> const BarState        &{
+            return r.last.bars[bar];
+          };
+          add("axial force " + name + " (N/m)",
+              [state](const Record &r) { return state(r).force; });
+          add("elongation " + name + " (m)",
+              [state](const Record &r) { return state(r).elongation; });
+          add("yields " + name + " (-)",
+              [state](const Record &r) { return state(r).yields; });
+        }
   }
 
   void

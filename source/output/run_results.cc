@@ -98,6 +98,32 @@ namespace geocone::GEOCONE_DIM
   }
 
   Json
+  RunOutput::structures() const
+  {
+    Json         json;
+    unsigned int bar = 0; // over all structures
+    for (const auto &structure : scene->structures.list)
+      for (unsigned int i = 0; i + 1 < structure->points.size(); ++i, ++bar)
+        {
+          const BarState &last = records.back().last.bars[bar];
+          double          most = last.force, least = last.force;
+          for (const ImplicitRecord &record : records)
+            {
+              most  = std::max(most, record.last.bars[bar].force);
+              least = std::min(least, record.last.bars[bar].force);
+            }
+          const std::string name = structure->name_of_bar(i) + "_";
+          json[name + "force_N_per_m"]        = last.force;
+          json[name + "force_most_N_per_m"]   = most;
+          json[name + "force_least_N_per_m"]  = least;
+          json[name + "elongation_m"]         = last.elongation;
+          json[name + "plastic_elongation_m"] = last.plastic;
+          json[name + "yields"]               = last.yields;
+        }
+    return json;
+  }
+
+  Json
   RunOutput::friction_memory() const
   {
     // The load reflects the strength at an earlier time, by tau dF/dt.
@@ -269,6 +295,8 @@ namespace geocone::GEOCONE_DIM
       json["friction_memory"] = friction_memory();
     if (scene->has_contact())
       json["contact"] = contact();
+    if (!scene->structures.list.empty() && !records.empty())
+      json["structures"] = structures();
     if (points_move)
       json["motion"] = motion();
     Json        &of_state    = json["quality"];

@@ -55,6 +55,7 @@ namespace geocone::GEOCONE_DIM
                                    "give Velocity x and y, or " + remedy);
         scene.refuse_contact("frozen problems", remedy);
         scene.absorbing.refuse("frozen problems", remedy);
+        scene.structures.refuse("frozen problems", remedy);
       }
     std::size_t n_steps = 0;
     for (const auto &stage : scene.loading.list)

@@ -249,7 +249,10 @@ namespace geocone::GEOCONE_DIM
     std::fill(matrix.value.begin(), matrix.value.end(), 0.);
     for (const Term *term : terms)
       term->linearise(pattern, blend, matrix);
-    return contact_term ? contact_term->linearise(pattern, matrix) : LowRank();
+    // Structures do not go with contact, ImplicitFEM::prepare().
+    return contact_term      ? contact_term->linearise(pattern, matrix)
+           : bars != nullptr ? bars->low_rank(blend)
+                             : LowRank();
   }
 
   void

@@ -34,6 +34,9 @@ namespace geocone::GEOCONE_DIM
     if (problem.has_contact())
       refuse("another one with obstacles",
              "hold the body by 'Boundary conditions', or take automatic");
+    if (problem.has_bars())
+      refuse("another one with structures",
+             "leave out 'Structures/Names', or take automatic");
     if (!problem.inertia)
       refuse("another one without inertia",
              "the stresses alone determine the velocities by the mass: set "

@@ -118,6 +118,8 @@ namespace geocone::GEOCONE_DIM
                        "",
                        "at least one name with 'Analysis/Kind' = seepage",
                        "e.g. upstream, downstream, each with its subsection");
+    scene.structures.refuse("'Analysis/Kind' = seepage",
+                            "leave it out: they do not change the flow");
     scene.water.prepare_pressures(scene.geometry);
     scene.loading.prepare(scene.materials.names(), scene.tractions.names());
     scene.water.prepare_stages(scene.loading);

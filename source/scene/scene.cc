@@ -139,6 +139,7 @@ namespace geocone::GEOCONE_DIM
     , obstacles(file)
     , contacts(file)
     , loading(file)
+    , structures(file)
   {}
 
   void
@@ -172,6 +173,7 @@ namespace geocone::GEOCONE_DIM
     absorbing.prepare();
     obstacles.prepare();
     contacts.prepare(materials.names());
+    structures.prepare(geometry, loading.names());
     std::vector<std::string> observable = supports();
     std::sort(observable.begin(), observable.end());
     const auto twice = std::adjacent_find(observable.begin(), observable.end());

@@ -230,6 +230,7 @@ namespace geocone::GEOCONE_DIM
     std::unique_ptr<Constraints>        constraints;
     std::unique_ptr<ObstacleContact>    obstacles;
     std::unique_ptr<AbsorbingBoundary>  absorbing;
+    std::unique_ptr<Bars>               bars; ///< null without structures
     std::unique_ptr<IncrementalProblem> problem;
     std::unique_ptr<LinearSystem>       system;
     unsigned int                        unknowns = 0;     ///< of the last step

@@ -160,6 +160,8 @@ namespace geocone::GEOCONE_DIM
     void
     add_contact_columns();
     void
+    add_structure_columns();
+    void
     add_pressure_columns();
     /** @} */
 
@@ -182,6 +184,8 @@ namespace geocone::GEOCONE_DIM
 
     Json
     contact() const;
+    Json
+    structures() const; ///< bars at the last step
     Json
     friction_memory() const;
     Json

@@ -6,6 +6,7 @@
 
 #include <geocone/contact/contact.h>
 #include <geocone/linear/nodal_rows.h>
+#include <geocone/problem/bars.h>
 #include <geocone/problem/external_forces.h>
 #include <geocone/problem/ghost_stiffness.h>
 #include <geocone/problem/inertia.h>
@@ -79,6 +80,20 @@ namespace geocone::GEOCONE_DIM
       terms.push_back(&term);
     }
 
+    /** Adds bars, which must outlive the problem. */
+    void
+    add(Bars &of_scene)
+    {
+      bars = &of_scene;
+      terms.push_back(bars);
+    }
+
+    bool
+    has_bars() const
+    {
+      return bars != nullptr;
+    }
+
     /** Not copyable: its terms refer to each other's data. */
     IncrementalProblem(const IncrementalProblem &) = delete;
 
@@ -149,7 +164,7 @@ namespace geocone::GEOCONE_DIM
     /**
      * Generalised Jacobian dR/dv = M/h + h sum V B' C B at the last residual(),
      * with C replaced by (1 - w) C + w D, w the elastic blend.
-     * @return contribution of free obstacles
+     * @return contribution of free obstacles or of bars
      */
     LowRank
     linearise(SparseMatrix &matrix, const double elastic_blend = 0.) const;
@@ -271,6 +286,7 @@ namespace geocone::GEOCONE_DIM
     GhostStiffness         ghost;
     std::optional<Contact> contact_term;
     std::vector<Term *>    terms; ///< all of them
+    Bars                  *bars = nullptr; ///< if there are any
 
     bool of_particles = false;
 

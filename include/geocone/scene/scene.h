@@ -11,6 +11,7 @@
 #include <geocone/scene/loading.h>
 #include <geocone/scene/observation.h>
 #include <geocone/scene/obstacles.h>
+#include <geocone/scene/structures.h>
 #include <geocone/scene/water.h>
 
 #include <vector>
@@ -83,6 +84,7 @@ namespace geocone::GEOCONE_DIM
     Obstacles          obstacles;
     Contacts           contacts;
     LoadingProgramme   loading;
+    Structures         structures;
     Observation        observation;
   };
 } // namespace geocone::GEOCONE_DIM

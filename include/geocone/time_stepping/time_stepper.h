@@ -78,6 +78,9 @@ namespace geocone::GEOCONE_DIM
     /** Contact with obstacles. */
     ContactReport contact;
 
+    /** Bars of all structures, in their order. */
+    std::vector<BarState> bars;
+
     /** Load factor at its end; 1 without load stepping. */
     double load_factor = 1.;
 
@@ -102,6 +105,7 @@ namespace geocone::GEOCONE_DIM
           rows,
           motion,
           contact,
+          bars,
           load_factor,
           identity_error);
     }

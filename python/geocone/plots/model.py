@@ -1,7 +1,7 @@
 # Copyright (C) 2026 by the geocone authors
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """model.png: the scene before its first step: soils with a legend, mesh, supports, loads,
-water, obstacles, observed points, and the stages that change the body."""
+water, obstacles, structures, observed points, and the stages that change the body."""
 
 import json
 import math
@@ -25,6 +25,7 @@ FILE = "model.json"
 # Light enough for symbols, clear to colour-blind readers, and by lightness on paper.
 SOILS = ["#e3d3ae", "#b99f77", "#cfdccb", "#9fb3bf", "#e8c3a8", "#c9bedb", "#8f8676", "#f2ead2"]
 SUPPORT, LOAD, MOTION = "#303030", "#b02020", "#0060a0"
+STRUCTURE = "#5a2d82"
 MOST_STAGES = 6  # small pictures of stages
 
 
@@ -353,6 +354,22 @@ def draw_obstacles(axes, model):
                   color="white", zorder=6, clip_on=True)
 
 
+def draw_structures(axes, model, stage=None, with_names=True):
+    """Anchors, struts and geogrids as lines with their names.
+
+    @param stage name of one, to draw only what is there then"""
+    for structure in model.data.get("structures", []):
+        if stage is not None and structure["stages"] and stage not in structure["stages"]:
+            continue
+        points = np.array(structure["points"], dtype=float)
+        axes.plot(*points.T, color=STRUCTURE, linewidth=2., marker="o", markersize=3.5, zorder=5,
+                  solid_capstyle="butt")
+        if with_names:
+            axes.annotate(plain(structure["name"]), points.mean(axis=0), xytext=(0., 5.),
+                          textcoords="offset points", fontsize=8, ha="center", va="bottom",
+                          color=STRUCTURE, zorder=6, annotation_clip=True)
+
+
 def draw_side_names(axes, model):
     """Names of the sides beside their middles, as conditions call them."""
     body = model.data["body"]
@@ -370,7 +387,8 @@ def draw_side_names(axes, model):
 
 def view_of(model):
     """Corners of the view: the body, tractions' arrows and the mesh of particles."""
-    corners = np.array([model.low, model.high])
+    corners = np.array([model.low, model.high, *(
+        point for structure in model.data.get("structures", []) for point in structure["points"])])
     held = [point for condition in model.data["supports"] for face in condition["faces"]
             for point in face]
     if held and not model.data["material_of_cell"]:
@@ -449,6 +467,7 @@ def draw_stages(axes_of, model, stages, view):
         if "removed_lattice" in stage:
             draw_lattice(axes, stage["removed_lattice"], "#ffffff", zorder=1.4)
         draw_outlines(axes, model)
+        draw_structures(axes, model, stage["name"], with_names=False)
         draw_table(axes, table)
         draw_free_surface(axes, model.free_surface(end))
         axes.set_title(words_of(stage), fontsize=8)
@@ -472,6 +491,7 @@ def draw_plane(model, path):
     draw_mesh(main, model)
     draw_outlines(main, model)
     draw_obstacles(main, model)
+    draw_structures(main, model)
     entries = {**legend_of(model), **draw_supports(main, model), **draw_tractions(main, model)}
     draw_side_names(main, model)
     table = water_of(model)

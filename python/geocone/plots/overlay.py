@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.patches import PathPatch, Polygon
 
-from geocone.plots.model import Model, outline_of
+from geocone.plots.model import Model, draw_structures, outline_of
 from geocone.plots.solid import vertices_of
 from geocone.reader import ReadError
 from geocone.style import areas_of, draw_free_surface, draw_obstacles, draw_water
@@ -72,6 +72,16 @@ def clip_to_body(axes, run, time):
     draw_model_outlines(axes, model, time, outline)
 
 
+def stage_at(model, time):
+    """Name of the stage of the scene at a time; at its end it is still there."""
+    end = 0.
+    for stage in model.data["stages"]:
+        end += stage["duration_s"]
+        if time <= end * (1. + 1e-9):
+            break
+    return stage["name"]
+
+
 def draw_model_outlines(axes, model, time, outline, body_look=BODY, soil_look=SOIL):
     """Draws the outlines of the body and of its soils at the start, without what is not yet
     there, and what was excavated before a time."""
@@ -115,6 +125,7 @@ def draw_scene(axes, run, field, places=None):
     if model is not None:
         of_bounds = run.method in ("limit load", "strength reduction")  # their levels are no times
         draw_free_surface(axes, model.free_surface(None if of_bounds else field.time))
+        draw_structures(axes, model, stage_at(model, field.time), with_names=False)
     axes.set(xlim=view[0], ylim=view[1])
     return [artist for artist in axes.get_children() if artist not in before]
 

@@ -29,7 +29,8 @@ LARGE = 100_000  # bytes of a picture
 # Results shown first, and their captions.
 TOPICS = {"safety": "Factor of safety", "seepage": "Seepage", "bounds": "Bounds", "limit_load": "Load",
           "non_associated": "Less dilatancy than friction",
-          "reference": "Reference", "contact": "Contact", "failure": "Failure",
+          "reference": "Reference", "contact": "Contact",
+          "structures": "Structures", "failure": "Failure",
           "points": "Observed points", "motion": "Motion", "energy": "Energy",
           "newton": "Newton's method", "quality": "Quality of the solution",
           "state": "State", "start": "At the start", "final": "At the end",

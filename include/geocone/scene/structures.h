@@ -1,0 +1,116 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_scene_structures_h
+#define geocone_scene_structures_h
+
+#include <geocone/base/choice.h>
+#include <geocone/base/named_list.h>
+#include <geocone/base/types.h>
+#include <geocone/scene/geometry.h>
+
+#include <deal.II/base/point.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace geocone::GEOCONE_DIM
+{
+  /** An anchor, a strut or a geogrid: straight bars along a polyline, tied to
+   *  the body at its points. Forces and stiffness are per metre of thickness,
+   *  tension positive. */
+  class Structure : public dealii::ParameterAcceptor
+  {
+  public:
+    enum class Type
+    {
+      anchor,
+      strut,
+      geogrid
+    };
+
+    explicit Structure(const std::string &name);
+
+    /** @param stages their names */
+    void
+    prepare(const std::vector<std::string> &stages);
+
+    /** Parameter name "Structures/NAME/ENTRY", for messages. */
+    std::string
+    parameter(const std::string &entry) const
+    {
+      return "Structures/" + name + "/" + entry;
+    }
+
+    bool
+    acts_in(const std::string &stage) const
+    {
+      return stages.empty() ||
+             std::count(stages.begin(), stages.end(), stage) > 0;
+    }
+
+    /** Names of its stages; none for all. */
+    const std::vector<std::string> &
+    acting_stages() const
+    {
+      return stages;
+    }
+
+    /** Name of a bar in results. */
+    std::string
+    name_of_bar(const unsigned int number) const
+    {
+      return points.size() == 2 ? name
+                                : name + " " + std::to_string(number + 1);
+    }
+
+    /** Word of its type. */
+    std::string
+    kind() const
+    {
+      return type.word();
+    }
+
+    /** Axial force of a trial force: the projection on [-N_c, N_t]. */
+    double
+    admissible(const double trial) const
+    {
+      return std::clamp(trial, -compressive, tensile);
+    }
+
+    /** Whether one end of an anchor or strut may lie outside of the body, where
+     *  it is fixed. */
+    bool
+    may_be_fixed() const
+    {
+      return type != Type::geogrid;
+    }
+
+    const std::string               name;
+    std::vector<dealii::Point<dim>> points;
+    double                          stiffness  = 0.; ///< EA (N/m)
+    double                          pre_stress = 0.; ///< initial N (N/m)
+
+  private:
+    Choice<Type>             type = {{{"anchor", Type::anchor},
+                                      {"strut", Type::strut},
+                                      {"geogrid", Type::geogrid}}};
+    std::vector<std::string> stages;
+    std::string tensile_text = "unlimited", compressive_text = "automatic";
+    double      tensile = 0., compressive = 0.; ///< N_t and N_c (N/m)
+  };
+
+  /** The structures of "Structures/Names". */
+  class Structures : public NamedList<Structure>
+  {
+  public:
+    explicit Structures(const ParameterFile &file);
+
+    /** @param stages their names */
+    void
+    prepare(const Geometry &geometry, const std::vector<std::string> &stages);
+  };
+} // namespace geocone::GEOCONE_DIM
+
+#endif
