@@ -31,14 +31,14 @@ from geocone.frames import to_dataframe  # noqa: E402
 from geocone.program import example, find_program  # noqa: E402
 from geocone.point import MaterialPoint  # noqa: E402
 from geocone.progress import Progress  # noqa: E402
-from geocone.reader import Missing, ReadError, Run, read  # noqa: E402
+from geocone.reader import Missing, ReadError, Run, Table, read  # noqa: E402
 from geocone.runner import RunFailed, run  # noqa: E402
 from geocone.scene import Scene, Section, UnknownParameter  # noqa: E402
 from geocone.side_by_side import run_many  # noqa: E402
 
 __all__ = ["MaterialPoint", "Missing", "MissingModule", "Progress", "ReadError", "Run",
-           "RunFailed", "Scene", "Section", "UnknownParameter", "example", "find_program",
-           "read", "run", "run_many", "to_dataframe"]
+           "RunFailed", "Scene", "Section", "Table", "UnknownParameter", "example",
+           "find_program", "read", "run", "run_many", "to_dataframe"]
 
 for name in __all__:  # as users and the reference name them
     globals()[name].__module__ = "geocone"

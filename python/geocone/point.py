@@ -33,22 +33,18 @@ class MaterialPoint:
         point.follow(strain={"yy": -0.05}, stress={"xx": -60e3, "zz": -60e3}, increments=100)
 
     Tension is positive; strains add up from the initial state; shear components are those of
-    the tensor. Of the parameters those of `Materials` (the first one), `Element`, `Path` and
-    `Analysis/Units` are used. It gives the numbers of the program's method `point`, without files.
+    the tensor. Of the parameters those of ``Materials`` (the first one), ``Element``, ``Path`` and
+    ``Analysis/Units`` are used. It gives the numbers of the method ``point`` of the program,
+    without files.
 
     Parameters
     ----------
     scene
-        Path of a parameter file, a `Scene`, or {"Section/Name": value}.
+        Path of a parameter file, a Scene, or {"Section/Name": value}.
     parameters
         Changes, {"Section/Name": value}.
     program
-        Of `find_program`; the compiled module is looked for beside it.
-
-    Attributes
-    ----------
-    columns : list of str
-        Names of the values of a state with their units, those of path.csv.
+        Of ``find_program``; the compiled module is looked for beside it.
 
     Raises
     ------
@@ -81,6 +77,7 @@ class MaterialPoint:
         self._point = point_module(program).Point(
             [setting(path, text) for path, text in settings.items()
              if path.startswith(SECTIONS)])
+        #: Names of the values of a state with their units, those of path.csv.
         self.columns: list[str] = self._point.columns
         if self._point.changed:
             warnings.warn(self._point.changed, stacklevel=2)
@@ -100,7 +97,7 @@ class MaterialPoint:
 
     @property
     def state(self) -> dict[str, float]:
-        """Values of the present state by `columns`."""
+        """Values of the present state by the names in ``columns``."""
         return dict(zip(self.columns, self._point.line(0)))
 
     def restart(self) -> None:
@@ -126,7 +123,7 @@ class MaterialPoint:
         Returns
         -------
         dict
-            A table, {"name (unit)": array} by `columns`, a row for each increment.
+            A table, {"name (unit)": array} by the names in ``columns``, a row for each increment.
 
         Raises
         ------
@@ -162,12 +159,12 @@ class MaterialPoint:
         return self._table(self._point.follow([c in stress for c in COMPONENTS], rows))
 
     def run(self) -> dict[str, np.ndarray]:
-        """Follows the stages of the section `Path` from the initial state.
+        """Follows the stages of the section ``Path`` from the initial state.
 
         Returns
         -------
         dict
-            A table, {"name (unit)": array}: that of `Run.path`, with a row for the start.
+            A table, {"name (unit)": array}: that of ``Run.path``, with a row for the start.
 
         Raises
         ------

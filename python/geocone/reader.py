@@ -166,11 +166,11 @@ class Run:
 
     @property
     def mass_unit(self) -> float:
-        """Unit of mass (kg): 1000 where `Analysis/Units` are kN-m."""
+        """Unit of mass in kg, 1000 where the units of the run are kN-m."""
         return mass_unit(self.parameters)
 
     def unit(self, of_si: str) -> str:
-        """The unit that the run has for one of SI, "kPa" for "Pa" where `Analysis/Units`
+        """The unit that the run has for one of SI, "kPa" for "Pa" where its units
         are kN-m."""
         return of_si if self.mass_unit == 1. else kilo(of_si)
 

@@ -56,7 +56,8 @@ for path, entry in found.items():
     assert len(entry["description"]) > 8 and entry["x-allowed"], (path, entry)
 material = "Materials", "NAME"
 if ("Analysis", "Kind") in found:  # only in the plane
-    assert found["Analysis", "Kind"]["enum"] == ["steps", "limit load", "strength reduction"]
+    assert found["Analysis", "Kind"]["enum"] == ["steps", "limit load", "strength reduction",
+                                                     "seepage"]
 assert found["Time stepping", "Inertia"] == {**found["Time stepping", "Inertia"],
                                              "type": "boolean", "default": False}
 assert found[*material, "Cohesion"]["x-unit"] == "Pa"
