@@ -4,6 +4,7 @@
 // Results of a run: its summary and printed results.
 #include <geocone/output/run_output.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -112,7 +113,8 @@ namespace geocone::GEOCONE_DIM
               most  = std::max(most, record.last.bars[bar].force);
               least = std::min(least, record.last.bars[bar].force);
             }
-          const std::string name = structure->name_of_bar(i) + "_";
+          std::string name = structure->name_of_bar(i) + "_";
+          std::replace(name.begin(), name.end(), ' ', '_');
           json[name + "force_N_per_m"]        = last.force;
           json[name + "force_most_N_per_m"]   = most;
           json[name + "force_least_N_per_m"]  = least;
