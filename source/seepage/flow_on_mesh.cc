@@ -306,16 +306,6 @@ namespace geocone::GEOCONE_DIM
     return error;
   }
 
-  void
-  FlowOnMesh::finish(Log &log)
-  {
-    dealii::Timer time;
-    for (unsigned int level = 1; level < n_levels(); ++level)
-      refine();
-    log.print(format("seepage: %zu triangles, ", mesh->cells.size()) + text() +
-              format("; %.2g s", time.cpu_time()));
-  }
-
   Water::Flow
   FlowOnMesh::result() const
   {
@@ -424,6 +414,7 @@ namespace geocone::GEOCONE_DIM
           flow->advance(step);
         else
           {
+            dealii::Timer timer;
             flow.emplace(scene, step.levels, comm);
             flow->refine();
             if (flows.empty())
@@ -434,7 +425,11 @@ namespace geocone::GEOCONE_DIM
                 flows.assign(steps.size(), flow->result());
                 break;
               }
-            flow->finish(log);
+            for (unsigned int level = 1; level < flow->n_levels(); ++level)
+              flow->refine();
+            log.print(format("seepage: %zu triangles, ",
+                             flow->triangles().cells.size()) +
+                      flow->text() + format("; %.2g s", timer.cpu_time()));
           }
         flows.push_back(flow->result());
       }

@@ -49,11 +49,6 @@ namespace geocone::GEOCONE_DIM
     void
     refine();
 
-    /** Refines from the first mesh up to the last one, and prints the result.
-     *  Collective. */
-    void
-    finish(Log &log);
-
     /** Pore pressures and free surface. */
     Water::Flow
     result() const;
