@@ -93,6 +93,13 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
+  SeepageOutput::state_of_run(StateRow &row)
+  {
+    TableOutput::state_of_run(row);
+    row(*fields);
+  }
+
+  void
   SeepageOutput::report_results(std::ostream &out) const
   {
     out << format("%.4g\n", summary["seepage"]["discharge"].get<double>());

@@ -53,6 +53,9 @@ namespace geocone::GEOCONE_DIM
                  const double      unit_weight,
                  const double      time);
 
+    void
+    state_of_run(StateRow &row) override;
+
   private:
     void
     report_results(std::ostream &out) const override;
