@@ -53,7 +53,7 @@ namespace geocone::GEOCONE_DIM
             highest = std::max(highest, x[1]);
             y.push_back(x[1]);
           }
-        suction = regularisation * (highest - lowest);
+        height = highest - lowest;
         for (unsigned int c = 0; c < triangles.cells.size(); ++c)
           {
             const auto   g      = triangles.gradients(c);
@@ -70,6 +70,14 @@ namespace geocone::GEOCONE_DIM
           for (const unsigned int v : edges[e].vertices)
             diagonal[v] += std::abs(conductance[e]);
         set_pattern();
+      }
+
+      /** Sets the negative pressure of unsaturated vertices, as a part of the height of
+       *  the body. */
+      void
+      regularise(const double epsilon)
+      {
+        suction = epsilon * height;
       }
 
       /** Imbalance of each vertex at s. */
@@ -132,6 +140,12 @@ namespace geocone::GEOCONE_DIM
               largest = std::max(largest, std::abs(r[v]) / scale[v]);
           }
         return largest;
+      }
+
+      const SparseMatrix &
+      derivative_pattern() const
+      {
+        return matrix;
       }
 
       /** Derivative of residual() at its last argument. */
@@ -242,7 +256,7 @@ namespace geocone::GEOCONE_DIM
       const std::vector<Triangles::Edge> &edges;
       std::vector<double> diagonal; ///< sums of absolute conductances
       std::vector<double> y, scale;
-      double              suction = 0.;
+      double              height = 0., suction = 0.;
       SparseMatrix        matrix;
     };
 
@@ -254,6 +268,49 @@ namespace geocone::GEOCONE_DIM
         sum += x * x;
       return std::sqrt(sum);
     }
+
+    /** Nonsmooth Newton method with a line search, for a given regularisation.
+     *  @param[in,out] flow its s, iterations and error
+     *  @return whether it has converged */
+    bool
+    iterate(Balance      &balance,
+            LinearSolver &solver,
+            const double  epsilon,
+            FlowSolution &flow)
+    {
+      constexpr unsigned int most_iterations = 60;
+      constexpr double       wanted = 1e-11, accepted = 1e-10,
+                       smallest_step = 1. / 64.;
+      balance.regularise(epsilon);
+      auto residual = balance.residual(flow.s);
+      flow.error    = balance.error(residual);
+      for (unsigned int i = 0; i < most_iterations && !(flow.error <= wanted);
+           ++i)
+        {
+          if (!std::isfinite(flow.error) ||
+              !solver.factorise(balance.derivative()))
+            return false;
+          ++flow.iterations;
+          std::vector<double> step = residual;
+          solver.solve(step);
+          const double before  = norm(residual);
+          bool         is_less = false;
+          for (double part = 1.; !is_less && part >= smallest_step; part /= 2.)
+            {
+              std::vector<double> next(flow.s);
+              for (unsigned int v = 0; v < next.size(); ++v)
+                next[v] -= part * step[v];
+              residual = balance.residual(next);
+              is_less  = norm(residual) < before;
+              if (is_less || part / 2. < smallest_step)
+                flow.s = std::move(next);
+            }
+          flow.error = balance.error(residual);
+          if (!is_less && flow.error <= accepted) // rounding
+            return true;
+        }
+      return flow.error <= accepted;
+    }
   } // namespace
 
   FlowSolution
@@ -263,45 +320,41 @@ namespace geocone::GEOCONE_DIM
              const FlowConditions      &conditions,
              std::vector<double>        start)
   {
-    constexpr unsigned int most_iterations = 300;
-    constexpr double       tolerance = 1e-11, smallest_step = 1. / 64.;
-    FlowSolution           flow;
-    std::vector<double>   &s = flow.s = std::move(start);
-    for (unsigned int v = 0; v < s.size(); ++v)
+    for (unsigned int v = 0; v < start.size(); ++v)
       if (conditions.kind[v] == Kind::head)
-        s[v] = conditions.head[v];
-    Balance    balance(triangles, permeability, measure, conditions);
-    const auto solver   = make_umfpack();
-    auto       residual = balance.residual(s);
-    while (!((flow.error = balance.error(residual)) <= tolerance))
+        start[v] = conditions.head[v];
+    Balance      balance(triangles, permeability, measure, conditions);
+    FlowSolution flow;
+    const auto   solver = make_umfpack();
+    solver->analyse(balance.derivative_pattern());
+    flow.s = start;
+    if (!iterate(balance, *solver, regularisation, flow))
       {
-        const SparseMatrix &matrix = balance.derivative();
-        if (flow.iterations == 0)
-          solver->analyse(matrix);
-        if (++flow.iterations > most_iterations || !std::isfinite(flow.error) ||
-            !solver->factorise(matrix))
+        // Continuation from soil that conducts a suction of the height of the body.
+        flow.s         = start;
+        double epsilon = 1., ratio = 0.25;
+        double last      = epsilon;
+        bool   converged = iterate(balance, *solver, epsilon, flow);
+        while (converged && last > regularisation && ratio < 0.9)
+          {
+            const std::vector<double> before = flow.s;
+            epsilon = std::max(last * ratio, regularisation);
+            if (iterate(balance, *solver, epsilon, flow))
+              last = epsilon;
+            else
+              {
+                flow.s = before;
+                ratio  = std::sqrt(ratio);
+              }
+          }
+        if (!converged || last > regularisation)
           throw RunError(
             format("the flow of water was not found: after %u iterations the "
                    "balance of a vertex is missed by %.2g of its flow\n  "
                    "remedy:  check the permeabilities and the levels of "
                    "'Seepage', or change 'Seepage/Cells'",
-                   flow.iterations - 1,
+                   flow.iterations,
                    flow.error));
-        std::vector<double> step = residual;
-        solver->solve(step);
-        const double before = norm(residual);
-        for (double part = 1.;; part /= 2.)
-          {
-            std::vector<double> next(s);
-            for (unsigned int v = 0; v < s.size(); ++v)
-              next[v] -= part * step[v];
-            residual = balance.residual(next);
-            if (norm(residual) < before || part <= smallest_step)
-              {
-                s = std::move(next);
-                break;
-              }
-          }
       }
     flow.inflow = balance.inflow;
     for (const Values &at : balance.values)
