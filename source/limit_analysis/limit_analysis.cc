@@ -190,7 +190,7 @@ namespace geocone::GEOCONE_DIM
                           "let one of the bodies be an obstacle");
     scene.structures.refuse("'Analysis/Kind' = " + analysis.word(),
                             "load the body in time steps instead, with "
-                            "'Analysis/Kind' = time steps");
+                            "'Analysis/Kind' = steps");
     scene.observation.prepare(
       scene.supports(), scene.materials, scene.gravity, false);
     for (const auto &condition : scene.dirichlet.list)
