@@ -14,6 +14,7 @@
 #include <pybind11/stl.h>
 
 #include <array>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -77,6 +78,10 @@ namespace
         {
           ElementControl control;
           control.by_stress = by_stress;
+          for (unsigned int i = 0; i < 6; ++i)
+            if (!std::isfinite(value(k, i)))
+              throw InputError("stresses and strains must be finite: row " +
+                               std::to_string(k));
           for (unsigned int i = 0; i < 6; ++i)
             if (by_stress[i])
               control.stress[i] = value(k, i);

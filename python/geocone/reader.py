@@ -30,7 +30,8 @@ if TYPE_CHECKING:
 
 class Table(dict[str, np.ndarray]):
     """Columns, {"name (unit)": array of a value per line}. Those of a run in kN and kPa are
-    also found by the names that they have in SI units."""
+    also found by the names that they have in SI units; their values are in kN and kPa all
+    the same."""
 
     def __missing__(self, name: str) -> np.ndarray:
         inside = unit_in(name)

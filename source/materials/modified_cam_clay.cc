@@ -352,8 +352,8 @@ namespace geocone::GEOCONE_DIM
                          const SpatialMandel &s,
                          const double         P,
                          const double         Pc) {
-      const bool   opens = P < lowest;
-      const double q = equivalent(s) / M, least = std::max(P, lowest);
+      const bool   opens = P < lowest();
+      const double q = equivalent(s) / M, least = std::max(P, lowest());
       stress = s - (least - a) * I;
       if (history != nullptr)
         history[place_of_pc()] =
@@ -404,10 +404,10 @@ namespace geocone::GEOCONE_DIM
       s[shears[i].place] = sqrt2 * stress[3 + i];
     const double      P  = pressure(s);
     const std::string at = format(" (p = %g Pa)", P - a);
-    if (!(P >= lowest))
+    if (!(P >= lowest()))
       throw InputError(parameter("Attraction"),
                        a,
-                       "p + a >= 1 Pa at the start" + at,
+                       format("p + a >= %g Pa at the start", lowest()) + at,
                        "raise the attraction or the initial pressure: there "
                        "would be no stiffness");
     const double through = size_through(s);

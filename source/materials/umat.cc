@@ -85,10 +85,11 @@ namespace geocone::GEOCONE_DIM
                   function,
                   "Name of the function in the library; an underscore at its "
                   "end, as compilers of Fortran add it, may be left out.");
-    add_parameter("Constants",
-                  constants,
-                  "Constants of the law, its PROPS, in SI units if the law "
-                  "does not say otherwise, comma-separated.");
+    add_parameter(
+      "Constants",
+      constants,
+      "Constants of the law, its PROPS, in the units of the file if "
+      "the law does not say otherwise, comma-separated.");
     add_parameter("Number of state variables",
                   n_state,
                   "Number of state variables of the law, NSTATV [-].");
@@ -228,10 +229,16 @@ namespace geocone::GEOCONE_DIM
     const std::array<double, 9> rotation =
       rotation_of_spin(history_n + place_of_spin());
 
-    thread_local std::vector<double> variables;
+    // Guards behind the arrays show a law that uses more values than are given.
+    constexpr unsigned int           n_guards = 64;
+    constexpr double                 guard    = -7.2e302;
+    thread_local std::vector<double> variables, props;
     variables.assign(history_n + place_of_state(),
                      history_n + place_of_state() + n_state);
-    variables.resize(std::max(n_state, 1u));
+    variables.resize(n_state + n_guards, guard);
+    props = constants;
+    props.resize(constants.size() + n_guards,
+                 std::numeric_limits<double>::quiet_NaN());
     const int n_variables = n_state, n_constants = constants.size();
     double    sse = 0., spd = 0., scd = 0., rpl = 0., drpldt = 0., pnewdt = 1.;
     umat(s.data(),
@@ -257,7 +264,7 @@ namespace geocone::GEOCONE_DIM
          &n_shear,
          &n,
          &n_variables,
-         constants.data(),
+         props.data(),
          &n_constants,
          position,
          rotation.data(),
@@ -272,6 +279,13 @@ namespace geocone::GEOCONE_DIM
          step_of_analysis,
          &one,
          name.size());
+    if (std::any_of(variables.begin() + n_state,
+                    variables.end(),
+                    [](const double value) { return value != guard; }))
+      throw RunError("the law '" + name +
+                     "' writes more state variables than " +
+                     std::to_string(n_state) + "\n  remedy:  raise '" +
+                     parameter("Number of state variables") + "'");
 
     for (int i = 0; i < n; ++i)
       stress[place_in_mandel[i]] = pnewdt < 1. ? nan : umat_factor(i) * s[i];

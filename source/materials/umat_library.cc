@@ -35,7 +35,11 @@ namespace geocone
                          printable(dlerror()));
     for (const std::string &name : {function, function + "_"})
       if (void *const symbol = dlsym(library, name.c_str()))
-        return reinterpret_cast<UmatFunction>(symbol);
+        // dlsym() also finds functions of what the library depends on.
+        if (Dl_info of_symbol;
+            dladdr(symbol, &of_symbol) != 0 &&
+            std::filesystem::equivalent(of_symbol.dli_fname, path))
+          return reinterpret_cast<UmatFunction>(symbol);
     throw InputError(parameters + "/Function",
                      function,
                      "a function of the library '" + printable(path) +

@@ -26,12 +26,12 @@ namespace geocone::GEOCONE_DIM
       return structure.pre_stress + k * elongation;
     }
 
-    /** Whether a bar goes slack when it is shortened, instead of yielding: it
-     *  carries tension again at its former length. */
+    /** Whether a bar is slack under a trial force, instead of yielding: it has no
+     *  strength in this direction, and carries forces again at its former length. */
     bool
-    is_slack_in_compression(const Structure &structure)
+    is_slack(const Structure &structure, const double trial)
     {
-      return structure.admissible(-1.) == 0.;
+      return structure.admissible(trial > 0. ? 1. : -1.) == 0.;
     }
 
     /** Nonzero owned entries of a vector. */
@@ -119,10 +119,10 @@ namespace geocone::GEOCONE_DIM
     sum_over_ranks(n_missing, space.partitioner()->get_mpi_communicator());
     for (unsigned int i = 0; i < bars.size(); ++i)
       if (n_missing[i] > 0.)
-        throw StepFailure(
+        throw RunError(
           "the structure '" + structures.list[bars[i].structure]->name +
-          "' is tied to a part of the body that is not there in the stage '" +
-          stage + "'\n  remedy:  leave the stage out of '" +
+          "' is tied to a removed part of the body in the stage '" + stage +
+          "'\n  remedy:  leave the stage out of '" +
           structures.list[bars[i].structure]->parameter("Acts in") +
           "', or move its points");
   }
@@ -192,7 +192,7 @@ namespace geocone::GEOCONE_DIM
         Bar &bar = bars[i];
         if (!bar.acts)
           continue;
-        bar.rate           = rates[i];
+        bar.rate                   = rates[i];
         const Structure &structure = *structures.list[bar.structure];
         const double     trial     = force_of_bar(
           structure, bar.k, bar.n.elongation + h * bar.rate - bar.n.plastic);
@@ -268,8 +268,7 @@ namespace geocone::GEOCONE_DIM
             bar.n.elongation += h * bar.rate;
             const double trial =
               force_of_bar(structure, bar.k, bar.n.elongation - bar.n.plastic);
-            bar.n.yields = !bar.elastic &&
-                           !(trial < 0. && is_slack_in_compression(structure));
+            bar.n.yields = !bar.elastic && !is_slack(structure, trial);
             if (bar.n.yields)
               bar.n.plastic += (trial - bar.force) / bar.k;
             bar.n.force = bar.force;

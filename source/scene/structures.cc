@@ -5,6 +5,7 @@
 #include <geocone/base/unused_parameters.h>
 #include <geocone/scene/structures.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -74,10 +75,11 @@ namespace geocone::GEOCONE_DIM
                   pre_stress,
                   "Axial force when it is installed, per metre of thickness "
                   "[N/m], tension positive.");
-    add_parameter("Acts in",
-                  stages,
-                  "Stages in which it is there, comma-separated; it is "
-                  "installed at the beginning of the first one. Empty: all.");
+    add_parameter(
+      "Acts in",
+      stages,
+      "Stages in which it acts, comma-separated; it is installed at "
+      "the beginning of the first one. Empty: all.");
   }
 
   void
@@ -136,7 +138,24 @@ namespace geocone::GEOCONE_DIM
       refuse("'Geometry/Dimension' = 3", "take a section in plane strain");
     if (!list.empty())
       geometry.refuse_axis("'Structures/Names'", "leave it out");
+    // Bars are told apart by their names in results, where blanks are underscores.
+    std::vector<std::string> names;
     for (const auto &structure : list)
-      structure->prepare(stages);
+      {
+        structure->prepare(stages);
+        for (std::size_t i = 0; i + 1 < structure->points.size(); ++i)
+          {
+            std::string bar = structure->name_of_bar(i);
+            std::replace(bar.begin(), bar.end(), ' ', '_');
+            if (std::count(names.begin(), names.end(), bar) > 0)
+              throw InputError(parameter(),
+                               structure->name,
+                               "names that differ in results, where bars of a "
+                               "geogrid are numbered and blanks are "
+                               "underscores",
+                               "rename it");
+            names.push_back(bar);
+          }
+      }
   }
 } // namespace geocone::GEOCONE_DIM

@@ -5,6 +5,7 @@
 #define geocone_materials_modified_cam_clay_h
 
 #include <geocone/base/choice.h>
+#include <geocone/base/units.h>
 #include <geocone/materials/spatial_law.h>
 
 #include <string>
@@ -180,7 +181,12 @@ namespace geocone::GEOCONE_DIM
       return SpatialLaw::n_history();
     }
 
-    static constexpr double lowest = 1.; ///< lower limit of P (Pa)
+    /** Lower limit of P: 1 Pa. */
+    static double
+    lowest()
+    {
+      return 1. / mass_unit();
+    }
 
     double kappa    = 0.01;
     double lambda   = 0.08;
