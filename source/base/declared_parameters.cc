@@ -3,6 +3,7 @@
 
 #include <geocone/base/declared_parameters.h>
 #include <geocone/base/exceptions.h>
+#include <geocone/base/number_in.h>
 
 #include <deal.II/base/parameter_acceptor.h>
 #include <deal.II/base/utilities.h>
@@ -10,7 +11,6 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <regex>
 #include <sstream>
@@ -76,10 +76,8 @@ namespace geocone
       std::istringstream in(text);
       for (std::string word; in >> word;)
         {
-          char        *end    = nullptr;
-          const double number = std::strtod(word.c_str(), &end);
-          if (end != word.c_str() && *end == '\0' &&
-              !(std::abs(number) <= largest_value))
+          const auto number = number_in(word);
+          if (number && !(std::abs(*number) <= largest_value))
             return false;
         }
       return true;

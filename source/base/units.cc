@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/log.h>
+#include <geocone/base/number_in.h>
 #include <geocone/base/units.h>
 
 #include <deal.II/base/parameter_acceptor.h>
@@ -9,7 +10,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include <cstdlib>
 #include <regex>
 #include <sstream>
 
@@ -51,12 +51,11 @@ namespace geocone
       std::string        out;
       for (std::string word; std::getline(in, word, ',');)
         {
-          char        *end    = nullptr;
-          const double number = std::strtod(word.c_str(), &end);
-          if (end == word.c_str() || *end != '\0')
+          const auto number = number_in(word);
+          if (!number)
             return value;
           out +=
-            (out.empty() ? "" : ", ") + format("%.15g", number / mass_unit());
+            (out.empty() ? "" : ", ") + format("%.15g", *number / mass_unit());
         }
       return out;
     }

@@ -3,11 +3,11 @@
 
 #include <geocone/base/constants.h>
 #include <geocone/base/exceptions.h>
+#include <geocone/base/number_in.h>
 #include <geocone/materials/frictional_strength.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 namespace geocone
 {
@@ -61,14 +61,13 @@ namespace geocone
   {
     if (tension_text != "none")
       {
-        char *end = nullptr;
-        tension   = std::strtod(tension_text.c_str(), &end);
-        if (end == tension_text.c_str() || *end != '\0' ||
-            !(tension >= 0. && std::isfinite(tension)))
+        const auto value = number_in(tension_text);
+        if (!value || !(*value >= 0. && std::isfinite(*value)))
           throw InputError(section + "/Tensile strength",
                            tension_text,
                            "none, or a number >= 0 (Pa)",
                            "0 is soil that carries no tension");
+        tension = *value;
       }
     if (!(phi >= 0. && phi < 90.))
       throw InputError(section + "/Friction angle",

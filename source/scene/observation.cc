@@ -3,12 +3,12 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
+#include <geocone/base/number_in.h>
 #include <geocone/base/unused_parameters.h>
 #include <geocone/materials/material_library.h>
 #include <geocone/scene/observation.h>
 
 #include <cmath>
-#include <cstdlib>
 
 namespace geocone::GEOCONE_DIM
 {
@@ -174,14 +174,13 @@ namespace geocone::GEOCONE_DIM
         take_prandtl(materials, gravity);
         return;
       }
-    char        *end    = nullptr;
-    const double number = std::strtod(value.c_str(), &end);
-    if (value.empty() || *end != '\0' || !std::isfinite(number) || number == 0.)
+    const auto number = number_in(value);
+    if (!number || !std::isfinite(*number) || *number == 0.)
       throw InputError("Observation/Reference",
                        value,
                        "none, Prandtl, or a number other than zero (N/m)",
                        "choose one of them");
-    reference      = number;
+    reference      = *number;
     reference_name = "reference";
   }
 

@@ -1,12 +1,12 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <geocone/base/number_in.h>
 #include <geocone/base/unused_parameters.h>
 #include <geocone/scene/seepage.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 namespace geocone::GEOCONE_DIM
 {
@@ -72,15 +72,12 @@ namespace geocone::GEOCONE_DIM
     level.reset();
     if (level_text != "none")
       {
-        char        *end   = nullptr;
-        const double value = std::strtod(level_text.c_str(), &end);
-        if (level_text.empty() || *end != '\0' ||
-            !(std::abs(value) <= largest_coordinate))
+        level = number_in(level_text);
+        if (!level || !(std::abs(*level) <= largest_coordinate))
           throw InputError(parameter("Level"),
                            level_text,
                            "a height y in m, or none",
                            "none is a side in the air");
-        level = value;
       }
     if (!(rain >= 0. && std::isfinite(rain)))
       throw InputError(parameter("Rain"),

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
+#include <geocone/base/number_in.h>
 #include <geocone/base/unused_parameters.h>
 #include <geocone/scene/structures.h>
 
@@ -27,21 +28,14 @@ namespace geocone::GEOCONE_DIM
         return std::numeric_limits<double>::infinity();
       if (text == "automatic")
         return if_automatic;
-      std::size_t end   = 0;
-      double      value = -1.;
-      try
-        {
-          value = std::stod(text, &end);
-        }
-      catch (const std::exception &)
-        {}
-      if (end != text.size() || !(value >= 0.))
+      const std::optional<double> value = number_in(text);
+      if (!value || !(*value >= 0.))
         throw InputError(bar.parameter(entry),
                          text,
                          "a force per metre >= 0 N/m, unlimited or automatic",
                          "give the strength of one element divided by their "
                          "spacing");
-      return value;
+      return *value;
     }
   } // namespace
 
