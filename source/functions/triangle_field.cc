@@ -19,6 +19,24 @@ namespace geocone::GEOCONE_DIM
     constexpr double rounding = 1e-6;
   } // namespace
 
+  std::array<Tensor<1, 2>, 3>
+  barycentric_gradients(const std::array<Point<dim>, 3> &corners)
+  {
+    const auto edge = [&](const unsigned int from, const unsigned int to) {
+      const Tensor<1, dim> along = corners[to % 3] - corners[from % 3];
+      return std::array<double, 2>{{along[0], along[1]}};
+    };
+    const auto                  a = edge(0, 1), b = edge(0, 2);
+    const double                twice_area = a[0] * b[1] - a[1] * b[0];
+    std::array<Tensor<1, 2>, 3> g;
+    for (unsigned int i = 0; i < 3; ++i)
+      {
+        const auto opposite = edge(i + 1, i + 2);
+        g[i] = Tensor<1, 2>({-opposite[1], opposite[0]}) / twice_area;
+      }
+    return g;
+  }
+
   TriangleField::TriangleField(std::vector<Point<dim>> vertices_of_mesh,
                                std::vector<Cell>       cells_of_mesh,
                                std::vector<double>     values_at_vertices)
@@ -79,26 +97,6 @@ namespace geocone::GEOCONE_DIM
         std::clamp((at - corner[d]) / size[d], 0., n_boxes[d] - 1.));
     };
     return {{number(x, 0), number(y, 1)}};
-  }
-
-  std::array<std::array<double, 2>, 3>
-  TriangleField::gradients(const unsigned int cell) const
-  {
-    const Cell &of   = cells[cell];
-    const auto  edge = [&](const unsigned int from, const unsigned int to) {
-      return std::array<double, 2>{
-        {vertices[of[to % 3]][0] - vertices[of[from % 3]][0],
-         vertices[of[to % 3]][1] - vertices[of[from % 3]][1]}};
-    };
-    const auto                           a = edge(0, 1), b = edge(0, 2);
-    const double                         twice_area = a[0] * b[1] - a[1] * b[0];
-    std::array<std::array<double, 2>, 3> g;
-    for (unsigned int i = 0; i < 3; ++i)
-      {
-        const auto opposite = edge(i + 1, i + 2);
-        g[i] = {{-opposite[1] / twice_area, opposite[0] / twice_area}};
-      }
-    return g;
   }
 
   std::optional<TriangleField::At>

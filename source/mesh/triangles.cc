@@ -3,6 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
+#include <geocone/functions/triangle_field.h>
 #include <geocone/mesh/fitted_mesh.h>
 #include <geocone/mesh/triangles.h>
 
@@ -165,14 +166,7 @@ namespace geocone::GEOCONE_DIM
   std::array<Tensor<1, dim>, 3>
   Triangles::gradients(const unsigned int cell) const
   {
-    std::array<Tensor<1, dim>, 3> g;
-    const double                  twice = 2. * area(cell);
-    for (unsigned int i = 0; i < 3; ++i)
-      {
-        const Tensor<1, dim> along = vertices[cells[cell][(i + 2) % 3]] -
-                                     vertices[cells[cell][(i + 1) % 3]];
-        g[i] = Tensor<1, dim>({-along[1], along[0]}) / twice;
-      }
-    return g;
+    const auto &[i, j, k] = cells[cell];
+    return barycentric_gradients({{vertices[i], vertices[j], vertices[k]}});
   }
 } // namespace geocone::GEOCONE_DIM

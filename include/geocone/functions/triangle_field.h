@@ -14,6 +14,11 @@
 
 namespace geocone::GEOCONE_DIM
 {
+  /** Gradients of the barycentric coordinates of a triangle along x and y (1/m).
+   *  @param corners counterclockwise, or the other way round */
+  std::array<dealii::Tensor<1, 2>, 3>
+  barycentric_gradients(const std::array<dealii::Point<dim>, 3> &corners);
+
   /** A continuous field that is linear in each triangle of a mesh of the plane, in three
    *  dimensions uniform along z, and zero outside of the mesh. */
   class TriangleField
@@ -45,9 +50,12 @@ namespace geocone::GEOCONE_DIM
     std::optional<At>
     locate(const dealii::Point<dim> &x) const;
 
-    /** Gradients of the barycentric coordinates of a cell, along x and y (1/m). */
-    std::array<std::array<double, 2>, 3>
-    gradients(const unsigned int cell) const;
+    std::array<dealii::Tensor<1, 2>, 3>
+    gradients(const unsigned int cell) const
+    {
+      const auto &[i, j, k] = cells[cell];
+      return barycentric_gradients({{vertices[i], vertices[j], vertices[k]}});
+    }
 
     /** Column and row of the box around x, within the grid of boxes. */
     std::array<unsigned int, 2>
