@@ -3,6 +3,7 @@
 
 #include <geocone/cone/second_order_cone.h>
 #include <geocone/limit_analysis/limit_output.h>
+#include <geocone/output/triangle_table.h>
 
 #include <algorithm>
 #include <cmath>
@@ -107,60 +108,33 @@ namespace geocone::GEOCONE_DIM
   {
     if (!with_fields)
       return;
-    const unsigned int n_cells = triangles.cells.size();
-    FieldTable         table;
-    table.cell      = FieldTable::Cell::triangle;
-    table.n_nodes   = 3 * n_cells;
-    const auto each = [&](const auto &value) {
-      return [&triangles, value](std::vector<double> &to) {
-        for (std::size_t p = 0; p < to.size(); ++p)
-          to[p] = value(p, triangles.cells[p / 3][p % 3]);
-      };
-    };
-    const auto vectors = [&](const auto &value) {
-      return [&triangles, value](std::vector<double> &to) {
-        for (std::size_t i = 0; i < to.size(); ++i)
-          to[i] =
-            value(i / dim, triangles.cells[i / dim / 3][i / dim % 3], i % dim);
-      };
-    };
-    using Index     = unsigned int;
-    table.positions = vectors([&](const Index, const Index v, const Index d) {
-      return triangles.vertices[v][d];
+    TriangleTable table(triangles);
+    using Index = unsigned int;
+    table.add("velocity", dim, [&](const Index, const Index v, const Index d) {
+      return upper.q.size() > 0 ? upper.q[dim * v + d] : 0.;
     });
-    table.columns.push_back(
-      {"velocity", dim, vectors([&](const Index, const Index v, const Index d) {
-         return upper.q.size() > 0 ? upper.q[dim * v + d] : 0.;
-       })});
     // Translation of each triangle, from the dual of the lower bound.
-    table.columns.push_back(
-      {"velocity_lower", dim, [&](std::vector<double> &to) {
-         for (std::size_t i = 0; i < to.size(); ++i)
-           to[i] =
-             lower.q.size() > 0 ? lower.q[dim * (i / (3 * dim)) + i % dim] : 0.;
-       }});
-    const auto stress = [&](const Index p, const Index i) {
-      const Mandel s = from_cone_axes(Mandel(lower.s[p]));
-      return units.stress * (i == 2 ? s[2] / sqrt2 : s[i]);
-    };
+    table.add(
+      "velocity_lower", dim, [&](const Index p, const Index, const Index d) {
+        return lower.q.size() > 0 ? lower.q[dim * (p / 3) + d] : 0.;
+      });
     const char *const names[] = {"stress_xx", "stress_yy", "stress_xy"};
     for (Index i = 0; i < 3; ++i)
-      table.columns.push_back(
-        {names[i], 1, each([=](const Index p, const Index) {
-           return stress(p, i);
-         })});
+      table.add(names[i], 1, [&, i](const Index p, const Index, const Index) {
+        const Mandel s = from_cone_axes(Mandel(lower.s[p]));
+        return units.stress * (i == 2 ? s[2] / sqrt2 : s[i]);
+      });
     // Contribution of a triangle to the gap, over the mean.
     double total = 0.;
     for (const double part : gap)
       total += std::max(part, 0.);
-    table.columns.push_back(
-      {"part_of_gap", 1, each([&, total](const Index p, const Index) {
-         return total > 0. ? gap[p / 3] / total * n_cells : 0.;
-       })});
-    table.columns.push_back(
-      {"material", 1, each([&](const Index p, const Index) {
-         return static_cast<double>(triangles.material[p / 3]);
-       })});
+    table.add(
+      "part_of_gap", 1, [&, total](const Index p, const Index, const Index) {
+        return total > 0. ? gap[p / 3] / total * triangles.cells.size() : 0.;
+      });
+    table.add("material", 1, [&](const Index p, const Index, const Index) {
+      return static_cast<double>(triangles.material[p / 3]);
+    });
     fields->write(table, path, number, comm);
   }
 
