@@ -6,6 +6,7 @@
 #include <geocone/functions/triangle_field.h>
 #include <geocone/mesh/fitted_mesh.h>
 #include <geocone/mesh/triangles.h>
+#include <geocone/shapes/part_in_box.h>
 
 #include <algorithm>
 #include <cmath>
@@ -18,53 +19,25 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    /** Rounding error of the corners of a box (m). */
-    double
-    rounding_of(const std::array<Point<dim>, 2> &corners)
-    {
-      return 1e-9 * (1. + corners[0].distance(corners[1]));
-    }
-
-    /** Overlap of the edge from a to b with the box of a condition, snapped to all or
+    /** Share of the edge from a to b that is in the box of a condition, snapped to all or
      *  nothing within rounding. */
     double
-    part_in_box(const BoundaryPart &condition,
-                const Point<dim>   &a,
-                const Point<dim>   &b)
+    share_in_box(const BoundaryPart &condition,
+                 const Point<dim>   &a,
+                 const Point<dim>   &b)
     {
       const auto corners = condition.box_corners();
       if (!corners)
         return 1.;
-      const auto [from, to] = interval_in_box(*corners, a, b);
-      const double part     = std::max(0., to - from);
-      const double rounding = 1e-6 + 3. * rounding_of(*corners) / a.distance(b);
-      return part < rounding ? 0. : part > 1. - rounding ? 1. : part;
+      const auto   wide = *condition.wide_box();
+      const auto   part = part_in_box(wide, a, b);
+      const double share =
+        part ? (*part)[0].distance((*part)[1]) / a.distance(b) : 0.;
+      const double rounding =
+        1e-6 + 3. * ((*corners)[0][0] - wide[0][0]) / a.distance(b);
+      return share < rounding ? 0. : share > 1. - rounding ? 1. : share;
     }
   } // namespace
-
-  std::array<double, 2>
-  interval_in_box(const std::array<Point<dim>, 2> &corners,
-                  const Point<dim>                &a,
-                  const Point<dim>                &b)
-  {
-    double       from = 0., to = 1.;
-    const double tolerance = rounding_of(corners);
-    for (unsigned int d = 0; d < dim; ++d)
-      {
-        const double low   = corners[0][d] - tolerance - a[d],
-                     high  = corners[1][d] + tolerance - a[d],
-                     along = b[d] - a[d];
-        if (std::abs(along) < tolerance)
-          {
-            if (low > 0. || high < 0.)
-              return {{0., 0.}};
-            continue;
-          }
-        from = std::max(from, std::min(low / along, high / along));
-        to   = std::min(to, std::max(low / along, high / along));
-      }
-    return {{from, to}};
-  }
 
   Triangles::Triangles(const CoarseMesh &mesh)
     : vertices(mesh.points)
@@ -124,7 +97,7 @@ namespace geocone::GEOCONE_DIM
           continue;
         const Point<dim> &a = vertices[edge.vertices[0]],
                          &b = vertices[edge.vertices[1]];
-        const double part   = part_in_box(condition, a, b);
+        const double part   = share_in_box(condition, a, b);
         if (part == 0.)
           continue;
         if (part < 1.)

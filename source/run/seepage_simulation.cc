@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
-#include <geocone/base/stop_request.h>
 #include <geocone/output/model_of_triangles.h>
+#include <geocone/output/triangle_table.h>
 #include <geocone/run/seepage_simulation.h>
 
 #include <deal.II/base/mpi.h>
@@ -45,49 +45,29 @@ namespace geocone::GEOCONE_DIM
   {
     if (!with_fields)
       return;
-    const Triangles &triangles = flow.triangles();
-    FieldTable       table;
-    table.cell    = FieldTable::Cell::triangle;
-    table.n_nodes = // all ranks have the whole flow
-      dealii::Utilities::MPI::this_mpi_process(comm) == 0
-        ? 3 * triangles.cells.size()
-        : 0;
-    const auto add = [&](const std::string &name,
-                         const unsigned int size,
-                         const auto        &value) {
-      table.columns.push_back(
-        {name, size, [&triangles, size, value](std::vector<double> &to) {
-           for (std::size_t i = 0; i < to.size(); ++i)
-             {
-               const std::size_t node = i / size;
-               to[i] =
-                 value(node / 3, triangles.cells[node / 3][node % 3], i % size);
-             }
-         }});
-    };
-    using Index          = unsigned int;
-    const auto &vertices = triangles.vertices;
-    add("position", dim, [&](const Index, const Index v, const Index d) {
-      return vertices[v][d];
-    });
-    table.positions = table.columns.back().fill;
-    table.columns.clear();
-    add("pore_pressure", 1, [&](const Index, const Index v, const Index) {
+    // All ranks have the whole flow.
+    TriangleTable table(flow.triangles(),
+                        dealii::Utilities::MPI::this_mpi_process(comm) == 0);
+    const auto   &vertices = flow.triangles().vertices;
+    const auto   &material = flow.triangles().material;
+    const auto    q        = flow.velocities();
+    using Index            = unsigned int;
+    table.add("pore_pressure", 1, [&](const Index, const Index v, const Index) {
       return unit_weight * flow.flow().head[v];
     });
-    add("head", 1, [&](const Index, const Index v, const Index) {
+    table.add("head", 1, [&](const Index, const Index v, const Index) {
       return flow.flow().head[v] + vertices[v][1];
     });
-    add(
+    table.add(
       "relative_permeability", 1, [&](const Index, const Index v, const Index) {
         return flow.flow().saturation[v];
       });
-    add(
-      "seepage_velocity", dim, [&](const Index c, const Index, const Index d) {
-        return flow.velocity(c)[d];
+    table.add(
+      "seepage_velocity", dim, [&](const Index p, const Index, const Index d) {
+        return q[p / 3][d];
       });
-    add("material", 1, [&](const Index c, const Index, const Index) {
-      return static_cast<double>(triangles.material[c]);
+    table.add("material", 1, [&](const Index p, const Index, const Index) {
+      return static_cast<double>(material[p / 3]);
     });
     fields->write(table, path, time, comm);
   }
@@ -130,11 +110,8 @@ namespace geocone::GEOCONE_DIM
     scene.water.prepare_pressures(scene.geometry);
     scene.loading.prepare(scene.materials.names(), scene.tractions.names());
     scene.water.prepare_stages(scene.loading);
-    flow.emplace(scene, scene.water.seepage.levels(), comm);
-    flow->refine();
+    flow.emplace(scene, comm);
     steps = scene.water.flow_steps();
-    for (const Seepage::Step &step : steps)
-      flow->check(step.levels);
     return {};
   }
 
@@ -173,28 +150,7 @@ namespace geocone::GEOCONE_DIM
   {
     const Seepage::Step   &step = steps[results.size()];
     std::vector<FlowLevel> records;
-    stop_if_asked(comm);
-    if (step.duration > 0.)
-      {
-        flow->advance(step);
-        records.push_back(record_of(step.time));
-      }
-    else
-      {
-        if (!results.empty())
-          {
-            flow.emplace(scene, step.levels, comm);
-            flow->refine();
-          }
-        for (unsigned int level = 1;; ++level)
-          {
-            records.push_back(record_of(step.time));
-            if (level == flow->n_levels())
-              break;
-            stop_if_asked(comm);
-            flow->refine();
-          }
-      }
+    flow->solve(step, [&]() { records.push_back(record_of(step.time)); });
     results.push_back(flow->result());
     return records;
   }
@@ -215,7 +171,8 @@ namespace geocone::GEOCONE_DIM
   void
   SeepageSimulation::write_fields(const double t)
   {
-    seepage_output.write_fields(*flow, scene.water.weight(), t);
+    if (flow->is_solved())
+      seepage_output.write_fields(*flow, scene.water.weight(), t);
   }
 
   Json

@@ -167,7 +167,9 @@ namespace geocone::GEOCONE_DIM
   }
 
   std::vector<Seepage::Step>
-  Seepage::steps(const Stage &stage, const Levels &before) const
+  Seepage::steps(const Stage  &stage,
+                 const double  begin,
+                 const Levels &before) const
   {
     Levels after = before;
     for (const auto &[name, level] : stage.water_levels)
@@ -195,13 +197,16 @@ namespace geocone::GEOCONE_DIM
                        "0 where no water flows",
                        "name the boundaries of the flow in 'Seepage/Names'");
     if (stage.flow_steps == 0)
-      return stage.water_levels.empty() ? std::vector<Step>()
-                                        : std::vector<Step>{{after}};
+      return stage.water_levels.empty()
+               ? std::vector<Step>()
+               : std::vector<Step>{{after, 0., begin + stage.duration}};
     std::vector<Step> all;
     for (unsigned int k = 1; k <= stage.flow_steps; ++k)
       {
         const double part = double(k) / stage.flow_steps;
-        Step         step = {after, stage.duration / stage.flow_steps};
+        Step         step = {after,
+                             stage.duration / stage.flow_steps,
+                             begin + part * stage.duration};
         for (unsigned int b = 0; b < after.size(); ++b)
           if (before[b] && after[b])
             step.levels[b] = (1. - part) * *before[b] + part * *after[b];

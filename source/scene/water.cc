@@ -110,16 +110,18 @@ namespace geocone::GEOCONE_DIM
   Water::prepare_stages(const LoadingProgramme &loading)
   {
     later.clear();
-    double begin = 0.;
+    double          begin  = 0.;
+    Seepage::Levels levels = seepage.levels();
     for (const auto &stage : loading.list)
       {
-        const double end   = begin + stage->duration;
-        const auto   flows = seepage.steps(*stage, flow_steps().back().levels);
-        const double part =
-          stage->duration / std::max<double>(flows.size(), 1.);
-        for (unsigned int k = 0; k < flows.size(); ++k)
-          later.push_back(
-            {begin + k * part, begin + (k + 1) * part, {}, flows[k]});
+        const double end  = begin + stage->duration;
+        double       from = begin;
+        for (const Seepage::Step &flow : seepage.steps(*stage, begin, levels))
+          {
+            later.push_back({from, flow.time, {}, flow});
+            from   = flow.time;
+            levels = flow.levels;
+          }
         if (!stage->water_table.empty())
           {
             const std::string parameter =
@@ -151,10 +153,7 @@ namespace geocone::GEOCONE_DIM
   {
     std::vector<Seepage::Step> all = {{seepage.levels()}};
     for (const Later &of_stage : later)
-      {
-        all.push_back(of_stage.flow);
-        all.back().time = of_stage.end;
-      }
+      all.push_back(of_stage.flow);
     return all;
   }
 
@@ -169,8 +168,8 @@ namespace geocone::GEOCONE_DIM
     all[first] = 1.;
     for (std::size_t i = first; i < later.size() && t > later[i].begin; ++i)
       {
-        const double s = std::min(
-          (t - later[i].begin) / (later[i].end - later[i].begin), 1.);
+        const double s =
+          std::min((t - later[i].begin) / (later[i].end - later[i].begin), 1.);
         for (std::size_t k = first; k <= i; ++k)
           all[k] *= 1. - s;
         all[i + 1] = s;

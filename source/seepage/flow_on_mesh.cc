@@ -6,6 +6,7 @@
 #include <geocone/mesh/adapted_sizes.h>
 #include <geocone/mesh/fitted_mesh.h>
 #include <geocone/seepage/flow_on_mesh.h>
+#include <geocone/shapes/part_in_box.h>
 
 #include <deal.II/base/bounding_box.h>
 #include <deal.II/base/timer.h>
@@ -30,15 +31,17 @@ namespace geocone::GEOCONE_DIM
       std::vector<Point<dim>> ends;
       const Polygon          &outline = scene.geometry.outline;
       for (const auto &boundary : scene.water.seepage.list)
-        if (const auto corners = boundary->box_corners())
+        if (boundary->box_corners())
           for (std::size_t i = 0; i < outline.size(); ++i)
             {
-              const Point<dim> &a   = outline[i],
-                               &b   = outline[(i + 1) % outline.size()];
-              const auto [from, to] = interval_in_box(*corners, a, b);
-              for (const double at : {from, to})
-                if (from < to && at > 1e-6 && at < 1. - 1e-6)
-                  ends.push_back(a + at * (b - a));
+              const Point<dim> &a = outline[i],
+                               &b = outline[(i + 1) % outline.size()];
+              const auto   part   = part_in_box(*boundary->wide_box(), a, b);
+              const double least  = 1e-6 * a.distance(b);
+              if (part && (*part)[0].distance((*part)[1]) > least)
+                for (const Point<dim> &end : *part)
+                  if (end.distance(a) > least && end.distance(b) > least)
+                    ends.push_back(end);
             }
       return ends;
     }
@@ -63,22 +66,36 @@ namespace geocone::GEOCONE_DIM
         }
       return sizes;
     }
+
+    /** Permeability of each material, after a check of what else the flow needs of it. */
+    std::vector<dealii::SymmetricTensor<2, 2>>
+    permeability_of_materials(const Scene &scene)
+    {
+      std::vector<dealii::SymmetricTensor<2, 2>> all;
+      for (unsigned int m = 0; m < scene.materials.size(); ++m)
+        {
+          const ConstitutiveLaw &law = scene.materials.law(m);
+          all.push_back(law.permeability());
+          if (scene.water.flows_in_time())
+            law.drainable_porosity();
+        }
+      return all;
+    }
   } // namespace
 
-  FlowOnMesh::FlowOnMesh(const Scene           &scene,
-                         const Seepage::Levels &levels,
-                         const MPI_Comm         comm)
+  FlowOnMesh::FlowOnMesh(const Scene &scene, const MPI_Comm comm)
     : scene(scene)
-    , levels(levels)
     , comm(comm)
     , is_transient(scene.water.flows_in_time())
+    , permeability(permeability_of_materials(scene))
+    , first_mesh(mesh_with(equal_sizes(scene.geometry,
+                                       scene.water.seepage.n_cells /
+                                         std::pow(2., n_levels() - 1))))
+    , mesh(first_mesh)
   {
-    for (unsigned int m = 0; m < scene.materials.size(); ++m)
-      {
-        permeability.push_back(scene.materials.law(m).permeability());
-        if (is_transient)
-          scene.materials.law(m).drainable_porosity();
-      }
+    take(first_mesh);
+    for (const Seepage::Step &step : scene.water.flow_steps())
+      check(step.levels);
   }
 
   unsigned int
@@ -90,84 +107,128 @@ namespace geocone::GEOCONE_DIM
              : number_of_levels;
   }
 
-  void
-  FlowOnMesh::refine()
+  Triangles
+  FlowOnMesh::mesh_with(const CellSizes &sizes) const
   {
-    std::optional<TriangleField> last;
-    if (!mesh)
-      sizes =
-        equal_sizes(scene.geometry,
-                    scene.water.seepage.n_cells / std::pow(2., n_levels() - 1));
-    else
-      {
-        sizes = adapted_sizes(*mesh, jumps(), 2. * mesh->cells.size());
-        last.emplace(mesh->vertices, mesh->cells, steady.s);
-        discharge_before = discharge();
-      }
     MeshLines drains;
     for (const auto &boundary : scene.water.seepage.list)
       for (std::size_t i = 1; i < boundary->drain.size(); ++i)
         drains.push_back({{boundary->drain[i - 1], boundary->drain[i]}});
-    mesh.emplace(
+    return Triangles(
       triangles_of_body(scene, ends_of_boxes(scene), drains, sizes, comm));
-    solve(conditions(), start(mesh->vertices, last));
   }
 
   void
-  FlowOnMesh::solve(const FlowConditions &conditions, std::vector<double> start)
+  FlowOnMesh::take(const Triangles &next)
   {
-    std::vector<double> measure;
-    for (unsigned int c = 0; c < mesh->cells.size(); ++c)
-      measure.push_back(
-        Geometry::measure(scene.geometry.symmetry, mesh->centre(c)));
-    steady =
-      solve_flow(*mesh, permeability, measure, conditions, std::move(start));
+    mesh             = next;
+    const auto &list = scene.water.seepage.list;
+    boundary_of.assign(mesh.vertices.size(), -1);
+    boundary_of_edge.assign(mesh.edges.size(), -1);
+    for (unsigned int b = 0; b < list.size(); ++b)
+      for (const unsigned int e : edges_of(*list[b]))
+        {
+          boundary_of_edge[e] = b;
+          for (const unsigned int v : mesh.edges[e].vertices)
+            boundary_of[v] = b;
+        }
+    measure.clear();
+    drainable.assign(mesh.vertices.size(), 0.);
+    for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+      {
+        measure.push_back(
+          Geometry::measure(scene.geometry.symmetry, mesh.centre(c)));
+        if (is_transient)
+          for (const unsigned int v : mesh.cells[c])
+            drainable[v] +=
+              scene.materials.law(mesh.material[c]).drainable_porosity() *
+              mesh.area(c) / 3. * measure[c];
+      }
+  }
+
+  void
+  FlowOnMesh::solve(const Seepage::Step         &step,
+                    const std::function<void()> &after_mesh)
+  {
+    if (step.duration > 0.)
+      {
+        stop_if_asked(comm);
+        advance(step);
+        return after_mesh();
+      }
+    for (unsigned int level = 0; level < n_levels(); ++level)
+      {
+        stop_if_asked(comm);
+        if (level == 0)
+          solve_on_first_mesh(step.levels);
+        else
+          refine(step.levels);
+        after_mesh();
+      }
+  }
+
+  void
+  FlowOnMesh::solve_on_first_mesh(const Seepage::Levels &levels)
+  {
+    if (is_solved())
+      take(first_mesh);
+    discharge_before.reset();
+    rate_of_storage = 0.;
+    solve_on_mesh(conditions(levels), hydrostatic(levels));
+  }
+
+  void
+  FlowOnMesh::refine(const Seepage::Levels &levels)
+  {
+    const Triangles next =
+      mesh_with(adapted_sizes(mesh, jumps(), 2. * mesh.cells.size()));
+    const TriangleField last(mesh.vertices, mesh.cells, solution.s);
+    discharge_before = discharge();
+    take(next);
+    std::vector<double> start;
+    for (const Point<dim> &x : mesh.vertices)
+      start.push_back(last.value(x));
+    solve_on_mesh(conditions(levels), std::move(start));
+  }
+
+  void
+  FlowOnMesh::solve_on_mesh(const FlowConditions &conditions,
+                            std::vector<double>   start)
+  {
+    solution =
+      solve_flow(mesh, permeability, measure, conditions, std::move(start));
   }
 
   void
   FlowOnMesh::advance(const Seepage::Step &step)
   {
-    levels                 = step.levels;
     const double   before  = stored();
-    FlowConditions next    = conditions();
-    next.storage           = drainable();
+    FlowConditions next    = conditions(step.levels);
+    next.storage           = drainable;
     next.saturation_before = saturation();
     for (double &volume : next.storage)
       volume /= step.duration;
     discharge_before.reset();
-    solve(next, steady.s);
+    solve_on_mesh(next, solution.s);
     rate_of_storage = (stored() - before) / step.duration;
   }
 
   std::vector<double>
   FlowOnMesh::saturation() const
   {
-    std::vector<double> chi = steady.s;
+    std::vector<double> chi = solution.s;
     for (double &value : chi)
       value = 1. + std::min(value, 0.);
     return chi;
   }
 
-  std::vector<double>
-  FlowOnMesh::drainable() const
-  {
-    std::vector<double> volume(mesh->vertices.size(), 0.);
-    for (unsigned int c = 0; c < mesh->cells.size(); ++c)
-      for (const unsigned int v : mesh->cells[c])
-        volume[v] +=
-          scene.materials.law(mesh->material[c]).drainable_porosity() *
-          mesh->area(c) / 3. *
-          Geometry::measure(scene.geometry.symmetry, mesh->centre(c));
-    return volume;
-  }
-
   double
   FlowOnMesh::stored() const
   {
-    const std::vector<double> volume = drainable(), chi = saturation();
+    const std::vector<double> chi = saturation();
     double                    sum = 0.;
-    for (unsigned int v = 0; v < volume.size(); ++v)
-      sum += volume[v] * chi[v];
+    for (unsigned int v = 0; v < chi.size(); ++v)
+      sum += drainable[v] * chi[v];
     return sum;
   }
 
@@ -177,15 +238,15 @@ namespace geocone::GEOCONE_DIM
     std::vector<unsigned int> all;
     if (boundary.drain.empty())
       {
-        for (const auto &held : mesh->held_edges(boundary))
+        for (const auto &held : mesh.held_edges(boundary))
           all.push_back(held.edge);
         return all;
       }
-    for (unsigned int e = 0; e < mesh->edges.size(); ++e)
+    for (unsigned int e = 0; e < mesh.edges.size(); ++e)
       {
-        const auto &[a, b] = mesh->edges[e].vertices;
-        if (boundary.is_on_drain(mesh->vertices[a]) &&
-            boundary.is_on_drain(mesh->vertices[b]))
+        const auto &[a, b] = mesh.edges[e].vertices;
+        if (boundary.is_on_drain(mesh.vertices[a]) &&
+            boundary.is_on_drain(mesh.vertices[b]))
           all.push_back(e);
       }
     if (all.empty())
@@ -206,8 +267,8 @@ namespace geocone::GEOCONE_DIM
           const SeepageBoundary &boundary = *scene.water.seepage.list[b];
           double                 lowest   = std::numeric_limits<double>::max();
           for (const unsigned int e : edges_of(boundary))
-            for (const unsigned int v : mesh->edges[e].vertices)
-              lowest = std::min(lowest, mesh->vertices[v][1]);
+            for (const unsigned int v : mesh.edges[e].vertices)
+              lowest = std::min(lowest, mesh.vertices[v][1]);
           if (!(*levels[b] > lowest))
             throw InputError(boundary.parameter("Level"),
                              *levels[b],
@@ -219,22 +280,12 @@ namespace geocone::GEOCONE_DIM
   }
 
   FlowConditions
-  FlowOnMesh::conditions()
+  FlowOnMesh::conditions(const Seepage::Levels &levels) const
   {
     using Kind                = FlowConditions::Kind;
-    const unsigned int n      = mesh->vertices.size();
+    const unsigned int n      = mesh.vertices.size();
     const auto        &listed = scene.water.seepage.list;
-    boundary_of.assign(n, -1);
-    boundary_of_edge.assign(mesh->edges.size(), -1);
-    for (unsigned int b = 0; b < listed.size(); ++b)
-      for (const unsigned int e : edges_of(*listed[b]))
-        {
-          boundary_of_edge[e] = b;
-          for (const unsigned int v : mesh->edges[e].vertices)
-            boundary_of[v] = b;
-        }
-    check(levels);
-    FlowConditions all;
+    FlowConditions     all;
     all.kind.assign(n, Kind::none);
     all.head.assign(n, 0.);
     all.rain.assign(n, 0.);
@@ -244,16 +295,16 @@ namespace geocone::GEOCONE_DIM
           const auto &level = levels[boundary_of[v]];
           all.kind[v]       = Kind::seepage_face;
           if (level)
-            all.head[v] = *level - mesh->vertices[v][1];
-          if (all.head[v] > 1e-9 * (1. + std::abs(mesh->vertices[v][1])))
+            all.head[v] = *level - mesh.vertices[v][1];
+          if (all.head[v] > 1e-9 * (1. + std::abs(mesh.vertices[v][1])))
             all.kind[v] = Kind::head;
         }
-    for (unsigned int e = 0; e < mesh->edges.size(); ++e)
+    for (unsigned int e = 0; e < mesh.edges.size(); ++e)
       if (boundary_of_edge[e] >= 0)
         {
-          const auto       &ends = mesh->edges[e].vertices;
-          const Point<dim> &a    = mesh->vertices[ends[0]],
-                           &b    = mesh->vertices[ends[1]];
+          const auto       &ends = mesh.edges[e].vertices;
+          const Point<dim> &a    = mesh.vertices[ends[0]],
+                           &b    = mesh.vertices[ends[1]];
           const double flow =
             listed[boundary_of_edge[e]]->rain * std::abs(b[0] - a[0]) *
             Geometry::measure(scene.geometry.symmetry, a + 0.5 * (b - a));
@@ -264,87 +315,95 @@ namespace geocone::GEOCONE_DIM
   }
 
   std::vector<double>
-  FlowOnMesh::start(const std::vector<Point<dim>>      &vertices,
-                    const std::optional<TriangleField> &last) const
+  FlowOnMesh::hydrostatic(const Seepage::Levels &levels) const
   {
     double highest = std::numeric_limits<double>::lowest();
     for (const auto &level : levels)
       highest = std::max(highest, level.value_or(highest));
     std::vector<double> s;
-    for (const Point<dim> &x : vertices)
-      s.push_back(last ? last->value(x) : std::max(highest - x[1], -0.5));
+    for (const Point<dim> &x : mesh.vertices)
+      s.push_back(std::max(highest - x[1], -0.5));
     return s;
+  }
+
+  std::vector<Tensor<1, dim>>
+  FlowOnMesh::velocities() const
+  {
+    std::vector<Tensor<1, dim>> q;
+    for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+      q.push_back(darcy_velocity(mesh, permeability, solution, c));
+    return q;
   }
 
   std::vector<double>
   FlowOnMesh::jumps() const
   {
-    std::vector<double> jump(mesh->edges.size(), 0.);
+    const auto          q = velocities();
+    std::vector<double> jump(mesh.edges.size(), 0.);
     std::vector<double> stiffness(jump.size(), 0.);
-    const auto          on_edges = [&](const auto &f) {
-      for (unsigned int c = 0; c < mesh->cells.size(); ++c)
+    for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+      {
+        const auto g = mesh.gradients(c);
         for (unsigned int i = 0; i < 3; ++i)
-          f(c, i, mesh->edges_of_cell[c][i]);
-    };
-    on_edges(
-      [&](const unsigned int c, const unsigned int i, const unsigned int e) {
-        const Tensor<1, dim> g = mesh->gradients(c)[i];
-        jump[e] += velocity(c) * g / g.norm();
-        stiffness[e] += trace(permeability[mesh->material[c]]);
-      });
-    std::vector<double> error(mesh->cells.size(), 0.);
-    on_edges(
-      [&](const unsigned int c, const unsigned int, const unsigned int e) {
+          {
+            const unsigned int e = mesh.edges_of_cell[c][i];
+            jump[e] += q[c] * g[i] / g[i].norm();
+            stiffness[e] += trace(permeability[mesh.material[c]]);
+          }
+      }
+    std::vector<double> error(mesh.cells.size(), 0.);
+    for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+      for (const unsigned int e : mesh.edges_of_cell[c])
         if (boundary_of_edge[e] < 0)
           {
-            const auto  &ends = mesh->edges[e].vertices;
+            const auto  &ends = mesh.edges[e].vertices;
             const double length =
-              mesh->vertices[ends[0]].distance(mesh->vertices[ends[1]]);
+              mesh.vertices[ends[0]].distance(mesh.vertices[ends[1]]);
             error[c] += length * length * jump[e] * jump[e] / stiffness[e];
           }
-      });
     return error;
   }
 
   Water::Flow
   FlowOnMesh::result() const
   {
-    std::vector<double> pressure = steady.head, size(pressure.size(), 0.);
+    std::vector<double> pressure = solution.head, size(pressure.size(), 0.);
     for (double &u : pressure)
       u *= scene.water.weight();
-    for (unsigned int c = 0; c < mesh->cells.size(); ++c)
-      for (const unsigned int v : mesh->cells[c])
-        size[v] = std::max(size[v], std::sqrt(mesh->area(c)));
+    for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+      for (const unsigned int v : mesh.cells[c])
+        size[v] = std::max(size[v], std::sqrt(mesh.area(c)));
     // Height above the free surface of unsaturated vertices: half a cell.
     const auto depth = [&](const unsigned int v) {
-      return steady.head[v] > 0. ? steady.head[v]
-                                 : (steady.saturation[v] - 1.) / 2. * size[v];
+      return solution.head[v] > 0.
+               ? solution.head[v]
+               : (solution.saturation[v] - 1.) / 2. * size[v];
     };
     std::vector<std::array<Point<dim>, 2>> surface;
-    for (const auto &cell : mesh->cells)
+    for (const auto &cell : mesh.cells)
       {
         std::vector<Point<dim>> ends;
         for (unsigned int i = 0; i < 3; ++i)
           {
             const unsigned int a = cell[i], b = cell[(i + 1) % 3];
             if ((depth(a) > 0.) != (depth(b) > 0.))
-              ends.push_back(mesh->vertices[a] +
+              ends.push_back(mesh.vertices[a] +
                              depth(a) / (depth(a) - depth(b)) *
-                               (mesh->vertices[b] - mesh->vertices[a]));
+                               (mesh.vertices[b] - mesh.vertices[a]));
           }
         if (ends.size() == 2)
           surface.push_back({{ends[0], ends[1]}});
       }
-    return {{mesh->vertices, mesh->cells, pressure}, surface};
+    return {{mesh.vertices, mesh.cells, pressure}, surface};
   }
 
   std::vector<double>
   FlowOnMesh::inflows() const
   {
-    std::vector<double> all(levels.size(), 0.);
-    for (unsigned int v = 0; v < boundary_of.size(); ++v)
+    std::vector<double> all(scene.water.seepage.list.size(), 0.);
+    for (unsigned int v = 0; is_solved() && v < boundary_of.size(); ++v)
       if (boundary_of[v] >= 0)
-        all[boundary_of[v]] += steady.inflow[v];
+        all[boundary_of[v]] += solution.inflow[v];
     return all;
   }
 
@@ -377,7 +436,7 @@ namespace geocone::GEOCONE_DIM
   bool
   FlowOnMesh::flows() const
   {
-    const dealii::BoundingBox<dim> body(mesh->vertices);
+    const dealii::BoundingBox<dim> body(mesh.vertices);
     double                         largest = 0.;
     for (const auto &k : permeability)
       largest = std::max(largest, trace(k));
@@ -392,7 +451,7 @@ namespace geocone::GEOCONE_DIM
            " through the body" +
            (change ? format(" (%+.2g %% from the mesh before)", 100. * *change)
                    : "") +
-           format(", %u iterations", steady.iterations);
+           format(", %u iterations", solution.iterations);
   }
 
   void
@@ -404,35 +463,25 @@ namespace geocone::GEOCONE_DIM
   {
     if (!scene.water.seepage.acts())
       return;
-    const auto                steps = scene.water.flow_steps();
-    std::vector<Water::Flow>  flows;
-    std::optional<FlowOnMesh> flow;
-    for (const Seepage::Step &step : steps)
+    const auto               steps = scene.water.flow_steps();
+    FlowOnMesh               flow(scene, comm);
+    std::vector<Water::Flow> flows;
+    if (dry_run) // the first flow on the first mesh stands for all
       {
-        stop_if_asked(comm);
-        if (step.duration > 0.)
-          flow->advance(step);
-        else
-          {
-            dealii::Timer timer;
-            flow.emplace(scene, step.levels, comm);
-            flow->refine();
-            if (flows.empty())
-              for (const Seepage::Step &later : steps)
-                flow->check(later.levels);
-            if (dry_run) // the first flow on the first mesh stands for all
-              {
-                flows.assign(steps.size(), flow->result());
-                break;
-              }
-            for (unsigned int level = 1; level < flow->n_levels(); ++level)
-              flow->refine();
-            log.print(format("seepage: %zu triangles, ",
-                             flow->triangles().cells.size()) +
-                      flow->text() + format("; %.2g s", timer.cpu_time()));
-          }
-        flows.push_back(flow->result());
+        flow.solve_on_first_mesh(steps.front().levels);
+        flows.assign(steps.size(), flow.result());
       }
+    else
+      for (const Seepage::Step &step : steps)
+        {
+          dealii::Timer timer;
+          flow.solve(step);
+          if (step.duration == 0.)
+            log.print(format("seepage: %zu triangles, ",
+                             flow.triangles().cells.size()) +
+                      flow.text() + format("; %.2g s", timer.cpu_time()));
+          flows.push_back(flow.result());
+        }
     scene.water.set_flows(std::move(flows), time);
   }
 } // namespace geocone::GEOCONE_DIM

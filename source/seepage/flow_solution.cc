@@ -90,15 +90,15 @@ namespace geocone::GEOCONE_DIM
         set_values(s);
         for (unsigned int e = 0; e < edges.size(); ++e)
           {
-            const auto [i, j]   = edges[e].vertices;
-            const double head   = values[j].psi - values[i].psi,
-                         height = y[j] - y[i],
-                         flow   = conductance[e] *
-                                (head + values[upstream(e)].chi * height);
+            const auto [i, j] = edges[e].vertices;
+            const double head = values[j].psi - values[i].psi,
+                         rise = y[j] - y[i],
+                         flow = conductance[e] *
+                                (head + values[upstream(e)].chi * rise);
             r[i] += flow;
             r[j] -= flow;
             const double size =
-              std::abs(conductance[e]) * (std::abs(head) + std::abs(height));
+              std::abs(conductance[e]) * (std::abs(head) + std::abs(rise));
             scale[i] += size;
             scale[j] += size;
           }

@@ -14,13 +14,6 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Part of the segment from a to b in a box with these corners, as coordinates from 0
-   *  at a to 1 at b; empty if the first one is not smaller. */
-  std::array<double, 2>
-  interval_in_box(const std::array<dealii::Point<dim>, 2> &corners,
-                  const dealii::Point<dim>                &a,
-                  const dealii::Point<dim>                &b);
-
   /** Triangles of a mesh as plain arrays. */
   struct Triangles
   {

@@ -74,10 +74,10 @@ namespace geocone::GEOCONE_DIM
     Levels
     levels() const;
 
-    /** Flows of a stage after one with the levels @p before; none where it changes
-     *  nothing. @throws InputError for unknown names */
+    /** Flows of a stage that begins at a time with the levels @p before; none where it
+     *  changes nothing. @throws InputError for unknown names */
     std::vector<Step>
-    steps(const Stage &stage, const Levels &before) const;
+    steps(const Stage &stage, const double begin, const Levels &before) const;
 
     /** Number of triangles of the finest mesh. */
     unsigned int n_cells = 5000;

@@ -25,7 +25,7 @@ namespace geocone::GEOCONE_DIM
    * Pore water at rest below a piezometric line y = Y(x), uniform along z in
    * three dimensions, with the pressure
    *   u = gamma_w max(0, Y(x) - y),
-   * or with pressures of a steady flow (Seepage), or given by a file
+   * or with pressures of a flow (Seepage), or given by a file
    * (PressureGrid). Stresses are effective, s' = s + u 1 (tension positive), so that
    *   div s' + rho g - grad u = 0,
    * where rho is the density of the soil including its water. Where the line
@@ -76,7 +76,7 @@ namespace geocone::GEOCONE_DIM
     std::vector<Seepage::Step>
     flow_steps() const;
 
-    /** Pore pressures of a steady flow, and its free surface. */
+    /** Pore pressures of a flow, and its free surface. */
     struct Flow
     {
       TriangleField                                  pressure; ///< (Pa)

@@ -10,44 +10,47 @@
 #include <geocone/scene/scene.h>
 #include <geocone/seepage/flow_solution.h>
 
+#include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Steady flow through the body of a scene on meshes that are refined at the free
-   *  surface and where the velocity changes. */
+  /** Flow through the body of a scene: steady on meshes that are refined at the free
+   *  surface and where the velocity changes, transient on one mesh. */
   class FlowOnMesh
   {
   public:
-    /** @param levels of the open water at the boundaries
-     *  @throws InputError if a material has no permeability */
-    FlowOnMesh(const Scene           &scene,
-               const Seepage::Levels &levels,
-               const MPI_Comm         comm);
+    /** Makes the first mesh. Collective.
+     *  @throws InputError for materials without a permeability, or a porosity where it
+     *  is needed, and for levels of any step that are not above their sides */
+    FlowOnMesh(const Scene &scene, const MPI_Comm comm);
 
-    /** @throws InputError for a level that is not above the lowest point of its side on
-     *  the present mesh */
+    /** Solves a steady flow on all meshes, or a step of a transient flow on the present
+     *  one. Collective.
+     *  @param after_mesh called after each mesh
+     *  @throws RunError, Stopped */
     void
-    check(const Seepage::Levels &levels) const;
+    solve(
+      const Seepage::Step         &step,
+      const std::function<void()> &after_mesh = []() {});
 
-    /** Solves a step of a transient flow on the present mesh. @throws RunError */
+    /** Solves a steady flow on the first mesh only. @throws RunError */
     void
-    advance(const Seepage::Step &step);
+    solve_on_first_mesh(const Seepage::Levels &levels);
 
-    /** Water above that which cannot drain (m^2; m^3 in axisymmetry). @pre drainable
-     *  porosities are given */
+    /** Whether there is a flow on the present mesh. */
+    bool
+    is_solved() const
+    {
+      return solution.s.size() == mesh.vertices.size();
+    }
+
+    /** Drainable water in the body (m^2; m^3 in axisymmetry). @pre drainable porosities
+     *  are given */
     double
     stored() const;
-
-    /** Number of meshes. */
-    unsigned int
-    n_levels() const;
-
-    /** Solves the flow on the first mesh, or on one with twice as many triangles as the
-     *  last. Collective. @throws InputError, RunError */
-    void
-    refine();
 
     /** Pore pressures and free surface. */
     Water::Flow
@@ -56,21 +59,18 @@ namespace geocone::GEOCONE_DIM
     const Triangles &
     triangles() const
     {
-      return *mesh;
+      return mesh;
     }
 
     const FlowSolution &
     flow() const
     {
-      return steady;
+      return solution;
     }
 
-    /** Darcy velocity of a cell (m/s). */
-    dealii::Tensor<1, dim>
-    velocity(const unsigned int cell) const
-    {
-      return darcy_velocity(*mesh, permeability, steady, cell);
-    }
+    /** Darcy velocity of each cell (m/s). */
+    std::vector<dealii::Tensor<1, dim>>
+    velocities() const;
 
     /** Flow into the body through each boundary of the list (m^2/s; m^3/s in
      *  axisymmetry). */
@@ -82,7 +82,8 @@ namespace geocone::GEOCONE_DIM
     double
     discharge() const;
 
-    /** Relative change of the discharge from the mesh before; none on the first mesh. */
+    /** Relative change of the discharge from the mesh before; none on the first mesh, and
+     *  in transient flow. */
     std::optional<double>
     change() const;
 
@@ -100,12 +101,42 @@ namespace geocone::GEOCONE_DIM
     text() const;
 
   private:
+    unsigned int
+    n_levels() const;
+
+    /** Takes a mesh, and finds its boundaries and the volumes of its vertices. */
+    void
+    take(const Triangles &next);
+
+    /** Mesh of triangles with these sizes. Collective. */
+    Triangles
+    mesh_with(const CellSizes &sizes) const;
+
     /** Edges of the mesh at a boundary or a drain. @throws InputError if there are none */
     std::vector<unsigned int>
     edges_of(const SeepageBoundary &boundary) const;
 
+    /** @throws InputError for a level that is not above the lowest point of its side */
+    void
+    check(const Seepage::Levels &levels) const;
+
     FlowConditions
-    conditions();
+    conditions(const Seepage::Levels &levels) const;
+
+    void
+    solve_on_mesh(const FlowConditions &conditions, std::vector<double> start);
+
+    /** Start of Newton's method: hydrostatic pressures below the highest level. */
+    std::vector<double>
+    hydrostatic(const Seepage::Levels &levels) const;
+
+    /** Goes on with a mesh of twice as many triangles. Collective. */
+    void
+    refine(const Seepage::Levels &levels);
+
+    /** Solves a step of a transient flow. */
+    void
+    advance(const Seepage::Step &step);
 
     /** Contribution of each cell to the error: jumps of the normal velocity. */
     std::vector<double>
@@ -115,29 +146,22 @@ namespace geocone::GEOCONE_DIM
     std::vector<double>
     saturation() const;
 
-    /** Drainable volume of each vertex (m^2). */
-    std::vector<double>
-    drainable() const;
-
-    /** Solves the flow on the present mesh. */
-    void
-    solve(const FlowConditions &conditions, std::vector<double> start);
-
-    /** Start of Newton's method: from the last mesh, or hydrostatic pressures. */
-    std::vector<double>
-    start(const std::vector<dealii::Point<dim>> &vertices,
-          const std::optional<TriangleField>    &last) const;
-
     const Scene                               &scene;
-    Seepage::Levels                            levels;
     const MPI_Comm                             comm;
     const bool                                 is_transient; ///< now or later
     std::vector<dealii::SymmetricTensor<2, 2>> permeability;
-    CellSizes                                  sizes;
-    std::optional<Triangles>                   mesh;
-    FlowSolution                               steady;
-    std::vector<int>      boundary_of; ///< of each vertex, or -1
-    std::vector<int>      boundary_of_edge;
+    Triangles                                  first_mesh;
+
+    /** @name The present mesh */
+    /** @{ */
+    Triangles           mesh;
+    std::vector<double> measure;     ///< factor of the area of each cell
+    std::vector<int>    boundary_of; ///< of each vertex, or -1
+    std::vector<int>    boundary_of_edge;
+    std::vector<double> drainable; ///< volume of each vertex (m^2)
+    /** @} */
+
+    FlowSolution          solution;
     std::optional<double> discharge_before;
     double                rate_of_storage = 0.; ///< (m^2/s)
   };
