@@ -157,21 +157,19 @@ namespace geocone::GEOCONE_DIM
   void
   RunOutput::add_structure_columns()
   {
-    unsigned int bar = 0; // over all structures
-    for (const auto &structure : scene->structures.list)
-      for (unsigned int i = 0; i + 1 < structure->points.size(); ++i, ++bar)
-        {
-          const std::string name  = structure->name_of_bar(i);
-          const auto        state = [bar](const Record &r) -> const BarState        &{
-            return r.last.bars[bar];
-          };
-          add("axial force " + name + " (N/m)",
-              [state](const Record &r) { return state(r).force; });
-          add("elongation " + name + " (m)",
-              [state](const Record &r) { return state(r).elongation; });
-          add("yields " + name + " (-)",
-              [state](const Record &r) { return state(r).yields; });
-        }
+    const auto names = scene->structures.names_of_bars();
+    for (unsigned int bar = 0; bar < names.size(); ++bar)
+      {
+        const auto state = [bar](const Record &r) -> const BarState & {
+          return r.last.bars[bar];
+        };
+        add("axial force " + names[bar] + " (N/m)",
+            [state](const Record &r) { return state(r).force; });
+        add("elongation " + names[bar] + " (m)",
+            [state](const Record &r) { return state(r).elongation; });
+        add("yields " + names[bar] + " (-)",
+            [state](const Record &r) { return state(r).yields; });
+      }
   }
 
   void

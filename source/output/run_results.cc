@@ -101,27 +101,25 @@ namespace geocone::GEOCONE_DIM
   Json
   RunOutput::structures() const
   {
-    Json         json;
-    unsigned int bar = 0; // over all structures
-    for (const auto &structure : scene->structures.list)
-      for (unsigned int i = 0; i + 1 < structure->points.size(); ++i, ++bar)
-        {
-          const BarState &last = records.back().last.bars[bar];
-          double          most = last.force, least = last.force;
-          for (const ImplicitRecord &record : records)
-            {
-              most  = std::max(most, record.last.bars[bar].force);
-              least = std::min(least, record.last.bars[bar].force);
-            }
-          std::string name = structure->name_of_bar(i) + "_";
-          std::replace(name.begin(), name.end(), ' ', '_');
-          json[name + "force_N_per_m"]        = last.force;
-          json[name + "force_most_N_per_m"]   = most;
-          json[name + "force_least_N_per_m"]  = least;
-          json[name + "elongation_m"]         = last.elongation;
-          json[name + "plastic_elongation_m"] = last.plastic;
-          json[name + "yields"]               = last.yields;
-        }
+    Json       json;
+    const auto names = scene->structures.names_of_bars();
+    for (unsigned int bar = 0; bar < names.size(); ++bar)
+      {
+        const BarState &last = records.back().last.bars[bar];
+        double          most = last.force, least = last.force;
+        for (const ImplicitRecord &record : records)
+          {
+            most  = std::max(most, record.last.bars[bar].force);
+            least = std::min(least, record.last.bars[bar].force);
+          }
+        const std::string key            = Structures::key_of(names[bar]) + "_";
+        json[key + "force_N_per_m"]      = last.force;
+        json[key + "force_most_N_per_m"] = most;
+        json[key + "force_least_N_per_m"]  = least;
+        json[key + "elongation_m"]         = last.elongation;
+        json[key + "plastic_elongation_m"] = last.plastic;
+        json[key + "yields"]               = last.yields;
+      }
     return json;
   }
 

@@ -115,6 +115,17 @@ namespace geocone::GEOCONE_DIM
                          "check the spelling");
   }
 
+  std::vector<std::string>
+  Structure::names_of_bars() const
+  {
+    if (points.size() == 2)
+      return {name};
+    std::vector<std::string> names;
+    for (std::size_t i = 1; i < points.size(); ++i)
+      names.push_back(name + " " + std::to_string(i));
+    return names;
+  }
+
   Structures::Structures(const ParameterFile &file)
     : NamedList(file,
                 "Structures",
@@ -132,24 +143,38 @@ namespace geocone::GEOCONE_DIM
       refuse("'Geometry/Dimension' = 3", "take a section in plane strain");
     if (!list.empty())
       geometry.refuse_axis("'Structures/Names'", "leave it out");
-    // Bars are told apart by their names in results, where blanks are underscores.
-    std::vector<std::string> names;
+    std::vector<std::string> keys;
     for (const auto &structure : list)
       {
         structure->prepare(stages);
-        for (std::size_t i = 0; i + 1 < structure->points.size(); ++i)
+        for (const std::string &bar : structure->names_of_bars())
           {
-            std::string bar = structure->name_of_bar(i);
-            std::replace(bar.begin(), bar.end(), ' ', '_');
-            if (std::count(names.begin(), names.end(), bar) > 0)
+            if (std::count(keys.begin(), keys.end(), key_of(bar)) > 0)
               throw InputError(parameter(),
                                structure->name,
                                "names that differ in results, where bars of a "
                                "geogrid are numbered and blanks are "
                                "underscores",
                                "rename it");
-            names.push_back(bar);
+            keys.push_back(key_of(bar));
           }
       }
+  }
+
+  std::vector<std::string>
+  Structures::names_of_bars() const
+  {
+    std::vector<std::string> all;
+    for (const auto &structure : list)
+      for (const std::string &name : structure->names_of_bars())
+        all.push_back(name);
+    return all;
+  }
+
+  std::string
+  Structures::key_of(std::string name)
+  {
+    std::replace(name.begin(), name.end(), ' ', '_');
+    return name;
   }
 } // namespace geocone::GEOCONE_DIM

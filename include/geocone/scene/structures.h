@@ -57,13 +57,9 @@ namespace geocone::GEOCONE_DIM
       return stages;
     }
 
-    /** Name of a bar in results. */
-    std::string
-    name_of_bar(const unsigned int number) const
-    {
-      return points.size() == 2 ? name
-                                : name + " " + std::to_string(number + 1);
-    }
+    /** Names of its bars in results. */
+    std::vector<std::string>
+    names_of_bars() const;
 
     /** Word of its type. */
     std::string
@@ -110,6 +106,14 @@ namespace geocone::GEOCONE_DIM
     /** @param stages their names */
     void
     prepare(const Geometry &geometry, const std::vector<std::string> &stages);
+
+    /** Names of the bars of all structures, in order. */
+    std::vector<std::string>
+    names_of_bars() const;
+
+    /** A name as a part of a key of summary.json, without blanks. */
+    static std::string
+    key_of(std::string name);
   };
 } // namespace geocone::GEOCONE_DIM
 
