@@ -20,6 +20,9 @@ namespace geocone::GEOCONE_DIM
      *  and in three dimensions 13, 23. */
     constexpr int place_in_mandel[6] = {0, 1, 3, 2, 5, 4};
 
+    /** Number of values behind those of a law, which show that it uses more. */
+    constexpr unsigned int n_guards = 64;
+
     /** Factor of a Mandel component over that of a UMAT's stress, or of a
      *  UMAT's strain over the Mandel component. */
     double
@@ -128,7 +131,10 @@ namespace geocone::GEOCONE_DIM
                                            parameter("Library"),
                                            "the file of a shared object (.so)");
     umat                   = load_umat(file, function, parameter());
-    name                   = parameter().substr(parameter().rfind('/') + 1);
+    props                  = constants;
+    props.resize(constants.size() + n_guards,
+                 std::numeric_limits<double>::quiet_NaN());
+    name = parameter().substr(parameter().rfind('/') + 1);
     std::transform(name.begin(), name.end(), name.begin(), [](const char c) {
       return std::toupper(static_cast<unsigned char>(c));
     });
@@ -229,16 +235,12 @@ namespace geocone::GEOCONE_DIM
     const std::array<double, 9> rotation =
       rotation_of_spin(history_n + place_of_spin());
 
-    // Guards behind the arrays show a law that uses more values than are given.
-    constexpr unsigned int           n_guards = 64;
-    constexpr double                 guard    = -7.2e302;
-    thread_local std::vector<double> variables, props;
+    // Guards behind the values show a law that writes more of them.
+    constexpr double                 guard = -7.2e302;
+    thread_local std::vector<double> variables;
     variables.assign(history_n + place_of_state(),
                      history_n + place_of_state() + n_state);
     variables.resize(n_state + n_guards, guard);
-    props = constants;
-    props.resize(constants.size() + n_guards,
-                 std::numeric_limits<double>::quiet_NaN());
     const int n_variables = n_state, n_constants = constants.size();
     double    sse = 0., spd = 0., scd = 0., rpl = 0., drpldt = 0., pnewdt = 1.;
     umat(s.data(),
@@ -282,7 +284,7 @@ namespace geocone::GEOCONE_DIM
     if (std::any_of(variables.begin() + n_state,
                     variables.end(),
                     [](const double value) { return value != guard; }))
-      throw RunError("the law '" + name +
+      throw RunError("the law of '" + parameter() +
                      "' writes more state variables than " +
                      std::to_string(n_state) + "\n  remedy:  raise '" +
                      parameter("Number of state variables") + "'");

@@ -133,6 +133,7 @@ namespace geocone::GEOCONE_DIM
     std::string         library;
     std::string         function = "umat";
     std::vector<double> constants;
+    std::vector<double> props; ///< the constants, followed by NaN
     unsigned int        n_state = 0;
     std::vector<double> state; ///< initial values, or empty
     std::string         name;  ///< CMNAME, 80 characters
