@@ -1,6 +1,7 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <geocone/base/constants.h>
 #include <geocone/base/log.h>
 #include <geocone/cone/second_order_cone.h>
 #include <geocone/limit_analysis/gradients.h>
@@ -16,8 +17,6 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    constexpr double degree = 3.14159265358979323846 / 180.;
-
     /** Derivatives of a point's dissipation with respect to its cone's k and opening, in
      *  which it is linear. */
     std::array<double, 2>
@@ -249,8 +248,8 @@ namespace geocone::GEOCONE_DIM
                });
       if (const double tan_phi = strength.tan_phi; tan_phi > 0.)
         {
-          const double phi  = std::atan(tan_phi) / degree,
-                       rate = (1. + tan_phi * tan_phi) * degree;
+          const double phi  = std::atan(tan_phi) / radians(1.),
+                       rate = (1. + tan_phi * tan_phi) * radians(1.);
           to.add(
             {{"materials", name, "friction_angle"}},
             "degree",

@@ -159,7 +159,7 @@ namespace geocone
       throw InputError(parameter,
                        folder,
                        "the folder of a run that has not finished",
-                       "nothing is left to do: its results are whole");
+                       "nothing is left to do: its results are complete");
     throw InputError(
       parameter,
       folder,

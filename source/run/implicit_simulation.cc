@@ -186,7 +186,7 @@ namespace geocone::GEOCONE_DIM
           "Mesh/Type = from the bounds",
           "bounds are those of drained strength: take another mesh");
         scene.structures.refuse("'Mesh/Type' = from the bounds",
-                                "bounds do not know them: take another mesh");
+                                "bounds do not support them: take another mesh");
         auto [sizes, bracket] = sizes_of_scene(parameters, scene, comm, log);
         if (scene.loading.reduces_strength())
           bracket.name = "the factor of all loads at full strength";

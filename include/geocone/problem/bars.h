@@ -52,7 +52,7 @@ namespace geocone::GEOCONE_DIM
 
     /** Installs and removes bars at the beginning of a stage, and sets the step
      *  size h (s) and the rows along rotated dofs. Collective.
-     *  @throws StepFailure if a bar is tied to a part that is not there */
+     *  @throws RunError if a bar is tied to a removed part of the body */
     void
     begin_step(const std::string &stage,
                const double       h,
