@@ -3,6 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/parameter_reference.h>
+#include <geocone/base/renamed_parameters.h>
 #include <geocone/base/types.h>
 #include <geocone/base/unused_parameters.h>
 #include <geocone/command_line.h>
@@ -250,9 +251,10 @@ namespace geocone::GEOCONE_DIM
           options.resumes = true;
           options.folder  = *call.resumed;
         }
-      if (const std::string unused = unused_parameters(settings);
-          !unused.empty() && !call.resumed)
-        log.warn(unused);
+      for (const std::string &warning :
+           {former_names(settings), unused_parameters(settings)})
+        if (!warning.empty() && !call.resumed)
+          log.warn(warning);
       Simulation &simulation = methods.chosen();
       bool        ok         = false;
       const auto  draw_later = [&]() {

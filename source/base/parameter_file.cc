@@ -4,6 +4,7 @@
 #include <geocone/base/declared_parameters.h>
 #include <geocone/base/exceptions.h>
 #include <geocone/base/parameter_file.h>
+#include <geocone/base/renamed_parameters.h>
 #include <geocone/base/units.h>
 
 #include <deal.II/base/exceptions.h>
@@ -397,10 +398,16 @@ namespace geocone
           {
             const std::size_t equals = line.text.find('=');
             if (left_out == 0)
-              all.push_back({path,
-                             trim(line.text.substr(4, equals - 4)),
-                             trim(line.text.substr(equals + 1)),
-                             &line});
+              {
+                const std::string written =
+                                    trim(line.text.substr(4, equals - 4)),
+                                  name = present_name(path, written);
+                all.push_back({path,
+                               name,
+                               trim(line.text.substr(equals + 1)),
+                               &line,
+                               name == written ? "" : written});
+              }
           }
         else if (checks)
           throw InputError(line.place() + ": '" + printable(line.text) +
@@ -535,8 +542,11 @@ namespace geocone
             if (set.sections.size() == 2 && others != of_others.end() &&
                 others->second.count(set.name) > 0)
               {
-                settings[path] = {
-                  path, set.value, "", others->second.at(set.name)};
+                settings[path] = {path,
+                                  set.value,
+                                  "",
+                                  others->second.at(set.name),
+                                  set.former_name};
                 continue;
               }
             if (path == "Geometry/Run gmsh script")
@@ -563,7 +573,8 @@ namespace geocone
           }
         set_value(
           set.sections, set.name, set.value, entry->second, set.line->place());
-        settings[path] = {path, set.value, entry->second.default_value, ""};
+        settings[path] = {
+          path, set.value, entry->second.default_value, "", set.former_name};
       }
     if (mass_unit() != 1.)
       convert_defaults(

@@ -3,6 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
+#include <geocone/base/renamed_parameters.h>
 #include <geocone/base/types.h>
 #include <geocone/materials/subloading.h>
 
@@ -14,6 +15,9 @@ namespace geocone::GEOCONE_DIM
   namespace
   {
     using Constants = SubloadingConstants;
+
+    const RenamedParameter
+      renamed_tensors("Materials/*", "Show tensors", "Output tensors");
 
     /** A constant of the model as a parameter. */
     struct Constant
@@ -225,7 +229,7 @@ namespace geocone::GEOCONE_DIM
     add_parameter("Initial structure ratio",
                   initial_Rb,
                   "Initial structure ratio Rb [-], >= Rbf.");
-    add_parameter("Show tensors",
+    add_parameter("Output tensors",
                   show_tensors,
                   "Whether fields and tables also contain the components of "
                   "the similarity centre a (Pa) and the inclination beta (-).");

@@ -41,6 +41,8 @@ namespace geocone
       std::string value; ///< as text
       std::string default_value;
       std::string of_other; ///< kind of object that would use it
+      std::string
+        former_name; ///< name in the file, if it is not the present one
     };
 
     /** An empty file: all parameters keep their defaults. */
@@ -141,6 +143,7 @@ namespace geocone
       std::vector<std::string> sections;
       std::string              name, value;
       const Line              *line;
+      std::string              former_name; ///< in the file; empty: name
     };
 
     void

@@ -27,7 +27,7 @@ CONSTANTS = {
     "Pore fluid bulk modulus": ("Kw/n", "MPa", 1e6)}
 # Settings of a material that describe where it is or how it is computed.
 SETTINGS = ("Type", "Region polygon", "Region number", "Region below", "Points",
-            "Friction memory", "Show tensors", "Stress outside", "Error tolerance",
+            "Friction memory", "Output tensors", "Stress outside", "Error tolerance",
             "Smallest substep", "Lowest pressure")
 
 
