@@ -93,7 +93,7 @@ namespace geocone::GEOCONE_DIM
             "Pore fluid bulk modulus",
             pore_fluid,
             ">= 0 Pa, finite",
-            "water has 2.2e9 Pa; 0 is drained soil");
+            "water has 2.2 GPa; 0 is drained soil");
   }
 
   dealii::SymmetricTensor<2, 2>

@@ -83,8 +83,10 @@ namespace geocone
         "dilatancy; more dilatancy than friction would create "
         "energy");
     if (!(c >= 0.))
-      throw InputError(
-        section + "/Cohesion", c, "c >= 0 Pa", "give the cohesion in Pa");
+      throw InputError(section + "/Cohesion",
+                       c,
+                       "c >= 0 Pa",
+                       "give a cohesion that is not negative");
     if (c == 0. && phi == 0. && gradient == 0.)
       throw InputError(section + "/Cohesion",
                        c,

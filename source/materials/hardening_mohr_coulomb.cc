@@ -49,7 +49,7 @@ namespace geocone::GEOCONE_DIM
       throw InputError(parameter(curve_parameter[0]),
                        cohesion_text,
                        "values >= 0 Pa",
-                       "give the cohesion in Pa");
+                       "give a cohesion that is not negative");
     if (!(friction_curve.range().first >= 0. &&
           friction_curve.range().second < 90.))
       throw InputError(parameter(curve_parameter[1]),

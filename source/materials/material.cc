@@ -46,7 +46,7 @@ namespace geocone::GEOCONE_DIM
       throw InputError(parameter("Young modulus"),
                        young_modulus,
                        "E > 0 Pa",
-                       "soils have 1e6 to 1e9 Pa");
+                       "soils have 1 MPa to 1 GPa");
     if (!(poisson_ratio > -1. && poisson_ratio < 0.5))
       throw InputError(parameter("Poisson ratio"),
                        poisson_ratio,

@@ -154,7 +154,7 @@ namespace geocone::GEOCONE_DIM
             "Attraction",
             a,
             "a >= 0 Pa",
-            "0, or about 1000 Pa where there is a free surface");
+            "0, or about 1 kPa where there is a free surface");
     require(ratio >= 1. && std::isfinite(ratio),
             "Overconsolidation ratio",
             ratio,

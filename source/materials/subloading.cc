@@ -140,7 +140,7 @@ namespace geocone::GEOCONE_DIM
        "Reference pressure of rotational hardening [Pa], > 0.",
        [](const Constants &c) { return c.patm > 0.; },
        "> 0 Pa",
-       "1e5 Pa is usual"},
+       "0.1 MPa is usual"},
       {"Elastic ratio Rmin",
        &Constants::Rmin,
        "Elastic ratio Rmin [-], 0 < Rmin < 1, much less than 1: elastic "
@@ -180,7 +180,7 @@ namespace geocone::GEOCONE_DIM
        "Lower limit of p + pe [Pa], > 0; its use is counted.",
        [](const Constants &c) { return c.lowest_pressure > 0.; },
        "> 0 Pa",
-       "1 Pa is usual: without pressure there is no stiffness"}};
+       "a small value is usual: without pressure there is no stiffness"}};
   } // namespace
 
   Subloading::Subloading(const std::string &section)
