@@ -18,7 +18,7 @@ namespace geocone
   struct CommandLine
   {
     std::string                file;
-    std::vector<std::string>   files; ///< to check, or of a program that takes many
+    std::vector<std::string>   files; ///< to check, or several to read
     std::string                folder;
     std::vector<std::string>   overrides;
     std::string                defaults_file;
@@ -37,7 +37,7 @@ namespace geocone
    * Reads FILE, --output, --set, --quiet, --dry-run, --picture, --check FILE...,
    * --force, --run-gmsh-script, --load-library (may_load_libraries()), --resume,
    * --defaults, --help [TOPIC], --schema and --version.
-   * @param lacking those of these options that the program does not have
+   * @param lacking options that the program does not support
    * @param many whether the program takes any number of files
    * @throws InputError on anything else
    */
@@ -76,8 +76,9 @@ namespace geocone
   int
   run_program(char **argv, const std::function<int(Drawing &)> &run);
 
-  /** Ends all ranks if the present exception occurred on this rank only. Must be called
-   *  before distributed objects are destroyed, which waits for all ranks. */
+  /** Terminates all ranks if the present exception occurred on this rank only.
+   *  Must be called before distributed objects are destroyed, which waits for
+   *  all ranks. */
   void
   end_if_alone();
 } // namespace geocone

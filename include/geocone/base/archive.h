@@ -37,7 +37,7 @@ namespace geocone
 
     /**
      * @return an archive to be read, or null
-     * @param why_not is set to the fault of the file
+     * @param why_not is set to the reason why the file cannot be read
      */
     static std::unique_ptr<Archive>
     open(const MPI_Comm     comm,

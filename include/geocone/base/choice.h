@@ -13,8 +13,8 @@
 namespace geocone
 {
   /**
-   * A parameter with a list of admissible words, each of which stands for a
-   * value of an enumeration or for a pointer. The list of words begins the
+   * A parameter with a list of admissible words, each of which represents a
+   * value of an enumeration or a pointer. The list of words begins the
    * documentation of the parameter; any other word is rejected.
    */
   template <typename Enum>

@@ -11,8 +11,8 @@
 namespace geocone
 {
   /**
-   * Row-by-row reader of a .csv file whose first line holds the names of the
-   * columns. Byte-order marks, CR LF line ends, quoted values, spaces around
+   * Row-by-row reader of a .csv file whose first line contains the column
+   * names. Byte-order marks, CR LF line ends, quoted values, spaces around
    * values and blank lines at the end are accepted. Errors are RunErrors that
    * name the line.
    */

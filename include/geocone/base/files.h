@@ -46,8 +46,8 @@ namespace geocone
 
   /**
    * Writes a file atomically: under a temporary name, renamed when it is
-   * complete, so that readers never see a part of it. Symbolic links are not
-   * followed.
+   * complete, so that readers never see an incomplete file. Symbolic links are
+   * not followed.
    * @param is_durable whether it must survive a power failure: its content is
    * on disk before it is renamed, and its name before this function returns
    * @throws RunError with the file and the cause if it cannot be written
@@ -102,7 +102,7 @@ namespace geocone
   /**
    * Path of a file given relative to the folder of the parameter file or,
    * failing that, to the working directory.
-   * @throws InputError if there is no such file
+   * @throws InputError if the file does not exist
    */
   std::string
   existing_file(const std::string &name,

@@ -101,7 +101,7 @@ namespace geocone
                     const std::string &text);
     /** @} */
 
-    /** Writes a file that was created. */
+    /** Writes and closes a file that was created. */
     void
     close(const bool is_durable = false);
 

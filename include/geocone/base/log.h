@@ -74,7 +74,8 @@ namespace geocone
   std::string
   format(const char *pattern, ...) __attribute__((format(printf, 1, 2)));
 
-  /** The text of the lowest rank with a non-empty one, or empty. Collective. */
+  /** Text of the lowest rank whose text is not empty; otherwise empty.
+   *  Collective. */
   std::string
   text_of_any_rank(const MPI_Comm comm, const std::string &text);
 } // namespace geocone

@@ -10,7 +10,7 @@
 
 namespace geocone
 {
-  /** The number that a text is; no value for any other text. */
+  /** Number that the complete text represents; no value for any other text. */
   inline std::optional<double>
   number_in(const std::string &text)
   {

@@ -192,7 +192,7 @@ namespace geocone
   std::vector<std::string>
   split_names(const std::string &list, const char separator = ',');
 
-  /** The known name that was meant, or empty. */
+  /** Known name nearest to a misspelt one, or empty. */
   std::string
   nearest_name(const std::string &name, const std::vector<std::string> &known);
 } // namespace geocone

@@ -24,7 +24,7 @@ namespace geocone
     path() const;
   };
 
-  /** Stands for the name of a member of a list in the sections of a parameter. */
+  /** Placeholder for the name of a list's member in the path of a parameter. */
   extern const char *const any_name;
 
   /** All declared parameters with their present values, by sections in the order in
@@ -32,12 +32,13 @@ namespace geocone
   std::vector<DocumentedParameter>
   documented_parameters();
 
-  /** The sections of the first level in this order, with a line on each. */
+  /** The sections of the first level in this order, each with a one-line
+   *  description. */
   std::string
   list_of_sections();
 
   /**
-   * The parameters that a topic names: all of a section or subsection, or those of a
+   * Parameters selected by a topic: all of a section or subsection, or those with a
    * name, e.g. "Materials", "Cohesion", "materials/cohesion"; "all".
    * @throws InputError if there are none
    */
@@ -45,8 +46,8 @@ namespace geocone
   on_topic(const std::vector<DocumentedParameter> &all,
            const std::string                      &topic);
 
-  /** Prints parameters as lines of a parameter file, with their documentation and a line
-   *  on each section. */
+  /** Prints parameters as lines of a parameter file, with their documentation
+   *  and a one-line description of each section. */
   void
   print(std::ostream &out, const std::vector<DocumentedParameter> &parameters);
 

@@ -12,7 +12,8 @@
 
 namespace geocone
 {
-  /** A name as lists give it: a blank follows each of its commas, none is before. */
+  /** A name in the form read from a list: each comma is followed by one
+   *  blank. */
   inline std::string
   name_in_list(const std::string &name)
   {
@@ -22,7 +23,8 @@ namespace geocone
     return all;
   }
 
-  /** A name as it has to be written in a list: in quotes if it has a comma. */
+  /** A name in the form to be written in a list: in quotes if it contains a
+   *  comma. */
   inline std::string
   quoted_if_needed(const std::string &name)
   {

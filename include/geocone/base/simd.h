@@ -17,9 +17,9 @@ namespace geocone
 
   /**
    * Four doubles, in one register if the architecture has registers of four,
-   * otherwise in two of two. Kernels written with it are compiled once for each
-   * architecture, as templates over @p Arch, so that the linker cannot mix
-   * functions of different architectures.
+   * otherwise in two registers of two. Kernels written with it are compiled
+   * once for each architecture, as templates over @p Arch, so that the linker
+   * cannot mix functions of different architectures.
    */
   template <typename Arch>
   class Pack

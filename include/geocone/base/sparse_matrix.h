@@ -28,7 +28,7 @@ namespace geocone
      *  stored. */
     bool symmetric = false;
 
-    int n_global = 0; ///< rows of the whole matrix
+    int n_global = 0; ///< rows of the matrix, of all ranks
     int n_owned  = 0; ///< rows owned by this rank
 
     /** Global number of each local row. */

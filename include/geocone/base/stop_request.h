@@ -29,11 +29,11 @@ namespace geocone
   void
   watch_for_signals();
 
-  /** The signal that has asked any rank to stop, or 0. Collective. */
+  /** Signal by which any rank was asked to stop, or 0. Collective. */
   int
   stop_request(const MPI_Comm comm);
 
-  /** The signal that has asked this rank to stop, or 0. */
+  /** Signal by which this rank was asked to stop, or 0. */
   int
   stop_request_of_rank();
 

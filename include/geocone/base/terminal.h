@@ -18,8 +18,9 @@ namespace geocone
     yellow = 33
   };
 
-  /** A word in bold colour, if a stream is a terminal that has colours and they are
-   *  wanted (https://no-color.org). @param stream STDOUT_FILENO or STDERR_FILENO */
+  /** A word in bold colour, if a stream is a terminal with colours that are not
+   *  disabled (https://no-color.org). @param stream STDOUT_FILENO or
+   *  STDERR_FILENO */
   inline std::string
   coloured(const std::string &word, const Colour colour, const int stream)
   {

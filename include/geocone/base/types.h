@@ -34,7 +34,7 @@ namespace geocone
 } // namespace geocone
 
 /**
- * Conventions of the whole code:
+ * Conventions of the code:
  *
  *  - plane strain in the (x, y) plane with unit thickness (forces in N/m,
  *    energies in J/m), axisymmetric with x the radius, y the axis and z the

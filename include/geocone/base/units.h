@@ -16,7 +16,8 @@ namespace geocone
    * and energies.
    */
 
-  /** Sets the system of all texts. @param word of 'Analysis/Units' */
+  /** Sets the system of units used in all texts. @param word of
+   *  'Analysis/Units' */
   void
   choose_units(const std::string &word);
 
@@ -24,12 +25,12 @@ namespace geocone
   double
   mass_unit();
 
-  /** A text or name of a column with present units in place of those of SI that follow
-   *  a number or a parenthesis: "12 Pa", "load (N/m)". */
+  /** Replaces SI units that follow a number or a parenthesis in a text or a
+   *  column name by the present ones: "12 Pa", "load (N/m)". */
   std::string
   in_units(const std::string &text);
 
-  /** A unit of SI in the present system, "kN/m" of "N/m". */
+  /** Counterpart of an SI unit in the present system, "kN/m" of "N/m". */
   std::string
   present_unit(const std::string &unit);
 
@@ -37,17 +38,19 @@ namespace geocone
   std::string
   key_in_units(const std::string &key);
 
-  /** The unit of a parameter's value, which its text has in brackets; empty: none. */
+  /** Unit of a parameter's value, given in brackets in its text; empty:
+   *  none. */
   std::string
   unit_in(const std::string &documentation);
 
-  /** Brings the defaults of all declared parameters into present units, but for those that
-   *  a file sets. @param is_set whether it does so, by "Section/Name" */
+  /** Converts the defaults of all declared parameters to present units, except
+   *  those that a file sets. @param is_set whether it does so, by
+   *  "Section/Name" */
   void
   convert_defaults(const std::function<bool(const std::string &)> &is_set);
 
-  /** Declares the parameter 'Analysis/Units', which ParameterFile::parse() obeys before
-   *  all others. */
+  /** Declares the parameter 'Analysis/Units', which ParameterFile::parse()
+   *  evaluates before all others. */
   void
   declare_units();
 } // namespace geocone

@@ -18,7 +18,7 @@ namespace geocone
    */
   struct UsedWhere
   {
-    /** @param values of the chooser; empty: any but none
+    /** @param values of @p chooser for which it is used; empty: any but none
      *  @param other a parameter that also activates it, if set */
     UsedWhere(const char                     *parameter,
               const char                     *chooser,
@@ -39,8 +39,8 @@ namespace geocone
   std::string
   unused_parameters(const std::vector<ParameterFile::Setting> &settings);
 
-  /** The rules of a parameter in words, e.g. "Mesh/Type = graded or unstructured": those
-   *  of its whole section and its own. */
+  /** The rules of a parameter in words, e.g. "Mesh/Type = graded or
+   *  unstructured": those of its section and its own. */
   struct Conditions
   {
     std::vector<std::string> of_section, own;
