@@ -75,8 +75,8 @@ namespace geocone::GEOCONE_DIM
             !stays(side.second[d], now.second[d], end))
           throw StepFailure(
             "the side of '" + condition->name +
-            "', which the grid follows, has come to an end of the grid, or "
-            "leaves one\n"
+            "', which the grid follows, has reached an end of the grid or left "
+            "it\n"
             "  remedy:  enlarge 'Mesh/Box', so that there is room on both "
             "sides "
             "of it, or end the loading earlier");

@@ -21,8 +21,8 @@ namespace geocone::GEOCONE_DIM
       InteriorPoint::Options options;
       options.tolerance             = tolerance;
       options.equilibrium_tolerance = tolerance;
-      // What is missed is repaired, which is dear; a projection takes care of
-      // phi = 0.
+      // Remaining violations of the flow rule are repaired, which widens the
+      // gap; for phi = 0 a projection removes them.
       options.flow_tolerance = above.has_incompressible() ? 1e-6 : 1e-8;
       const double margin    = 10. * options.flow_tolerance;
       const auto   solve     = [&]() {

@@ -276,7 +276,7 @@ namespace geocone::GEOCONE_DIM
       log.warn(format("the load jumps from %.4g to %.4g %s and back to %.4g "
                       "%s around t = %.4g s (step %u), where its support moves "
                       "on: what it rests on may not be sound there; smaller "
-                      "cells, more points or smaller steps tell",
+                      "cells, more points or smaller steps show it",
                       a.load,
                       b.load,
                       unit("N/m").c_str(),

@@ -33,7 +33,7 @@ namespace geocone
   {
     if (dynamic_cast<const std::bad_alloc *>(&error) != nullptr)
       return "out of memory\n  remedy:  a smaller run; 'geocone --dry-run "
-             "FILE.prm' tells how large it is and by which parameter";
+             "FILE.prm' reports its size and the parameter that causes it";
     return error.what();
   }
 

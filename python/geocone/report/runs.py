@@ -51,7 +51,7 @@ class Progress:
         self.left = 0.
 
     def show(self, text):
-        """Tells what has ended and how long the rest will take."""
+        """Logs what has ended and how long the rest will take."""
         line = (f"study: {self.done}/{self.total} done" +
                 (f", {self.failed} failed" if self.failed else "") +
                 (f", about {duration(self.left)} left" if self.done < self.total

@@ -138,8 +138,8 @@ def check_table(path, where, table, keys, required=()):
 # Functions that make figures and tables.
 
 def takes(*required, **options):
-    """Tells the options of a function that study files may name, by their kinds, and which
-    of them it cannot do without. Functions without this cannot be named."""
+    """Declares the required and optional arguments of a function that study files may name, by
+    their kinds. Functions without this declaration cannot be named."""
     def mark(function):
         function.required, function.options = required, options
         return function
