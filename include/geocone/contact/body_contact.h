@@ -115,11 +115,11 @@ namespace geocone::GEOCONE_DIM
     /** Sums over the faces of a node. */
     struct Sums
     {
-      double                 D        = 0.;
-      double                 whole    = 0.; ///< D if all of the faces are faced
-      double                 faced    = 0.; ///< size of the part that is faced
-      double                 diameter = 0.; ///< of the largest (m)
-      dealii::Tensor<1, dim> normal;        ///< outward, times sizes
+      double                         D     = 0.;
+      double                         whole = 0.; ///< D if fully opposite
+      double                         faced = 0.; ///< size of the opposite part
+      double                         diameter = 0.; ///< of the largest (m)
+      dealii::Tensor<1, dim>         normal;        ///< outward, times sizes
       std::map<unsigned int, double> M;
     };
 
@@ -129,8 +129,7 @@ namespace geocone::GEOCONE_DIM
               const std::vector<PointAhead> &points,
               std::map<unsigned int, Sums>  &sums) const;
 
-    /** Adds the values of D for fully covered faces, for nodes that have
-     *  one. */
+    /** Computes D of fully opposite faces for all nodes with such faces. */
     static void
     add_whole_faces(const std::vector<PlacedFace> &faces,
                     std::map<unsigned int, Sums>  &sums);

@@ -15,8 +15,8 @@ namespace geocone
    * eliminated: find u, r = K u + c with
    *   0 <= r_N + tension _|_ u_N - least >= 0,
    *   |r_T| <= mu r_N + adhesion, u_T against r_T where it slides,
-   * in the axes n and t of each node, or in n alone. K (kg/(m s)) is dense and
-   * small.
+   * in the axes n and t of each node, or in n alone if it has no friction. K
+   * (kg/(m s)) is dense and small.
    *
    * An active-set method, which solves linear systems, reaches the solution in
    * a few steps unless it cycles. It starts from the given state, from all
@@ -45,7 +45,7 @@ namespace geocone
      * Solves the contact problem.
      * @param[in,out] u in: initial guess; out: the solution, or the last
      * iterate (m/s)
-     * @return whether it is solved to rounding
+     * @return whether it is solved within rounding
      */
     bool
     solve(Eigen::VectorXd &u) const;

@@ -21,15 +21,16 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Gap that counts as closed, over the size of a cell. */
+  /** Gap below which a contact is considered closed, over the size of a
+   *  cell. */
   constexpr double closed_gap = 1e-9;
 
   /** Distance below which boundaries of obstacles are joined, over the size of
    *  a cell. */
   constexpr double meeting = 1e-3;
 
-  /** Normals with a larger cosine between them count as parallel (10
-   *  degrees). */
+  /** Cosine of the angle between normals above which they are considered
+   *  parallel (10 degrees). */
   const double parallel = std::cos(radians(10.));
 
   /** Minimum length of the free part of the normal for contact of a node with
@@ -65,7 +66,7 @@ namespace geocone::GEOCONE_DIM
     std::vector<Partner> partners; ///< empty for obstacles
 
     /** Whether the other body's node is at the same position in another layer
-     *  of the mesh: supports act on both alike. */
+     *  of the mesh, so that supports act on both in the same way. */
     bool is_twin = false;
 
     double length = 0.; ///< tributary length of the boundary (m), or 0
@@ -75,7 +76,7 @@ namespace geocone::GEOCONE_DIM
     double least    = 0.;
     bool   rebounds = false; ///< whether e > 0
 
-    /** Initial u_N of a node that hits in this step and rebounds. */
+    /** Initial u_N of a node that impacts and rebounds in this step. */
     double impact = 0.;
 
     /** Share of the force of a corner node, which has two contacts with normals

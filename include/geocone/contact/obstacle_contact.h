@@ -78,9 +78,9 @@ namespace geocone::GEOCONE_DIM
                     const Unknowns       *supports);
 
     /**
-     * Sets the cells of the body in a body-fitted mesh: these cells of this
-     * rank, with their boundary, are present from now on. New nodes of the body
-     * have zero displacement.
+     * Sets the cells of the body in a body-fitted mesh from now on: those of
+     * this rank, with their boundary. New nodes of the body have zero
+     * displacement.
      * @throws InputError if an obstacle overlaps with them. Collective.
      */
     void
@@ -123,8 +123,8 @@ namespace geocone::GEOCONE_DIM
     reactions(const Contact &contact) const;
 
     /** Adds the displacements of supports in a step: of the obstacles, then,
-     *  for each contact, of the first body against the other one, averaged over
-     *  active contacts.
+     *  for each contact, of the first body relative to the other one, averaged
+     *  over active contacts.
      *  @param first number of the first of these supports. Collective. */
     void
     add_displacements(const Contact                       &contact,
