@@ -98,10 +98,11 @@ namespace geocone::GEOCONE_DIM
 
   private:
     /**
-     * By how much z misses the flow of a stress on Rankine's cut-off (-): multipliers
-     *   g_1 + g_2 = -z_t.u,  b g_1 + g_2 = z_n
-     * of the cone and of the cut-off, along u = s_t/|s_t|, that are negative, one of the
-     * cone where s is within it, or strain across u; at the tip |z_t| <= z_n.
+     * Violation by z of the flow rule of a stress on Rankine's cut-off (-): negative
+     * multipliers of the cone and of the cut-off,
+     *   g_1 + g_2 = -z_t.u,  b g_1 + g_2 = z_n,  u = s_t/|s_t|,
+     * a multiplier of the cone if s is inside it, or a strain rate orthogonal to u; at the
+     * tip |z_t| - z_n.
      */
     template <typename Vector>
     static double

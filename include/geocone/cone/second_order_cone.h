@@ -86,7 +86,7 @@ namespace geocone::GEOCONE_DIM
     apex     ///< at its apex
   };
 
-  /** Cut-off of a cone without one. */
+  /** Tensile strength of a cone without a cut-off (Pa). */
   constexpr double infinite_tension = std::numeric_limits<double>::infinity();
 
   /**
@@ -125,7 +125,8 @@ namespace geocone::GEOCONE_DIM
       return opening < infinite_tension;
     }
 
-    /** The cone at the end of a step with |z_t| = slip, which hardens no more. */
+    /** The cone at the end of a step with |z_t| = slip, without further
+     *  hardening. */
     FlowCone
     hardened(const double slip) const
     {
@@ -331,9 +332,10 @@ namespace geocone::GEOCONE_DIM
   }
 
   /**
-   * The part of return_map() where a trial value is beyond Rankine's cut-off after its
-   * return to the cone: it goes to the cut-off, which is an associated cone of aperture
-   * 1, or, if that is beyond the cone, to the circle where both meet,
+   * Part of return_map() for trial stresses that are beyond Rankine's cut-off
+   * after the return to the cone: returns them to the cut-off, which is an
+   * associated cone of aperture 1, or, if that is beyond the cone, to the
+   * circle where both meet,
    *   s_n = (k + q T - (1 + q) opening)/(1 - a + q),  |s_t| = s_n + opening,
    * with q = h/2G.
    */
@@ -388,7 +390,7 @@ namespace geocone::GEOCONE_DIM
   }
 
   /** Euclidean projection onto the admissible set of a cone with its cut-offs,
-   *  whatever its flow. @param[out] jacobian as below */
+   *  independent of its flow rule. @param[out] jacobian as below */
   template <typename V,
             typename M =
               Eigen::Matrix<double, V::RowsAtCompileTime, V::RowsAtCompileTime>>
