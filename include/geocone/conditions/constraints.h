@@ -133,8 +133,8 @@ namespace geocone::GEOCONE_DIM
     };
 
     /** A node with prescribed directions not along the coordinates: either some
-     *  directions, which are the first axes of a rotated node, or as many
-     *  independent ones as fix it completely. */
+     *  directions, which are the first axes of a rotated node, or enough
+     *  independent ones to fix it completely. */
     struct Oblique
     {
       unsigned int           node;

@@ -69,8 +69,8 @@ namespace geocone::GEOCONE_DIM
     void
     add_target(const Key &key, const double value);
 
-    /** Adds to the right-hand side a term that is no prescribed velocity and is
-     *  excluded from mean_target(). */
+    /** Adds a term to the right-hand side that is not a prescribed velocity and
+     *  is excluded from mean_target(). */
     void
     add_offset(const Key &key, const double value);
 
@@ -232,7 +232,7 @@ namespace geocone::GEOCONE_DIM
 
     MPI_Comm         comm         = MPI_COMM_SELF;
     unsigned int     given        = 0;
-    double           sum_of_loads = 0.; ///< of raised loads (N/m), or 0
+    double           sum_of_loads = 0.; ///< of load stepping (N/m), or 0
     std::vector<Key> keys;
     std::vector<unsigned int> touched;
     Eigen::MatrixXd           H;

@@ -13,9 +13,9 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Unknowns of an incremental problem: the free dofs, which are neither
-   * prescribed nor of a node without mass, and the linear constraints on them.
-   * The incremental problem depends on the supports through this class only.
+   * Unknowns of an incremental problem: the free dofs, i.e. the dofs of nodes
+   * with mass that are not prescribed, and the linear constraints on them. The
+   * incremental problem depends on the supports through this class only.
    */
   struct Unknowns
   {
