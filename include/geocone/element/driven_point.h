@@ -38,17 +38,17 @@ namespace geocone::GEOCONE_DIM
     std::unique_ptr<ElementPoint>
     initial_point(std::string &changed) const;
 
-    /** Returns to the initial state; counts begin again. */
+    /** Returns to the initial state and resets the counts. */
     void
     restart();
 
     /** Begins a control at f = 0.
-     *  @param goes_on whether the strains of the last control are a guess of
-     *  those of this one */
+     *  @param goes_on whether the strains of the last control are the initial
+     *  guess of this one */
     void
     begin(const ElementControl &control, const bool goes_on = false);
 
-    /** Advances to a value of f, in parts if necessary.
+    /** Advances to a value of f, in subincrements if necessary.
      *  @param stage for messages. @throws StepFailure */
     void
     follow(const double to, const std::string &stage);

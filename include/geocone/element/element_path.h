@@ -52,7 +52,7 @@ namespace geocone::GEOCONE_DIM
     void
     prepare(const ElementPoint &point, const std::vector<std::string> &columns);
 
-    /** Control of a stage with the present stress as its start. */
+    /** Control of a stage that starts from the present stress. */
     ElementControl
     control(const ElementPoint &point) const;
 
