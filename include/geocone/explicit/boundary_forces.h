@@ -52,7 +52,8 @@ namespace geocone::GEOCONE_DIM
     };
 
     /**
-     * Adds the dashpots to all other forces, for the velocities to be read.
+     * Adds the dashpot forces to all other forces, by the velocities that
+     * points will read.
      * @param least_mass nodes with this mass or less have no velocity
      * @param is_held per node and component
      */

@@ -37,7 +37,7 @@ namespace geocone::GEOCONE_DIM
     /** About the axes of n_rotations through the origin. */
     dealii::Tensor<1, n_rotations> angular_momentum;
     dealii::Point<dim> lower, upper; ///< bounds of the positions (m)
-    /** Positions with 1 and 99 % of the mass on their left (m). */
+    /** Positions x to the left of which lie 1 and 99 % of the mass (m). */
     double left_front = 0., right_front = 0.;
     double largest_speed = 0.; ///< (m/s)
 
@@ -119,7 +119,7 @@ namespace geocone::GEOCONE_DIM
     prepare(const Scene &scene, const Method &method);
 
     /**
-     * Begins a stage: resets, and points to be removed.
+     * Begins a stage: resets quantities and selects points to be removed.
      * @return remarks
      * @throws StepFailure if it removes no point, or all of them
      */
@@ -251,8 +251,8 @@ namespace geocone::GEOCONE_DIM
     void
     check_parameters() const;
 
-    /** Makes the transfer, on a uniform grid if possible without forces on
-     *  sides, otherwise on a mesh, and the points in it. */
+    /** Creates the transfer (on a uniform grid if possible and if no forces act
+     *  on sides, otherwise on a mesh) and its points. */
     void
     make_transfer(const Method &method, std::vector<std::string> &remarks);
 
@@ -296,7 +296,7 @@ namespace geocone::GEOCONE_DIM
                const double         dt,
                const TransferBlock &points);
 
-    /** Adds the bounds of positions, and treats points outside the stored
+    /** Updates the bounds of positions, and treats points outside the stored
      *  nodes. */
     void
     bound_positions(const TransferBlock &points);
@@ -384,8 +384,8 @@ namespace geocone::GEOCONE_DIM
     void
     stop_at_peak();
 
-    /** Sets the velocity of all points to zero; the kinetic energy counts as
-     *  stopped. */
+    /** Sets the velocity of all points to zero, and adds the kinetic energy to
+     *  that removed by kinetic damping. */
     void
     stop_points();
 

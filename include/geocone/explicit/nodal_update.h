@@ -27,7 +27,7 @@ namespace geocone::GEOCONE_DIM
      *  (J/m). */
     double support_work = 0.;
 
-    /** Impulse of gravity, damping and these (N s/m). */
+    /** Impulse of gravity, damping and the supports (N s/m). */
     dealii::Tensor<1, dim> impulse;
 
     /** Removed points (Stage::removes()), or points that left the grid. */
@@ -59,16 +59,16 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Explicit step at the nodes: from momentum, force and mass, written by the
-   * points, to velocity and its change, which they read; with gravity, local
-   * damping and prescribed velocities. Clears its input.
+   * Explicit step at the nodes: computes velocities and their changes, which
+   * the points read, from momentum, force and mass, which they write; with
+   * gravity, local damping and prescribed velocities. Clears its input.
    */
   class NodalUpdate
   {
   public:
     /**
-     * @param flip_part of the points' velocity, for the momentum from
-     * conditions by way of PIC
+     * @param flip_part FLIP part of the points' velocity, which determines the
+     * momentum that they receive from conditions
      * @param least_mass nodes with this mass or less are skipped (kg/m)
      * @param boundary forces on sides, or null
      * @param sum to which impulses and works of this rank are added
@@ -109,7 +109,7 @@ namespace geocone::GEOCONE_DIM
      * forces.
      * @param velocity_is_read whether `read` holds the velocity before it,
      * rather than `write` the momentum
-     * @param moves whether the points will move by it
+     * @param moves whether the points are moved with it
      */
     void
     accelerate(const Step &step, const bool velocity_is_read, const bool moves);
