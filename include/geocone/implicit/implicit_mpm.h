@@ -127,8 +127,8 @@ namespace geocone::GEOCONE_DIM
     void
     set_up(const NonsmoothNewton &newton);
 
-    /** Whether the numbers of points on the ranks are too unequal.
-     *  Collective. */
+    /** Whether the imbalance of the numbers of points on the ranks exceeds the
+     *  tolerance. Collective. */
     bool
     is_unbalanced(const MaterialPoints &points) const;
 
@@ -308,8 +308,8 @@ namespace geocone::GEOCONE_DIM
     work_of_changing_gravity(const TimeStep       &step,
                              const MaterialPoints &points) const;
 
-    /** Work of the weight on fixed points among moving ones, whose potential
-     *  energy does not change, as in FEM (J/m). */
+    /** Work of the weight on fixed quadrature points in a run with particles;
+     *  their potential energy does not change, as in FEM (J/m). */
     double
     work_on_fixed_points(const TimeStep       &step,
                          const MaterialPoints &points) const;
@@ -363,7 +363,7 @@ namespace geocone::GEOCONE_DIM
 
     unsigned int n_light = 0; ///< low-mass functions of these points
 
-    std::vector<Start> starts; ///< to be tried in this order
+    std::vector<Start> starts; ///< in the order of attempts
     dealii::Point<dim> datum;  ///< of the potential energy
 
     std::unique_ptr<MovingConditions> moving;

@@ -12,9 +12,9 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Loads F of a stage with load stepping, in one step of FEM or MPM: in the
-   * solution a row of the multipliers, whose multiplier is the load factor
-   * (doc/theory/stages.md); afterwards ordinary loads.
+   * Loads F of a stage with load stepping, in one step of FEM or MPM. During
+   * the solution they are a constraint whose multiplier is the load factor
+   * (doc/theory/stages.md); afterwards they are ordinary loads.
    */
   class RaisedLoads
   {
