@@ -46,7 +46,8 @@ namespace geocone::GEOCONE_DIM
       return opening < infinite_tension;
     }
 
-    /** Whether it is Tresca's cylinder, with zero normal rate. */
+    /** Whether the cone is Tresca's cylinder, with zero volumetric strain
+     *  rate. */
     bool
     is_cylinder() const
     {
@@ -92,7 +93,7 @@ namespace geocone::GEOCONE_DIM
     std::vector<PointCone> cone;   ///< of each point
 
     unsigned int n_triangles = 0;
-    /** The triangle at each later cell, of interfaces and of cut-offs. */
+    /** Triangle of each further cell, i.e. of interfaces and cut-offs. */
     std::vector<unsigned int> owner;
     std::vector<unsigned int> cut;               ///< triangles with a cut-off
     unsigned int              first_cut_dof = 0; ///< nine for each of them
@@ -134,7 +135,7 @@ namespace geocone::GEOCONE_DIM
       return 3 * (n_triangles + n_interfaces());
     }
 
-    /** The point of the triangle that a point of its cut-off belongs to. */
+    /** Point of the triangle to which a point of its cut-off belongs. */
     unsigned int
     point_of_triangle(const unsigned int cut_point) const
     {
@@ -185,7 +186,7 @@ namespace geocone::GEOCONE_DIM
            const double       tension_factor);
   };
 
-  /** Which of both problems. */
+  /** The upper-bound or the lower-bound problem. */
   enum class BoundSide
   {
     upper,

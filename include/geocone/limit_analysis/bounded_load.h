@@ -15,9 +15,9 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Angles of Davis's factor (1968) where the strength is divided by F. All are the same
-   * for F = 1. A: those that are given. B: both are reduced, tan(phi)/F and
-   * tan(theta)/F. C: phi is, and theta as far as it would exceed it.
+   * Angles in Davis's factor (1968) for strength reduction by F. All are the
+   * same for F = 1. A: those that are given. B: both are reduced, tan(phi)/F
+   * and tan(theta)/F. C: phi is, and theta as far as it would exceed it.
    */
   enum class DavisVariant
   {
@@ -81,7 +81,8 @@ namespace geocone::GEOCONE_DIM
     std::string
     word() const;
 
-    /** Load that a problem's 1 corresponds to: (N/m) for a reaction, else 1. */
+    /** Load for the load factor 1 of a problem: (N/m) for a reaction, else
+     *  1. */
     double
     value_of_unit() const
     {

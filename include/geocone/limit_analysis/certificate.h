@@ -11,8 +11,8 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Tolerated violation of the cones, relative to the largest stress, where stresses
-   *  cannot be scaled back. */
+  /** Admissible violation of the cones, relative to the largest stress, where
+   *  stresses cannot be scaled back. */
   constexpr double rounding_strength = 1e-8;
 
   /** A bound with its certificate: all values are recomputed from the fields,

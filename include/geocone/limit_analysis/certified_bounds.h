@@ -22,7 +22,8 @@ namespace geocone::GEOCONE_DIM
       Bound         bound;
       unsigned int  n_unknowns = 0;
 
-      /** Lower side: |V s.e| of each triangle for its own velocities. */
+      /** Lower bound: |V s.e| of each triangle, with e of the lower-bound
+       *  velocities. */
       std::vector<double> power;
     };
     Side upper, lower;
@@ -31,10 +32,10 @@ namespace geocone::GEOCONE_DIM
     std::vector<double> gap;
 
     /**
-     * Refinement indicator, equal for all triangles of an ideal mesh: the contribution
-     * to the gap, and the lower bound's power on its own velocities times the size of
-     * the triangle. The latter marks stresses at yield away from the upper bound's
-     * mechanism.
+     * Refinement indicator, equal for all triangles of an ideal mesh:
+     * contribution to the gap, plus the power of the lower-bound stresses on
+     * the lower-bound velocities, times the size of the triangle. The latter
+     * marks stresses at yield away from the upper bound's mechanism.
      */
     std::vector<double> uneven;
 

@@ -51,11 +51,13 @@ namespace geocone::GEOCONE_DIM
       double       equilibrium_tolerance = 1e-4; ///< relative to the forces
       unsigned int max_iterations        = 60;
 
-      /** Whether the stresses of the iterates are wanted, and not the velocities. */
+      /** Whether to return the stresses of the iterates instead of the
+       *  velocities. */
       bool stresses = false;
 
-      /** Safety margin of the stresses in their cones, as a reduction of k: stresses
-       *  that cannot be scaled back then become admissible soon. */
+      /** Safety margin of the stresses in their cones, as a reduction of k:
+       *  stresses that cannot be scaled back then become admissible after fewer
+       *  iterations. */
       double strength_margin = 0.;
 
       unsigned int correctors = 2; ///< maximum per iteration

@@ -69,7 +69,8 @@ namespace geocone::GEOCONE_DIM
     void
     prepare_scene(const RunOptions &options);
 
-    /** Warnings about the scene's sizes, a fixed mesh and growing loads. */
+    /** Warnings about the magnitudes of the scene, a fixed mesh and
+     *  time-dependent loads. */
     std::vector<std::string>
     warnings_of(const dealii::BoundingBox<dim> &body) const;
 
@@ -95,7 +96,8 @@ namespace geocone::GEOCONE_DIM
     BoundLevel
     bound_load();
 
-    /** Bounds the factor of safety on the present mesh. @throws StepFailure likewise */
+    /** Bounds the factor of safety on the present mesh. @throws StepFailure if
+     *  there is no bound */
     BoundLevel
     bound_factor();
 
@@ -108,8 +110,8 @@ namespace geocone::GEOCONE_DIM
     std::vector<std::array<double, 2>>
     estimates_by_davis() const;
 
-    /** The bracket certified by meshes: by the last one of both bounds where water
-     *  pressures differ between the meshes, otherwise by all. */
+    /** The bracket certified by all meshes, or, if water pressures differ
+     *  between the meshes, by the last one with both bounds. */
     LoadBracket
     certified_by(const std::vector<BoundLevel> &levels) const;
 

@@ -38,8 +38,8 @@ namespace geocone::GEOCONE_DIM
     state(StateRow &row);
   };
 
-  /** The best certified bounds of some levels, with their total cost: the bounds of
-   *  every mesh hold for the body. */
+  /** The best certified bounds of some levels, with their total cost: the
+   *  bounds of every mesh are valid for the body. */
   LoadBracket
   best_of(const std::vector<BoundLevel> &levels);
 

@@ -25,8 +25,8 @@ namespace geocone
   public:
     PointStrains() = default;
 
-    /** @param n_columns the most dofs that a point knows: 6 or 10, or with a cut-off 9 or
-     *  13 */
+    /** @param n_columns largest number of dofs of a point: 6 or 10, or with a
+     *  cut-off 9 or 13 */
     explicit PointStrains(const unsigned int n_columns);
 
     /**

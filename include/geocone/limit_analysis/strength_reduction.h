@@ -38,7 +38,7 @@ namespace geocone::GEOCONE_DIM
       /** Bounds of F certified on this mesh, if any. */
       std::optional<double> lower, upper;
 
-      /** Their fields, near the roots. */
+      /** Fields of these bounds, computed near their roots. */
       CertifiedBounds::Side lower_proof, upper_proof;
 
       /** All factorisations on the mesh, of either problem. */
@@ -46,7 +46,8 @@ namespace geocone::GEOCONE_DIM
     };
 
     /** @param tolerance of the interior-point method, relative to the load
-     *  @throws StepFailure if no factor makes the body fail, or if none is safe */
+     *  @throws StepFailure if the body does not fail for any factor, or fails
+     *  for all of them */
     Level
     on_mesh(const Reduced &reduced, const double tolerance);
 
