@@ -19,10 +19,11 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * A law with cohesion, friction and dilatancy, and what of its strength is a point's
-   * own: the normal stress that friction remembers (WithFrictionMemory), and, where the
-   * cohesion is that of a place, c(y) = c + gradient (level - y) or a formula, by how much
-   * it is more than c where the point began (Pa), the history variable that follows.
+   * A law with cohesion, friction and dilatancy. Strength variables of a point
+   * are the delayed normal stress (WithFrictionMemory) and, if the cohesion
+   * varies in space, c(y) = c + gradient (level - y) or a formula, its increase
+   * above c at the initial position of the point (Pa), which is the next
+   * history variable.
    * @tparam Base Material, or a class derived from it
    */
   template <typename Base>
@@ -124,7 +125,7 @@ namespace geocone::GEOCONE_DIM
       declare_places();
     }
 
-    /** Whether the cohesion is that of a place. */
+    /** Whether the cohesion varies in space. */
     bool
     cohesion_grows() const
     {
@@ -140,8 +141,8 @@ namespace geocone::GEOCONE_DIM
                                                     : 0.;
     }
 
-    /** Index of the increase in the history, for a cohesion that varies with
-     *  depth. */
+    /** Index of the increase in the history, for a cohesion that varies in
+     *  space. */
     unsigned int
     place_of_growth() const
     {

@@ -22,7 +22,7 @@ namespace geocone
     double tension = std::numeric_limits<double>::infinity();
 
     double gradient = 0.; ///< of the cohesion with depth (Pa/m)
-    double level    = 0.; ///< y at which it is c (m)
+    double level    = 0.; ///< y at which the cohesion is c (m)
 
     /** Increase of the cohesion at y above c (Pa). */
     double
@@ -57,7 +57,7 @@ namespace geocone
     void
     declare_tension(dealii::ParameterAcceptor &law);
 
-    /** Takes the tensile strength from its text.
+    /** Reads the tensile strength from its text.
      *  @throws InputError @param section of the law */
     void
     prepare(const std::string &section);

@@ -16,10 +16,10 @@ namespace geocone
     bool has_natural_map = true;  ///< all laws have a natural map
     bool spatial         = false; ///< a law is three-dimensional
     bool can_yield       = false; ///< a law can yield and checks its flow
-    bool frictionless    = false; ///< laws yield, all by cylinders (a = 0)
+    bool frictionless    = false; ///< laws yield, all have cylinders (a = 0)
     bool dilates         = false; ///< a law has a cone with dilatancy
     bool undrained       = false; ///< ConstitutiveLaw::fluid_modulus() > 0
-    /** Whether the exact law of a material without memory is hard
+    /** Whether the exact law of a material without memory is hard to solve
      *  (Material::hard_flow). */
     bool has_hard_flow = false;
 

@@ -291,7 +291,7 @@ namespace geocone::GEOCONE_DIM
     }
 
     /** Sets the scene's tau if the file has "automatic" and the exact law would
-     *  be hard. */
+     *  be hard to solve. */
     virtual void
     set_friction_memory(const double /*tau*/)
     {}

@@ -15,7 +15,7 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Makes a law of a section. */
+  /** Creates the law of a section. */
   using MakeLaw =
     std::unique_ptr<ConstitutiveLaw> (*)(const std::string &section);
 
@@ -115,7 +115,7 @@ namespace geocone::GEOCONE_DIM
       return names()[i];
     }
 
-    /** Sets tau (s) of the laws that leave it to the scene. */
+    /** Sets tau (s) of the laws for which it is automatic. */
     void
     set_friction_memory(const double tau);
 

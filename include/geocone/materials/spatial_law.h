@@ -67,8 +67,8 @@ namespace geocone::GEOCONE_DIM
 
   protected:
     /** Strength variables of a point: the increase of its cohesion, and the
-     *  weight lambda of the strength at the normal stress p of the past; the
-     *  remainder is that at the end of the step. */
+     *  weight lambda of the delayed normal stress p in the strength; the
+     *  remaining weight is that of the normal stress at the end of the step. */
     struct OwnStrength
     {
       double cohesion = 0.; ///< increase above that of the law (Pa)

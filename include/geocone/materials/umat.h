@@ -13,8 +13,8 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * A law of a user: a function with the interface UMAT of Abaqus/Standard in a
-   * shared object, for small strains. It has four components xx, yy, zz, xy in
+   * User-defined law for small strains: a function in a shared object with the
+   * UMAT interface of Abaqus/Standard. It has four components xx, yy, zz, xy in
    * plane strain and around an axis, and six, xx, yy, zz, xy, xz, yz, in three
    * dimensions; tension is positive, and shear strains are doubled.
    *

@@ -53,14 +53,14 @@ namespace geocone
   /** Option of the command line without which no library is loaded. */
   constexpr const char *option_for_libraries = "--load-library";
 
-  /** Whether the command line of this process allows libraries to be loaded,
-   *  which are programs. */
+  /** Whether the command line of this process allows libraries, which can
+   *  execute any code, to be loaded. */
   bool &
   may_load_libraries();
 
   /**
-   * Loads a shared object, which stays until the process ends, and finds a
-   * function in it.
+   * Loads a shared object, which remains loaded until the process ends, and
+   * finds a function in it.
    * @param path of the file
    * @param function its name, or in Fortran the name without the underscore
    * @param parameters section of the parameters, for messages

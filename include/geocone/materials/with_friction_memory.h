@@ -13,7 +13,7 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * A law whose friction can have a memory, i.e. whose strength follows the
+   * A law with optional friction with memory, i.e. its strength follows the
    * normal stress with a delay: the delayed stress p (Pa) is then the history
    * variable after those of the base class.
    * @tparam Base Material, or a class derived from it
