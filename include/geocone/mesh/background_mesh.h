@@ -136,8 +136,8 @@ namespace geocone::GEOCONE_DIM
       return Geometry::measure(symmetry, x);
     }
 
-    /** Distance outside of a cell, relative to its size, up to which a point
-     *  counts as inside. */
+    /** Distance outside of a cell, relative to its size, up to which a point is
+     *  considered inside. */
     static constexpr double tolerance = 1e-8;
 
     /** Unit coordinates of x in a cell; no value if it is outside by more than
@@ -160,8 +160,8 @@ namespace geocone::GEOCONE_DIM
     std::array<unsigned int, dim>
     place_in_grid(const Cell &cell) const;
 
-    /** Whether the mesh is split between bodies in contact; each rank stores
-     *  all of it then. */
+    /** Whether the mesh is split between bodies in contact; then each rank
+     *  stores all of it. */
     bool
     is_parted() const
     {

@@ -56,8 +56,8 @@ namespace geocone::GEOCONE_DIM
     centre(const Face &face) const;
 
     /**
-     * Splits the mesh along the faces between cells of materials that are
-     * apart. At each vertex there, every piece of the mesh obtains a vertex of
+     * Splits the mesh along the faces between cells of materials of different
+     * bodies. At each vertex there, every piece of the mesh obtains a vertex of
      * its own.
      * @return these faces, from both sides
      */

@@ -30,7 +30,7 @@ namespace geocone::GEOCONE_DIM
            c == '\f';
   }
 
-  /** A part of a file in printable form. */
+  /** Excerpt of a file in printable form. */
   inline std::string
   shown_part(const std::string &text)
   {
