@@ -28,7 +28,7 @@ namespace geocone::GEOCONE_DIM
      */
     explicit ContactDirection(const StepWorkspace &work);
 
-    /** Whether there are nodes, and not too many. */
+    /** Whether the number of components is positive and not too large. */
     bool
     is_used() const
     {
@@ -66,7 +66,8 @@ namespace geocone::GEOCONE_DIM
     void
     add(const std::vector<unsigned int> &chosen, const bool relaxed);
 
-    /** Solves with the residuals r at the nodes less these forces. */
+    /** Solves the linear system with the residuals r at the nodes minus these
+     *  forces. */
     void
     solve_with(const Eigen::VectorXd &force,
                const Vector          *prescribed,

@@ -104,7 +104,7 @@ namespace geocone::GEOCONE_DIM
   class ElasticBlend : public Globalisation
   {
   public:
-    /** Values of c that proved to be good. */
+    /** Values of c that proved effective. */
     static constexpr double with_return_map = 0.3, with_natural_map = 0.05;
 
     /** @param factor c */

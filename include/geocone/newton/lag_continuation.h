@@ -20,7 +20,7 @@ namespace geocone::GEOCONE_DIM
     double       absolute_tolerance = 1e-12; ///< (N/m)
     unsigned int allowed            = 40;    ///< iterations for one lag
     unsigned int allowed_on_path    = 60;    ///< for the whole path
-    bool         elastic_first      = false; ///< takes D as the first tangent
+    bool         elastic_first      = false; ///< uses D as the first tangent
 
     /** Whether a step whose path does not reach lag 0 retains the least lag
      *  reached; otherwise the step is not solved. */

@@ -22,7 +22,7 @@ namespace geocone::GEOCONE_DIM
   {
     /**
      * Relative residual below which an iterate is a useful initial guess for
-     * another law, or deserves more than the allowed iterations.
+     * another law, or worth continuing beyond the allowed iterations.
      */
     static constexpr double near = 1e-3;
 
@@ -37,10 +37,10 @@ namespace geocone::GEOCONE_DIM
      *  nonlinear. */
     unsigned int allowed_without_flow =
       std::numeric_limits<unsigned int>::max();
-    /** Iterations after which a far iterate is given up. */
+    /** Iterations after which an iterate far from a solution is abandoned. */
     unsigned int allowed_if_far = std::numeric_limits<unsigned int>::max();
 
-    bool elastic_first = false; ///< takes D as the first tangent
+    bool elastic_first = false; ///< uses D as the first tangent
     bool moves         = false; ///< at least one iteration
     bool exact_contact = false; ///< with ContactDirection
 
@@ -55,7 +55,7 @@ namespace geocone::GEOCONE_DIM
     static std::optional<double>
     factorise(const double wanted, const StepWorkspace &work);
 
-    /** Sets the reason in the report for which the iteration ends. */
+    /** Records in the report why the iteration terminates. */
     static void
     give_up(const ResidualReport &state, const StepWorkspace &work);
   };

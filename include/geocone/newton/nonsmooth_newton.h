@@ -18,7 +18,7 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Nonsmooth solver of a step, which runs the tries of its plan() until one
+   * Nonsmooth solver of a step, which runs the attempts of its plan() until one
    * succeeds. NewtonLoop is the iteration; Globalisation and LagContinuation
    * extend its convergence.
    *
@@ -39,7 +39,7 @@ namespace geocone::GEOCONE_DIM
 
     /**
      * Checks that the formulation applies to this problem, before a step is
-     * tried. Collective.
+     * attempted. Collective.
      * @throws InputError
      */
     void

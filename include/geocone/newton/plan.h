@@ -52,7 +52,7 @@ namespace geocone::GEOCONE_DIM
     enum class Start
     {
       of_step,        ///< velocities of t_n, or the first iterate
-      iterate,        ///< of the previous try, if finite
+      iterate,        ///< of the previous attempt, if finite
       flowing_iterate ///< the same if points yield there
     };
 
@@ -68,7 +68,7 @@ namespace geocone::GEOCONE_DIM
       unlimited;                                ///< only contact is nonlinear
     unsigned int iterations_if_far = unlimited; ///< NewtonLoop::far
 
-    bool prepares = false; ///< only makes the start of the next try
+    bool prepares = false; ///< only provides the start of the next one
     bool is_rough = false; ///< only up to NewtonLoop::near
     /** Uses the elastic tangent first, if the time stepper hints at it. */
     bool elastic_first = true;
@@ -79,18 +79,18 @@ namespace geocone::GEOCONE_DIM
   {
     Formulation         formulation   = Formulation::automatic;
     GlobalisationMethod globalisation = GlobalisationMethod::automatic;
-    /** Iterations of each try; 0: as the plan proposes. */
+    /** Maximum number of iterations of each attempt; 0: that of the plan. */
     unsigned int max_iterations = 0;
   };
 
   /**
-   * Tries for a step in their order; the first that converges completes it,
-   * unless it only prepares another. A pure function. For theta >= phi/2 the
-   * return map with the line search is tried first. Otherwise, or if it fails,
-   * the natural map with the elastic blend follows: its stresses satisfy the
-   * law at the end only, which avoids cycles of points between modes. For
-   * non-associated flow the lag continuation is the last. doc/performance.md
-   * compares them.
+   * Attempts at a step in order; the first that converges completes the step,
+   * unless it only provides the initial guess of the next. A pure function. For
+   * theta >= phi/2 the return map with the line search is tried first.
+   * Otherwise, or if it fails, the natural map with the elastic blend follows:
+   * its stresses satisfy the law at the end only, which avoids cycles of points
+   * between modes. For non-associated flow the lag continuation is the last.
+   * doc/performance.md compares them.
    */
   std::vector<Try>
   plan(const StepTraits &step, const PlanOptions &options = {});

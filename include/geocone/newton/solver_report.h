@@ -30,25 +30,24 @@ namespace geocone::GEOCONE_DIM
     bool         converged      = false;
     unsigned int iterations     = 0; ///< linear systems solved, or sweeps
     unsigned int factorisations = 0;
-    unsigned int regularised    = 0;  ///< systems made regular by a blend
+    unsigned int regularised    = 0;  ///< made regular by an elastic blend
     double       residual       = 0.; ///< relative, at the end
     double       friction_lag   = 0.; ///< of the law that was solved; 0: exact
 
     /** InternalForces::excess_share() of the solution, for lagged friction. */
     double excess_share = 0.;
 
-    /** Whether it was solved with a law that differs too much from the exact
-     *  one. */
+    /** Whether the law that was solved differs too much from the exact one. */
     bool exceeds = false;
 
-    /** Whether rounding limits the residual to above the tolerance. */
+    /** Whether rounding prevents the residual from reaching the tolerance. */
     bool at_rounding_floor = false;
 
     std::vector<NewtonIteration> table;
     std::string                  reason; ///< of failure
     std::string                  remedy; ///< if known
 
-    /** Reads or writes all but the table, for checkpoints. */
+    /** Reads or writes everything except the table, for checkpoints. */
     void
     state(StateRow &row)
     {

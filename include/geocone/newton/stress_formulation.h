@@ -55,7 +55,7 @@ namespace geocone::GEOCONE_DIM
   {
     std::vector<StressFormulation> formulations;
     std::vector<FirstIterate>      first_iterates;
-    std::string                    formulation_help; ///< of these words
+    std::string                    formulation_help; ///< text on these words
     std::string                    first_iterate_help;
   };
 } // namespace geocone::GEOCONE_DIM
