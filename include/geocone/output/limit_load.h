@@ -23,9 +23,9 @@ namespace geocone
     double      value     = 0.;    ///< mean over the plateau (N/m)
     double      band_low  = 0.;    ///< smallest load on the plateau
     double      band_high = 0.;    ///< largest load on the plateau
-    double      drift     = 0.;    ///< relative, over the last part tried
+    double      drift     = 0.;    ///< relative, over the last part considered
     double      begins_at = 0.;    ///< start of the plateau in the branch (m)
-    double      peak      = 0.;    ///< largest load of the whole curve
+    double      peak      = 0.;    ///< largest load of the curve
     std::string reason;            ///< why none was found
   };
 

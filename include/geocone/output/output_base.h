@@ -86,7 +86,7 @@ namespace geocone::GEOCONE_DIM
     summary_is_old() const;
 
     /**
-     * Records in the summary that an exception ended the run.
+     * Records in the summary that an exception terminated the run.
      * @param write_all writes the summary, with the given status, and the last fields;
      * called only if all ranks have stopped together
      * @return whether the ranks are still synchronised; otherwise this rank has failed

@@ -214,7 +214,8 @@ namespace geocone::GEOCONE_DIM
     bool
     load_is_number() const;
 
-    /** Warns of the first load that jumps by more than half and back. */
+    /** Warns of the first load that jumps by more than half of its value and
+     *  back. */
     void
     warn_of_jump();
 

@@ -21,8 +21,8 @@ namespace geocone
   Json
   read_summary(const std::string &file_name);
 
-  /** Topic "run" of a summary: the program's process and host, its start and its last
-   *  sign of life (UTC, ISO 8601). */
+  /** Topic "run" of a summary: the program's process and host, its start time
+   *  and its last update (UTC, ISO 8601). */
   Json
   run_topic();
 

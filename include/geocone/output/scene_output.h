@@ -86,7 +86,7 @@ namespace geocone::GEOCONE_DIM
           [](const Record &r) { return r.last.largest_plastic_strain; });
     }
 
-    /** @param knows_elastic whether the method provides Energies::elastic */
+    /** @param knows_elastic whether the method computes Energies::elastic */
     void
     add_energy_columns(const bool knows_elastic)
     {
