@@ -15,7 +15,7 @@
 namespace geocone::GEOCONE_DIM
 {
   /** Gradients of the barycentric coordinates of a triangle along x and y (1/m).
-   *  @param corners counterclockwise, or the other way round */
+   *  @param corners in either orientation */
   std::array<dealii::Tensor<1, 2>, 3>
   barycentric_gradients(const std::array<dealii::Point<dim>, 3> &corners);
 

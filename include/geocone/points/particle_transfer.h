@@ -92,7 +92,7 @@ namespace geocone::GEOCONE_DIM
                   const dealii::Tensor<2, dim> &gradient,
                   const double                  size);
 
-  /** d/size^2 below which a moment counts as zero in affine_velocity(). */
+  /** d/size^2 below which a moment is treated as zero in affine_velocity(). */
   constexpr double vanishing_moment = 1e-10;
 } // namespace geocone::GEOCONE_DIM
 

@@ -52,8 +52,8 @@ namespace geocone::GEOCONE_DIM
     unsigned long
     add(const unsigned int material, MaterialPoints &points);
 
-    /** Discards the particles that a stage of a resumed run has already
-     *  added. */
+    /** Discards the waiting particles of a material that was added before the
+     *  run was resumed. */
     void
     forget(const unsigned int material)
     {
@@ -134,8 +134,8 @@ namespace geocone::GEOCONE_DIM
     }
 
   private:
-    /** Sorts the particles. @return a text on one of those that have left the
-     *  mesh, and their number on this rank */
+    /** Sorts the particles. @return a message on one of the particles that have
+     *  left the mesh, and their number on this rank */
     std::pair<std::string, unsigned int>
     find_cells(MaterialPoints &points) const;
 

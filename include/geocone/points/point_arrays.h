@@ -78,7 +78,7 @@ namespace geocone::GEOCONE_DIM
       set(append(), row);
     }
 
-    /** Pads the arrays; clears nothing else. */
+    /** Pads the arrays, without changes to the points. */
     void
     pad();
 

@@ -115,8 +115,7 @@ namespace geocone::GEOCONE_DIM
       this->reserve(width * n);
     }
 
-    /** Copies the numbers of point @p p to @p row and from it, and advances
-     *  it. */
+    /** Copies the numbers of point @p p to or from @p row, and advances it. */
     void
     get(const std::size_t p, double *&row) const
     {
@@ -351,8 +350,8 @@ namespace geocone::GEOCONE_DIM
       return n;
     }
 
-    /** Copies all numbers of a point, in the order of variables(), to a row and
-     *  from it. The first are those of its position. */
+    /** Copies all numbers of a point, in the order of variables(), to or from a
+     *  row. The first are those of its position. */
     void
     get(const std::size_t p, double *row) const
     {
@@ -437,9 +436,10 @@ namespace geocone::GEOCONE_DIM
   constexpr unsigned int nobody = dealii::numbers::invalid_unsigned_int;
 
   /**
-   * Sends points to the ranks that own them, and removes those of nobody.
-   * Points that stay keep their order and precede those that arrive. Points: a
-   * set of points with n_points(), reorder() and append(row). Collective.
+   * Sends points to the ranks that own them, and removes those without an
+   * owner. Points that stay keep their order and precede those that arrive.
+   * Points: a set of points with n_points(), reorder() and append(row).
+   * Collective.
    * @param owner of each point
    */
   template <typename Points>
