@@ -85,7 +85,7 @@ namespace geocone::GEOCONE_DIM
     state(StateRow &row);
 
   private:
-    /** A bar, the same on all ranks but for its row. */
+    /** A bar, the same on all ranks except for its row. */
     struct Bar
     {
       unsigned int structure = 0;

@@ -16,7 +16,7 @@ namespace geocone::GEOCONE_DIM
 {
   /**
    * Writes incremental problems as data into the folder of the run: those of
-   * chosen steps, and those that were not solved.
+   * selected steps, and those that did not converge.
    */
   class Freezer : public dealii::ParameterAcceptor
   {

@@ -11,8 +11,8 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Three functions of a row or a column of splines, the last of which has
-   *  hardly any material. */
+  /** Three adjacent functions of a row or a column of splines, the last of
+   *  which has very little material in its support. */
   struct GhostStencil
   {
     std::array<unsigned int, 3> node;        ///< local

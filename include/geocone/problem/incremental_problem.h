@@ -28,7 +28,7 @@ namespace geocone::GEOCONE_DIM
     double       force_norm = 0.; ///< largest norm of a part of R (N/m)
     unsigned int n_cone     = 0;  ///< points on the smooth part of the cone
     unsigned int n_apex     = 0;  ///< points at the apex
-    unsigned int n_switched = 0;  ///< points whose mode differs from last time
+    unsigned int n_switched = 0;  ///< points whose mode has changed
 
     double local_error = 0.; ///< see InternalForces::local_error()
 

@@ -114,7 +114,8 @@ namespace geocone::GEOCONE_DIM
     add_elastic_diagonal(Vector &dst) const override;
 
     /** Counts the points of this rank on the smooth part of the cone, at the
-     *  apex, and in another mode than at the previous residual. */
+     *  apex, and those whose mode differs from that at the previous
+     *  residual. */
     void
     count_modes(double *counts) const;
 
@@ -221,14 +222,14 @@ namespace geocone::GEOCONE_DIM
         void(const unsigned int, const unsigned int, const Mandel &)> &f) const;
 
   private:
-    /** Points from begin to end, of one material. */
+    /** Contiguous points [begin, end) of one material. */
     struct Run
     {
       unsigned int begin, end, material;
     };
     std::vector<Run> runs;
 
-    /** Increment of a run for its material, at the last residual(). */
+    /** Increment of such points for their material, at the last residual(). */
     Increment
     increment_of(const Run &run) const;
 
