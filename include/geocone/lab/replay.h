@@ -90,8 +90,8 @@ namespace geocone::GEOCONE_DIM
     std::vector<Mandel> stress;
   };
 
-  /** Whether a file contains a reduced problem, of Siconos or FCLib, which are of plane
-   *  scenes. */
+  /** Whether a file contains a reduced problem of Siconos or FCLib, i.e. of a
+   *  plane scene. */
   bool
   is_reduced_problem(const std::string &file_name);
 

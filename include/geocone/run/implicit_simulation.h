@@ -64,7 +64,7 @@ namespace geocone::GEOCONE_DIM
     }
 
   private:
-    /** Makes the mesh, and refuses a run that is too large. */
+    /** Creates the mesh, and rejects a run that is too large. */
     void
     prepare_mesh(const RunOptions &options);
 

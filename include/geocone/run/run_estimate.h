@@ -35,8 +35,8 @@ namespace geocone::GEOCONE_DIM
     text() const;
 
     /**
-     * Refuses runs that are too large.
-     * @param force allows more memory than there is
+     * Rejects runs that are too large.
+     * @param force allows runs that need more than the available memory
      * @throws InputError, with the driver, if numbers exceed the range of the integers
      * that count them, or the available memory
      */

@@ -64,8 +64,8 @@ namespace geocone::GEOCONE_DIM
     /** @name Implemented by a method. All collective. */
     /** @{ */
 
-    /** Checks everything that can be refused, at whatever cost, and sets the state at t
-     *  = 0.
+    /** Checks all input, including checks that are expensive, and sets the
+     *  state at t = 0.
      *  @return warnings. @throws InputError */
     virtual std::vector<std::string>
     prepare(const RunOptions &options) = 0;
@@ -138,7 +138,7 @@ namespace geocone::GEOCONE_DIM
     finish(const double)
     {}
 
-    /** @name State for checkpoints: numbers, and data with rows of their own */
+    /** @name State for checkpoints: numbers, and arrays */
     /** @{ */
     virtual void
     state(StateRow &)
