@@ -60,8 +60,8 @@ namespace geocone
     bool
     are_apart(const unsigned int a, const unsigned int b) const;
 
-    /** Body of a material, counted from 0: materials in the same bodies of all
-     *  contacts belong together. Without contacts there is one body. */
+    /** Body of a material, counted from 0: materials that are in the same body
+     *  in all contacts belong together. Without contacts there is one body. */
     unsigned int
     body_of(const unsigned int material) const
     {
@@ -75,8 +75,9 @@ namespace geocone
       return number;
     }
 
-    /** Requires a contact for each pair of bodies, in methods in which others
-     *  could penetrate each other. @throws InputError if a pair has none */
+    /** Requires a contact for each pair of bodies, in methods in which bodies
+     *  without a contact could penetrate each other. @throws InputError if a
+     *  pair has none */
     void
     check_all_pairs() const;
 

@@ -198,8 +198,8 @@ namespace geocone::GEOCONE_DIM
     std::pair<dealii::Point<dim>, dealii::Point<dim>>
     bounding_box() const;
 
-    /** Length (m) below which distances count as zero: 1e-9 of the body's size,
-     *  but at least the resolution of its coordinates; not for a file. */
+    /** Length (m) below which distances are treated as zero: 1e-9 of the body's
+     *  size, but at least the resolution of its coordinates; not for a file. */
     double
     rounding() const;
 

@@ -56,12 +56,12 @@ namespace geocone::GEOCONE_DIM
      *  value; 0: unchanged. */
     double strength_factor = 0.;
 
-    /** Whether the first step that cannot be solved ends the run as
-     *  intended. */
+    /** Whether the first step that does not converge is the intended end of the
+     *  run. */
     bool until_failure = false;
 
-    /** Whether steps of implicit runs require static equilibrium: strength
-     *  reduction until failure. */
+    /** Whether steps of implicit runs require static equilibrium, as in
+     *  strength reduction until failure. */
     bool
     seeks_equilibrium() const
     {
@@ -100,8 +100,8 @@ namespace geocone::GEOCONE_DIM
     /** @name Changes of the body at the beginning */
     /** @{ */
 
-    /** Polygon or box that is removed, restricted to the region with a positive
-     *  formula, and the time (s) over which its forces are ramped down. */
+    /** Polygon or box that is excavated, restricted to where a formula is
+     *  positive, and the time (s) over which its forces are ramped down. */
     std::vector<dealii::Point<dim>> removed_polygon;
     double                          removal_duration = 0.;
 
@@ -110,10 +110,10 @@ namespace geocone::GEOCONE_DIM
     std::vector<std::string> added_materials;
     double                   addition_duration = 0.;
 
-    /** Materials that become others, by their names. */
+    /** Replaced materials and their replacements, by name. */
     std::map<std::string, std::string> changed_materials;
 
-    /** Whether something is removed, and whether x is in its region. */
+    /** Whether the stage removes material, and whether it does so at x. */
     bool
     removes() const
     {
@@ -122,7 +122,7 @@ namespace geocone::GEOCONE_DIM
     bool
     removes(const dealii::Point<dim> &x) const;
 
-    /** Whether something is removed, added or becomes another material. */
+    /** Whether material is removed, added or replaced. */
     bool
     changes_body() const
     {
@@ -130,7 +130,7 @@ namespace geocone::GEOCONE_DIM
              !changed_materials.empty();
     }
 
-    /** Message on a removal. @param what e.g. "points"
+    /** Message about the amount removed. @param what e.g. "points"
      *  @throws StepFailure if it removes nothing or everything */
     std::string
     removal_text(const unsigned long n_removed,

@@ -160,8 +160,8 @@ namespace geocone::GEOCONE_DIM
     RigidMotion
     load(const double t) const;
 
-    /** Whether nodes keep the position along its boundary that they first
-     *  faced: for slip that is small, like strains, compared with its size. */
+    /** Small sliding: whether nodes retain their initial projection onto its
+     *  boundary, for slip that is small compared with its size. */
     bool
     slides_little() const
     {
@@ -274,10 +274,9 @@ namespace geocone::GEOCONE_DIM
     neighbours(const std::vector<RigidMotion> &moved,
                const double                    margin) const;
 
-    /** Names of a free obstacle and of another one that it overlaps, which is
-     *  not prevented, as obstacles are in contact with bodies only; empty:
-     *  none. @param moved since the start @param margin overlap that counts as
-     *  none (m) */
+    /** Names of two overlapping obstacles, one of which is free, as contact
+     *  between obstacles is not computed; empty: none. @param moved since the
+     *  start @param margin tolerated overlap (m) */
     std::string
     overlap_of_free(const std::vector<RigidMotion> &moved,
                     const double                    margin) const;

@@ -24,8 +24,8 @@ namespace geocone::GEOCONE_DIM
     /** @param materials their names */
     explicit Regions(const std::vector<std::string> &materials);
 
-    /** @param may_be_empty by material: materials that others become, which
-     *  need no region */
+    /** @param may_be_empty by material: replacements of other materials need no
+     *  region */
     void
     prepare(const Geometry          &geometry,
             const std::vector<bool> &may_be_empty = {});
@@ -62,7 +62,7 @@ namespace geocone::GEOCONE_DIM
     unsigned int
     material_at(const dealii::Point<dim> &x) const;
 
-    /** The material at x in a cell of a physical surface.
+    /** Material at x in a cell of a physical surface.
      *  @param name empty: unnamed */
     unsigned int
     material_at(const dealii::Point<dim> &x,

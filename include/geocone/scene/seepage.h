@@ -15,8 +15,8 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Open water, air or rain at a part of the boundary of a body through which water
-   *  seeps, or at a drain in it. */
+  /** Part of the boundary of a body with seepage that is exposed to open water,
+   *  air or rain, or a drain in the body. */
   class SeepageBoundary : public BoundaryPart
   {
   public:
@@ -28,7 +28,7 @@ namespace geocone::GEOCONE_DIM
     /** Height y of the level of open water (m); none: air. */
     std::optional<double> level;
 
-    /** Rain (m/s) per horizontal area, of which the soil takes what it can. */
+    /** Rain (m/s) per horizontal area, an upper limit of infiltration. */
     double rain = 0.;
 
     /** Line of a drain in the body, or empty (m). */
@@ -42,8 +42,8 @@ namespace geocone::GEOCONE_DIM
     std::string level_text = "none";
   };
 
-  /** Boundaries with water or air of a body in which the water flows, named in
-   *  "Seepage/Names"; all others are impervious. */
+  /** Boundaries of a body with seepage that are exposed to water or air, named
+   *  in "Seepage/Names"; all others are impervious. */
   class Seepage : public NamedList<SeepageBoundary>
   {
   public:
@@ -74,8 +74,9 @@ namespace geocone::GEOCONE_DIM
     Levels
     levels() const;
 
-    /** Flows of a stage that begins at a time with the levels @p before; none where it
-     *  changes nothing. @throws InputError for unknown names */
+    /** Flows of a stage that begins at a time with the levels @p before; none
+     *  if the stage does not change the levels. @throws InputError for unknown
+     *  names */
     std::vector<Step>
     steps(const Stage &stage, const double begin, const Levels &before) const;
 

@@ -43,7 +43,7 @@ namespace geocone::GEOCONE_DIM
     void
     prepare(const Gravity &gravity, const Geometry &geometry);
 
-    /** Checks the parameters but gravity. @throws InputError */
+    /** Checks the parameters except gravity. @throws InputError */
     void
     prepare_pressures(const Geometry &geometry);
 
@@ -57,8 +57,8 @@ namespace geocone::GEOCONE_DIM
     bool
     is_level() const;
 
-    /** Whether the seepage force varies within cells of any mesh, as it does
-     *  where a file or a flow gives the pressures. */
+    /** Whether the seepage force varies within cells of any mesh, as is the
+     *  case for pressures from a file or a flow. */
     bool
     varies_in_cells() const
     {
