@@ -82,17 +82,17 @@ namespace geocone::GEOCONE_DIM
     double
     discharge() const;
 
-    /** Relative change of the discharge from the mesh before; none on the first mesh, and
-     *  in transient flow. */
+    /** Relative change of the discharge from the previous mesh; none on the
+     *  first mesh, and in transient flow. */
     std::optional<double>
     change() const;
 
-    /** Whether more water flows than by rounding. */
+    /** Whether the discharge exceeds rounding errors. */
     bool
     flows() const;
 
-    /** Sum of the flows through all boundaries, less what is stored, over the
-     *  discharge. */
+    /** Defect of the mass balance: net inflow through all boundaries minus the
+     *  rate of storage, over the discharge. */
     double
     imbalance() const;
 
@@ -104,7 +104,8 @@ namespace geocone::GEOCONE_DIM
     unsigned int
     n_levels() const;
 
-    /** Takes a mesh, and finds its boundaries and the volumes of its vertices. */
+    /** Adopts a mesh, and finds its boundaries and the volumes of its
+     *  vertices. */
     void
     take(const Triangles &next);
 
@@ -126,11 +127,12 @@ namespace geocone::GEOCONE_DIM
     void
     solve_on_mesh(const FlowConditions &conditions, std::vector<double> start);
 
-    /** Start of Newton's method: hydrostatic pressures below the highest level. */
+    /** Initial guess of Newton's method: hydrostatic pressures below the
+     *  highest level. */
     std::vector<double>
     hydrostatic(const Seepage::Levels &levels) const;
 
-    /** Goes on with a mesh of twice as many triangles. Collective. */
+    /** Refines the mesh to twice as many triangles. Collective. */
     void
     refine(const Seepage::Levels &levels);
 
@@ -166,8 +168,9 @@ namespace geocone::GEOCONE_DIM
     double                rate_of_storage = 0.; ///< (m^2/s)
   };
 
-  /** Solves all flows of a scene, and gives their pressures to its water. Collective.
-   *  @param dry_run whether the first flow, on a coarse mesh, will do
+  /** Solves all flows of a scene, and passes their pressures to its water.
+   *  Collective.
+   *  @param dry_run whether only the first flow is solved, on a coarse mesh
    *  @param time whose pressures are the initial ones (s) */
   void
   let_water_flow(Scene         &scene,

@@ -24,7 +24,7 @@ namespace geocone::GEOCONE_DIM
     };
     std::vector<Kind>   kind;
     std::vector<double> head; ///< psi, where it is prescribed (m)
-    std::vector<double> rain; ///< volume per time offered to a vertex (m^2/s)
+    std::vector<double> rain; ///< supply to a vertex (m^2/s)
 
     /** @name Of a step of a transient flow; empty: steady */
     /** @{ */
