@@ -14,7 +14,8 @@ namespace geocone::GEOCONE_DIM
   /**
    * Boundary faces of a body at its nodes: for each face the integral of N_i
    * (m, m^2) and the outward normal. A node at the end of a face in contact
-   * represents half a cell there, whatever other faces end in it.
+   * represents half a cell there, regardless of the other faces that meet at
+   * it.
    */
   class NodeSides
   {
@@ -32,9 +33,9 @@ namespace geocone::GEOCONE_DIM
     exchange();
 
     /**
-     * Integral of N_i over the faces opposite an obstacle: those with the
-     * normals closest to its, and others that are almost as close (a corner
-     * that stands on its tip has two).
+     * Integral of N_i over the faces opposite an obstacle: those whose normals
+     * are most nearly opposite to its normal, and others that are almost as
+     * close (two for a corner that stands on its tip).
      * @param node an owned one
      * @param normal out of the obstacle
      */

@@ -13,7 +13,7 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Unit coordinates of a part of a line or quadrilateral: the whole, or the
+  /** Unit coordinates of a part of a line or quadrilateral: all of it, or the
    *  range between two corners. */
   struct UnitPart
   {
@@ -62,8 +62,8 @@ namespace geocone::GEOCONE_DIM
       return sum;
     }
 
-    /** Itself in the plane; in space the triangles that share the first corner
-     *  of a convex polygon. */
+    /** Simplices of the part: in the plane the line itself, in space the
+     *  triangles that share the first corner of a convex polygon. */
     std::vector<Outline>
     simplices() const
     {
