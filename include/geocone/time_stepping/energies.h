@@ -40,7 +40,7 @@ namespace geocone
     }
   };
 
-  /** Work on the body and dissipation, over a step or more (J/m). */
+  /** Work on the body and dissipation, over one or more steps (J/m). */
   struct Works
   {
     double external    = 0.; ///< of loads and supports

@@ -162,7 +162,7 @@ namespace geocone::GEOCONE_DIM
   double
   largest_plastic_strain(const MaterialPoints &points, const MPI_Comm comm);
 
-  /** Defect of the energy identity in the last step that a problem solved.
+  /** Defect of the energy identity in the last step solved with a problem.
    *  Collective. */
   double
   energy_identity_error(const IncrementalProblem &problem,
@@ -174,7 +174,7 @@ namespace geocone::GEOCONE_DIM
 
   /**
    * Fraction of the plastic work that becomes kinetic energy in the last step
-   * that a problem solved, v'M(v - vL)/sum V s:de^p, including free obstacles.
+   * solved with a problem, v'M(v - vL)/sum V s:de^p, including free obstacles.
    * It almost vanishes in creep towards a new equilibrium; for a flowing slope
    * it is the deficit 1 - F of its factor of safety. Collective.
    */
@@ -232,7 +232,7 @@ namespace geocone::GEOCONE_DIM
             const double           accepted_excess) = 0;
 
     /** Removes and adds material at the beginning of a stage at time t.
-     *  @throws StepFailure if that is nothing, or all */
+     *  @throws StepFailure if no material is removed, or all of it */
     virtual BodyChange
     change_body(const Stage         &stage,
                 const double         t,
@@ -307,7 +307,7 @@ namespace geocone::GEOCONE_DIM
     }
 
   private:
-    /** Takes the points of a checkpoint of any run. Collective. */
+    /** Adopts the points of a checkpoint of any run. Collective. */
     virtual void
     take_points(const Archive &archive, MaterialPoints &points) = 0;
   };
