@@ -114,8 +114,8 @@ namespace geocone::GEOCONE_DIM
     }
 
   private:
-    /** Evaluates value and slope at xi, of the polynomials with coefficients
-     *  c(0), ... of one and then of the other. */
+    /** Evaluates value and slope at xi by two polynomials, whose coefficients
+     *  c(0), ... follow one another. */
     template <typename Coefficients>
     static void
     evaluate(const Coefficients &c, const P &xi, P &value, P &slope)

@@ -53,14 +53,15 @@ namespace geocone::GEOCONE_DIM
   {
     static constexpr unsigned int size = PointBlock::capacity;
 
-    /** Values gathered at each point: the doubles of a node, then for each
-     *  direction the slopes of the first four, which begin with those of v. */
+    /** Values gathered at each point: the interpolated doubles of a node, then
+     *  for each direction the derivatives of the first four, which begin with
+     *  those of v. */
     static constexpr unsigned int n_gathered = node_size + 4 * dim;
     alignas(32) double gathered[n_gathered * size];
 
-    /** Values scattered to nodes: (m v, 0, ...) times N, then for each
-     *  direction d times dN/dx_d the last four, which end or begin with -V s_d
-     *  as those of a node do. */
+    /** Values scattered to nodes: (m v, 0, ...), which is multiplied by N, then
+     *  for each direction d four values, which are multiplied by dN/dx_d and
+     *  contain -V s_d in the place of the force. */
     static constexpr unsigned int n_given = 4 + 4 * dim;
     alignas(32) double given[n_given * size];
 
@@ -71,8 +72,8 @@ namespace geocone::GEOCONE_DIM
     alignas(32) double l_zz[size];
     alignas(32) double hoop_force[size];
 
-    /** With B-bar, at each point or its mean over the points of the cell: the
-     *  divergence of v (1/s), and the mean stress tr s/dim (Pa). */
+    /** For B-bar: the divergence of v (1/s) and the mean stress tr s/dim (Pa),
+     *  of each point or averaged over the points of its cell. */
     alignas(32) double divergence[size];
     alignas(32) double mean_stress[size];
     alignas(32) double work[size], wave_modulus[size];

@@ -43,8 +43,8 @@ namespace geocone::GEOCONE_DIM
 
     /**
      * Computes sum q N over the functions of the directions 0 ... d at the mth
-     * of four points, q four doubles of a node, and the same with dN in place
-     * of N for each direction.
+     * of four points, with q four doubles of a node, and for each direction the
+     * same sum with dN instead of N.
      */
     template <int p, int d, bool with_slopes>
     static Sum<d>
@@ -133,8 +133,8 @@ namespace geocone::GEOCONE_DIM
         }
     }
 
-    /** Moments N_i (x_i - x)/sum_i N_i (x_i - x)^2, or dN_i/dx if this is
-     *  0/0. */
+    /** Weights N_i (x_i - x)/sum_i N_i (x_i - x)^2 of APIC, or dN_i/dx if the
+     *  sum vanishes. */
     template <int p>
     static void
     find_moments(const GridView    &grid,
@@ -160,9 +160,9 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * Adds a N of n points, the mth of four and the next ones, to the functions
-     * of the directions 0 ... d, unless there is no a, and b_e dN for each
-     * direction. Points with the same nodes read and write them once.
+     * Adds a N (if there is an a) and b_e dN for each direction e, of n points
+     * from the mth of four on, to the functions of the directions 0 ... d.
+     * Points with the same nodes read and write them once.
      */
     template <int p, int d, int n, bool has_a, bool has_b>
     static void
@@ -280,8 +280,8 @@ namespace geocone::GEOCONE_DIM
         }
     }
 
-    /** Adds masses to functions of the last direction by four: beyond the p +
-     *  1st, zeros are added. */
+    /** Adds masses to the functions of the last direction in vectors of four,
+     *  padded with zeros after p + 1 functions. */
     template <int p, int d, int n>
     static void
     add_masses(const GridView &grid,
