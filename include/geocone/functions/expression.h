@@ -46,8 +46,8 @@ namespace geocone::GEOCONE_DIM
       return number == 0.;
     }
 
-    /** End of a record (s) whose last value is not zero and is kept; otherwise
-     *  infinite. */
+    /** End of a record (s) whose non-zero last value continues to act;
+     *  otherwise infinite. */
     double
     stays_from() const;
 

@@ -37,7 +37,7 @@ namespace geocone
     using Vector = Eigen::Matrix<double, n, 1>;
 
     double K = 0., G = 0.;            ///< elastic moduli (25), (26) (Pa)
-    double p_y = 0.;                  ///< p of sy that turns beta in (24) (Pa)
+    double p_y = 0.;                  ///< p of sy, factor of beta in (24) (Pa)
     Vector sy, st;                    ///< (20) and tilde sy of (38) (Pa)
     Vector sh;                        ///< sh of (21) at sy (Pa)
     Vector N, m;                      ///< gradients of fbar and gbar at sy (Pa)

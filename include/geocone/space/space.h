@@ -159,7 +159,8 @@ namespace geocone::GEOCONE_DIM
       return n_nodes_per_cell;
     }
 
-    /** Global numbers of the nodes of a cell, in the order of N. */
+    /** Global numbers of the nodes of a cell, in the order of the shape
+     *  functions. */
     void
     cell_nodes(const Cell                                   &cell,
                std::vector<dealii::types::global_dof_index> &nodes) const;
