@@ -52,7 +52,7 @@ namespace geocone
       {"Obstacles", "rigid bodies in contact with the soil"},
       {"Contacts", "contact between deformable bodies"},
       {"Structures", "anchors, struts and geogrids"},
-      {"Absorbing boundaries", "boundaries that waves leave and enter through"},
+      {"Absorbing boundaries", "boundaries that transmit waves"},
       {"Loading", "stages: duration, steps, excavation, fill, strength"},
       {"Path", "stages of a single material point"},
       {"Element", "options of a single material point"},

@@ -25,7 +25,7 @@ namespace geocone::GEOCONE_DIM
     add_parameter("Initial stress",
                   initial_stress,
                   "Initial stress xx, yy, zz, xy, yz, zx [Pa], tension "
-                  "positive. Plane-strain laws carry zz along.");
+                  "positive. For plane-strain laws zz is a history variable.");
     add_parameter(
       "Initial specific volume",
       initial_volume,

@@ -68,7 +68,7 @@ namespace geocone::GEOCONE_DIM
                   "Ghost stiffness gamma [-], 0 to 1: viscous stiffness, as a "
                   "part of Young's modulus, that couples low-mass B-splines of "
                   "small cut cells to their neighbours. It prevents spurious "
-                  "velocities of few particles under load. 0: none.",
+                  "velocities where few particles carry a load. 0: none.",
                   prm,
                   Patterns::Double(0., 1.));
     ghosts.declare(

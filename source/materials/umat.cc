@@ -82,12 +82,12 @@ namespace geocone::GEOCONE_DIM
       "Library",
       library,
       "Shared object with the law, relative to the folder of the parameter "
-      "file, or else to the working folder. It is a program with your rights, "
+      "file, or else to the working folder. It is executed with your rights, "
       "and is loaded only with the option --load-library.");
     add_parameter("Function",
                   function,
                   "Name of the function in the library; an underscore at its "
-                  "end, as compilers of Fortran add it, may be left out.");
+                  "end, as compilers of Fortran add it, can be omitted.");
     add_parameter(
       "Constants",
       constants,

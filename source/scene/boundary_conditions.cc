@@ -38,8 +38,8 @@ namespace geocone::GEOCONE_DIM
   {
     add_parameter("Sides",
                   sides,
-                  "Names of sides of the domain, comma-separated, or all. A "
-                  "name that has a comma stands in double quotes.");
+                  "Names of sides of the domain, comma-separated, or all. "
+                  "Names that contain a comma are put in double quotes.");
     add_parameter("Box",
                   box,
                   "Restricts the condition to the part of the sides inside the "
@@ -110,8 +110,8 @@ namespace geocone::GEOCONE_DIM
           "Segment shortening",
           shortening,
           "Reduction of the length of the side for 'segments', in cell sizes "
-          "[-]. A calibration without theory: 0.3 makes cubic splines accurate "
-          "to 2 % for footings of four cells.");
+          "[-]. An empirical calibration: 0.3 makes cubic splines accurate to "
+          "2 % for footings of four cells.");
       }
   }
 

@@ -65,15 +65,15 @@ namespace geocone::GEOCONE_DIM
         stage.flow_steps,
         "FEM, MPM, seepage: number of equal time steps of a transient flow "
         "during the stage, in which 'Water levels' change linearly and the "
-        "free surface follows with 'Drainable porosity'. 0: the flow is steady "
-        "where levels change, and stays as it is where they do not.");
+        "free surface follows with 'Drainable porosity'. 0: a steady flow if "
+        "the stage changes levels, otherwise the flow is unchanged.");
       stage.add_parameter(
         "Until failure",
         stage.until_failure,
         "FEM and MPM: whether the stage and the run end as intended at the "
-        "first step that does not converge even after subdivision: loads that "
-        "grow in time are increased to failure. summary.json reports the time "
-        "of failure (topic 'failure').");
+        "first step that does not converge even after subdivision: "
+        "time-dependent loads are increased until failure. summary.json "
+        "reports the time of failure (topic 'failure').");
       stage.add_parameter(
         "Raised loads",
         stage.raised_loads,

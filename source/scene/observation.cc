@@ -72,7 +72,7 @@ namespace geocone::GEOCONE_DIM
       factor,
       "Load = factor x reaction of the support on the body [-]: -1 for a "
       "positive downward load, -2 if half of a symmetric body is modelled. "
-      "Without 'Conditions', for raised loads: |factor| x load factor.");
+      "Without 'Conditions', with load stepping: |factor| x load factor.");
     add_parameter(
       "Reference",
       value,

@@ -30,14 +30,14 @@ namespace geocone::GEOCONE_DIM
     add_parameter(
       "Rain",
       rain,
-      "Rain on the sides per horizontal area [m/s]; what the soil cannot take "
-      "runs off.");
+      "Rain on the sides per horizontal area [m/s]; the part that cannot "
+      "infiltrate runs off.");
     add_parameter(
       "Drain",
       drain,
       "Line x, y; x, y; ... [m] of a drain, filter or slotted pipe in the "
-      "body, instead of sides. Without a level it is open to the air: it takes "
-      "the water that arrives. Empty: none.");
+      "body, instead of sides. Without a level it is open to the air: it "
+      "drains the water that reaches it. Empty: none.");
   }
 
   void

@@ -21,7 +21,8 @@ namespace geocone
         *this,
         "Outflow",
         ": treatment of a particle that leaves the background mesh. Error: the "
-        "run ends and names it. Count: it is removed and counted.");
+        "run terminates with an error that identifies it. Count: it is removed "
+        "and counted.");
     }
 
     bool
