@@ -12,10 +12,10 @@ namespace geocone::GEOCONE_DIM
     /** Sorted local nodes that share a cell, a group or a link with each local
      *  node. */
     std::vector<std::vector<unsigned int>>
-    nodes_that_meet(const MaterialPoints &points,
-                    const unsigned int    n_local_nodes,
-                    const std::vector<std::array<unsigned int, 3>> &groups,
-                    const std::vector<std::vector<unsigned int>>   &links)
+    nodes_that_meet(const MaterialPoints                         &points,
+                    const unsigned int                            n_local_nodes,
+                    const std::vector<std::vector<unsigned int>> &groups,
+                    const std::vector<std::vector<unsigned int>> &links)
     {
       // First the cells of each node, then the nodes of these cells.
       const unsigned int                     n = points.n_nodes;
@@ -55,13 +55,13 @@ namespace geocone::GEOCONE_DIM
   } // namespace
 
   JacobianPattern::JacobianPattern(
-    const MaterialPoints                           &points,
-    const Unknowns                                 &unknowns,
-    const MPI_Comm                                  comm,
-    const std::vector<std::array<unsigned int, 3>> &groups,
-    const std::vector<std::vector<unsigned int>>   &links,
-    const bool                                      one_triangle,
-    SparseMatrix                                   &matrix)
+    const MaterialPoints                         &points,
+    const Unknowns                               &unknowns,
+    const MPI_Comm                                comm,
+    const std::vector<std::vector<unsigned int>> &groups,
+    const std::vector<std::vector<unsigned int>> &links,
+    const bool                                    one_triangle,
+    SparseMatrix                                 &matrix)
     : one_triangle(one_triangle)
   {
     const unsigned int      n      = points.n_nodes;

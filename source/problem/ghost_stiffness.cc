@@ -50,12 +50,12 @@ namespace geocone::GEOCONE_DIM
         }
   }
 
-  std::vector<std::array<unsigned int, 3>>
+  std::vector<std::vector<unsigned int>>
   GhostStiffness::node_groups() const
   {
-    std::vector<std::array<unsigned int, 3>> groups;
+    std::vector<std::vector<unsigned int>> groups;
     for (const GhostStencil &stencil : all)
-      groups.push_back(stencil.node);
+      groups.emplace_back(stencil.node.begin(), stencil.node.end());
     return groups;
   }
 

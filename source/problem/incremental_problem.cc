@@ -172,11 +172,15 @@ namespace geocone::GEOCONE_DIM
   {
     Assert(!one_triangle || is_symmetric(), ExcInternalError());
     SparseMatrix matrix;
-    links   = links_now;
+    links = links_now;
+    std::vector<std::vector<unsigned int>> groups;
+    for (const Term *term : terms)
+      for (std::vector<unsigned int> &group : term->node_groups())
+        groups.push_back(std::move(group));
     pattern = JacobianPattern(points,
                               unknowns,
                               layout->get_mpi_communicator(),
-                              ghost.node_groups(),
+                              groups,
                               links,
                               one_triangle,
                               matrix);

@@ -32,13 +32,13 @@ namespace geocone::GEOCONE_DIM
      * is stored
      * @param[out] matrix with the pattern and zero values
      */
-    JacobianPattern(const MaterialPoints                           &points,
-                    const Unknowns                                 &unknowns,
-                    const MPI_Comm                                  comm,
-                    const std::vector<std::array<unsigned int, 3>> &groups,
-                    const std::vector<std::vector<unsigned int>>   &links,
-                    const bool    one_triangle,
-                    SparseMatrix &matrix);
+    JacobianPattern(const MaterialPoints                         &points,
+                    const Unknowns                               &unknowns,
+                    const MPI_Comm                                comm,
+                    const std::vector<std::vector<unsigned int>> &groups,
+                    const std::vector<std::vector<unsigned int>> &links,
+                    const bool                                    one_triangle,
+                    SparseMatrix                                 &matrix);
 
     /** Whether only the entries i <= j of a cell's matrix are used. */
     bool

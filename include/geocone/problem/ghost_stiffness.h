@@ -68,9 +68,8 @@ namespace geocone::GEOCONE_DIM
       return all;
     }
 
-    /** Groups of nodes that couple in its matrix. */
-    std::vector<std::array<unsigned int, 3>>
-    node_groups() const;
+    std::vector<std::vector<unsigned int>>
+    node_groups() const override;
 
   private:
     /** g of a stencil along a component. */

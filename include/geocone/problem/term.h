@@ -80,6 +80,14 @@ namespace geocone::GEOCONE_DIM
                   [[maybe_unused]] const Vector &dv) const
     {}
 
+    /** Groups of local nodes that couple in the term's matrix, besides those of
+     *  cells. */
+    virtual std::vector<std::vector<unsigned int>>
+    node_groups() const
+    {
+      return {};
+    }
+
     /** Adds the diagonal of the term's elastic Jacobian to dst (kg/(m s)). */
     virtual void
     add_elastic_diagonal([[maybe_unused]] Vector &dst) const
