@@ -51,7 +51,7 @@ namespace geocone
       {"Seepage", "steady flow of water with a free surface"},
       {"Obstacles", "rigid bodies in contact with the soil"},
       {"Contacts", "contact between deformable bodies"},
-      {"Structures", "anchors, struts and geogrids"},
+      {"Structures", "anchors, struts, geogrids and plates"},
       {"Absorbing boundaries", "boundaries that transmit waves"},
       {"Loading", "stages: duration, steps, excavation, fill, strength"},
       {"Path", "stages of a single material point"},

@@ -261,7 +261,11 @@ namespace geocone::GEOCONE_DIM
 
     // The step is accepted from here on.
     if (bars)
-      report.bars = bars->commit();
+      {
+        bars->commit();
+        report.bars   = bars->states_of_bars();
+        report.plates = bars->states_of_plates();
+      }
     accept_move(step, points, v);
     report.load_factor =
       raised.take(*constraints, problem->multipliers(), force, residual);

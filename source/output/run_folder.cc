@@ -59,7 +59,8 @@ namespace geocone
     {
       static const std::regex names(
         "(parameters\\.prm|summary\\.json|model\\.json|log\\.txt|report\\.html|"
-        "paraview_state\\.py|(statistics|newton|path|surfaces|bounds)\\.csv|"
+        "paraview_state\\.py|(statistics|newton|plates|path|surfaces|bounds)\\."
+        "csv|"
         "(cells|points|obstacles|bounds)(-[0-9]{4,}.*)?\\."
         "(vtu|pvtu|pvd|h5|vtkhdf|xdmf)|checkpoint-[0-9]{6,}\\.h5)(\\.part)?");
       return std::regex_match(name, names);

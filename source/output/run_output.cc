@@ -47,6 +47,21 @@ namespace geocone::GEOCONE_DIM
                  "apex points",
                  "switched points"},
                 resumes);
+    if (!scene->structures.plates().empty())
+      plates.open(path + "/plates.csv",
+                  {"step",
+                   "time (s)",
+                   "plate",
+                   "distance along it (m)",
+                   "x (m)",
+                   "y (m)",
+                   "displacement x (m)",
+                   "displacement y (m)",
+                   unit("axial force (N/m)"),
+                   unit("shear force (N/m)"),
+                   unit("bending moment (N m/m)"),
+                   "plastic rotation (-)"},
+                  resumes);
   }
 
   void
@@ -170,6 +185,42 @@ namespace geocone::GEOCONE_DIM
         add("yields " + names[bar] + " (-)",
             [state](const Record &r) { return state(r).yields; });
       }
+    const auto plates_of_scene = scene->structures.plates();
+    for (unsigned int plate = 0; plate < plates_of_scene.size(); ++plate)
+      {
+        const std::string &name = plates_of_scene[plate]->name;
+        add("largest bending moment " + name + " (N m/m)",
+            [plate](const Record &r) {
+              return r.last.plates[plate].largest(size_of_moment).moment;
+            });
+        add("largest displacement " + name + " (m)", [plate](const Record &r) {
+          return r.last.plates[plate]
+            .largest(size_of_displacement)
+            .displacement.norm();
+        });
+        add("plastic hinges " + name + " (-)",
+            [plate](const Record &r) { return r.last.plates[plate].n_hinges; });
+      }
+  }
+
+  void
+  RunOutput::add_plates(const Record &record)
+  {
+    for (unsigned int plate = 0; plate < record.last.plates.size(); ++plate)
+      if (record.last.plates[plate].acts)
+        for (const PlatePoint &point : record.last.plates[plate].points)
+          plates.add_line({double(record.step),
+                           record.time,
+                           plate + 1.,
+                           point.arc,
+                           point.x[0],
+                           point.x[1],
+                           point.displacement[0],
+                           point.displacement[1],
+                           point.normal,
+                           point.shear,
+                           point.moment,
+                           point.hinge});
   }
 
   void
@@ -187,7 +238,7 @@ namespace geocone::GEOCONE_DIM
   RunOutput::state_of_run(StateRow &row)
   {
     SceneOutput::state_of_run(row);
-    row(newton, *fields, n_load_jumps);
+    row(newton, plates, *fields, n_load_jumps);
   }
 
   void
@@ -239,6 +290,8 @@ namespace geocone::GEOCONE_DIM
     balance.add_step(
       record.last.energies, record.last.of_lost, record.last.works);
     add_record(record);
+    if (writes)
+      add_plates(record);
     records.back().last.newton.table.clear(); // only the numbers are kept
     warn_of_jump();
     balance.warn_if_created(

@@ -120,7 +120,43 @@ namespace geocone::GEOCONE_DIM
         json[key + "plastic_elongation_m"] = last.plastic;
         json[key + "yields"]               = last.yields;
       }
+    for (unsigned int i = 0; i < scene->structures.plates().size(); ++i)
+      add_plate(json, i);
     return json;
+  }
+
+  void
+  RunOutput::add_plate(Json &json, const unsigned int plate) const
+  {
+    const auto plate_of =
+      [plate](const ImplicitRecord &record) -> const PlateState & {
+      return record.last.plates[plate];
+    };
+    const auto axial = [](const PlatePoint &point) { return point.normal; };
+    const auto compression = [](const PlatePoint &point) {
+      return -point.normal;
+    };
+    const auto shear = [](const PlatePoint &point) {
+      return std::abs(point.shear);
+    };
+    double moment_of_all = 0.;
+    for (const ImplicitRecord &record : records)
+      moment_of_all =
+        std::max(moment_of_all,
+                 size_of_moment(plate_of(record).largest(size_of_moment)));
+    const PlateState &last = plate_of(records.back());
+    const PlatePoint &most = last.largest(size_of_moment);
+    const std::string key =
+      Structures::key_of(scene->structures.plates()[plate]->name) + "_";
+    json[key + "moment_N"]                  = most.moment;
+    json[key + "moment_at_m"]               = most.arc;
+    json[key + "moment_of_all_steps_N"]     = moment_of_all;
+    json[key + "shear_force_N_per_m"]       = last.largest(shear).shear;
+    json[key + "axial_force_most_N_per_m"]  = last.largest(axial).normal;
+    json[key + "axial_force_least_N_per_m"] = last.largest(compression).normal;
+    json[key + "displacement_m"] =
+      last.largest(size_of_displacement).displacement.norm();
+    json[key + "plastic_hinges"] = last.n_hinges;
   }
 
   Json

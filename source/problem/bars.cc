@@ -6,8 +6,12 @@
 #include <geocone/base/over_ranks.h>
 #include <geocone/mesh/cell_search.h>
 #include <geocone/problem/bars.h>
+#include <geocone/problem/plate_points.h>
+
+#include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace geocone::GEOCONE_DIM
 {
@@ -15,31 +19,12 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    using RowOfBar = std::vector<std::pair<unsigned int, double>>;
-
-    /** Axial force of an elastic elongation. */
-    double
-    force_of_bar(const Structure &structure,
-                 const double     k,
-                 const double     elongation)
+    /** Nonzero entries of a vector, the first n local ones. */
+    std::vector<std::pair<unsigned int, double>>
+    entries_of(const Vector &b, const unsigned int n)
     {
-      return structure.pre_stress + k * elongation;
-    }
-
-    /** Whether a bar is slack under a trial force, instead of yielding: it has no
-     *  strength in this direction, and carries forces again at its former length. */
-    bool
-    is_slack(const Structure &structure, const double trial)
-    {
-      return structure.admissible(trial > 0. ? 1. : -1.) == 0.;
-    }
-
-    /** Nonzero owned entries of a vector. */
-    RowOfBar
-    owned_entries(const Vector &b)
-    {
-      RowOfBar row;
-      for (unsigned int i = 0; i < b.locally_owned_size(); ++i)
+      std::vector<std::pair<unsigned int, double>> row;
+      for (unsigned int i = 0; i < n; ++i)
         if (b.local_element(i) != 0.)
           row.emplace_back(i, b.local_element(i));
       return row;
@@ -57,51 +42,173 @@ namespace geocone::GEOCONE_DIM
     const CellSearch                     cells(mesh);
     std::vector<types::global_dof_index> nodes;
     std::vector<double>                  values;
-    for (unsigned int s = 0; s < structures.list.size(); ++s)
+    const auto ties_of = [&](const Structure               &structure,
+                             const std::vector<Point<dim>> &points) {
+      std::vector<Tie> ties;
+      unsigned int     n_outside = 0;
+      for (const Point<dim> &x : points)
+        {
+          const std::optional<CellSearch::Place> place = cells.find(x);
+          n_outside += !place;
+          if (n_outside > (structure.may_be_fixed() ? 1u : 0u))
+            throw InputError(
+              structure.parameter("Points"),
+              text_of_place(x),
+              structure.may_be_fixed() ? "one point at least in the body"
+                                       : "points in the body",
+              structure.is_plate() ? "let the plate end where the body ends"
+                                   : "move the point into the body");
+          ties.emplace_back();
+          if (!place || !place->cell->is_locally_owned())
+            continue;
+          space.cell_nodes(place->cell, nodes);
+          values.resize(nodes.size());
+          space.evaluate(place->cell, place->unit, values.data(), nullptr);
+          // At a node, all others have no part.
+          for (unsigned int n = 0; n < nodes.size(); ++n)
+            if (std::abs(values[n]) > 1e-9)
+              ties.back().emplace_back(space.local_node(nodes[n]), values[n]);
+        }
+      return ties;
+    };
+    for (const auto &structure : structures.list)
+      if (!structure->is_plate())
+        {
+          const std::vector<Point<dim>> &points = structure->points;
+          const std::vector<Tie>         ties   = ties_of(*structure, points);
+          for (unsigned int i = 1; i < points.size(); ++i)
+            {
+              const Tensor<1, dim> along = points[i] - points[i - 1];
+              const Tensor<1, dim> unit  = along / along.norm();
+              add_bar(*structure,
+                      false,
+                      structure->stiffness / along.norm(),
+                      {{&ties[i], unit}, {&ties[i - 1], -unit}});
+            }
+        }
+    for (const Structure *plate : structures.plates())
       {
-        const Structure &structure = *structures.list[s];
-        std::vector<std::optional<CellSearch::Place>> places;
-        unsigned int                                  n_outside = 0;
-        for (const Point<dim> &x : structure.points)
-          {
-            places.push_back(cells.find(x));
-            n_outside += !places.back();
-            if (n_outside > (structure.may_be_fixed() ? 1u : 0u))
-              throw InputError(structure.parameter("Points"),
-                               text_of_place(x),
-                               structure.may_be_fixed()
-                                 ? "one point at least in the body"
-                                 : "points in the body",
-                               "move the point into the body");
-          }
-        for (unsigned int i = 1; i < places.size(); ++i)
-          {
-            const Tensor<1, dim> along =
-              structure.points[i] - structure.points[i - 1];
-            Bar bar;
-            bar.structure = s;
-            bar.k         = structure.stiffness / along.norm();
-            Vector b(space.partitioner());
-            for (const unsigned int end : {i - 1, i})
-              if (places[end] && places[end]->cell->is_locally_owned())
-                {
-                  space.cell_nodes(places[end]->cell, nodes);
-                  values.resize(nodes.size());
-                  space.evaluate(places[end]->cell,
-                                 places[end]->unit,
-                                 values.data(),
-                                 nullptr);
-                  for (unsigned int n = 0; n < nodes.size(); ++n)
-                    for (unsigned int d = 0; d < dim; ++d)
-                      b.local_element(dim * space.local_node(nodes[n]) + d) +=
-                        (end == i ? 1. : -1.) * values[n] * along[d] /
-                        along.norm();
-                }
-            b.compress(VectorOperation::add);
-            bar.along_axes = owned_entries(b);
-            bars.push_back(std::move(bar));
-          }
+        std::vector<Point<dim>> points =
+          points_of_plate(*plate, mesh, space.degree());
+        const std::vector<Tie> ties = ties_of(*plate, points);
+        add_plate(*plate, std::move(points), ties);
       }
+  }
+
+  Vector
+  Bars::row_of(const Factors &factors) const
+  {
+    Vector b(space.partitioner());
+    for (const auto &[tie, factor] : factors)
+      for (const auto &[node, weight] : *tie)
+        for (unsigned int d = 0; d < dim; ++d)
+          b.local_element(dim * node + d) += weight * factor[d];
+    b.compress(VectorOperation::add);
+    b.update_ghost_values();
+    return b;
+  }
+
+  void
+  Bars::add_bar(const Structure &structure,
+                const bool       bends,
+                const double     k,
+                const Factors   &factors)
+  {
+    const Vector       b       = row_of(factors);
+    const MPI_Comm     comm    = space.partitioner()->get_mpi_communicator();
+    const unsigned int n_owned = space.partitioner()->locally_owned_size();
+    const unsigned int n_local =
+      n_owned + space.partitioner()->n_ghost_indices();
+    Bar bar;
+    bar.structure  = &structure;
+    bar.bends      = bends;
+    bar.k          = k;
+    bar.along_axes = entries_of(b, n_owned);
+    if (structure.is_chain())
+      {
+        const unsigned int rank    = Utilities::MPI::this_mpi_process(comm);
+        const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(comm);
+        const bool         has_all = entries_of(b, n_local).size() ==
+                             Utilities::MPI::sum(bar.along_axes.size(), comm);
+        const unsigned int one =
+          Utilities::MPI::min(has_all ? rank : n_ranks, comm);
+        bar.is_assembled      = one < n_ranks;
+        bar.is_assembled_here = one == rank;
+        if (bar.is_assembled_here) // for the pattern, before any step
+          bar.assembled = entries_of(b, n_local);
+      }
+    bars.push_back(std::move(bar));
+  }
+
+  void
+  Bars::add_plate(const Structure        &structure,
+                  std::vector<Point<dim>> points,
+                  const std::vector<Tie> &ties)
+  {
+    Plate plate;
+    plate.points           = std::move(points);
+    plate.first_segment    = bars.size();
+    const unsigned int   n = plate.n_segments();
+    std::vector<double>  lengths;
+    std::vector<Factors> rotations; // of segments
+    for (unsigned int i = 0; i < n; ++i)
+      {
+        Tensor<1, dim> along  = plate.points[i + 1] - plate.points[i];
+        const double   length = along.norm();
+        along /= length;
+        add_bar(structure,
+                false,
+                structure.stiffness / length,
+                {{&ties[i + 1], along}, {&ties[i], -along}});
+        Tensor<1, dim> normal; // to the left
+        normal[0] = -along[1];
+        normal[1] = along[0];
+        rotations.push_back(
+          {{&ties[i + 1], normal / length}, {&ties[i], -normal / length}});
+        lengths.push_back(length);
+      }
+    plate.bending.resize(n + 1);
+    for (unsigned int i = 0; i <= n; ++i)
+      {
+        const bool at_first = i == 0, at_last = i == n;
+        if (at_last && structure.is_closed())
+          {
+            plate.bending[i] = plate.bending[0];
+            continue;
+          }
+        if ((at_first || at_last) && !structure.is_closed() &&
+            !structure.is_clamped(at_last))
+          continue;
+        // Change of the rotation, which is zero beyond a clamped end.
+        Factors factors;
+        double  length = 0.;
+        if (!at_first || structure.is_closed())
+          {
+            const unsigned int before = at_first ? n - 1 : i - 1;
+            length += lengths[before] / 2.;
+            for (const auto &[tie, factor] : rotations[before])
+              factors.emplace_back(tie, -factor);
+          }
+        if (!at_last)
+          {
+            length += lengths[i] / 2.;
+            factors.insert(
+              factors.end(), rotations[i].begin(), rotations[i].end());
+          }
+        plate.bending[i] = bars.size();
+        add_bar(structure, true, structure.bending / length, factors);
+      }
+    const unsigned int n_owned = space.partitioner()->locally_owned_size();
+    for (const Tie &tie : ties)
+      {
+        plate.components.emplace_back();
+        for (unsigned int d = 0; d < dim; ++d)
+          plate.components.back()[d].along_axes =
+            entries_of(row_of({{&tie, Point<dim>::unit_vector(d)}}), n_owned);
+      }
+    plate.displacement.resize(n + 1);
+    plate.velocity.resize(n + 1);
+    plates.push_back(std::move(plate));
   }
 
   void
@@ -120,11 +227,10 @@ namespace geocone::GEOCONE_DIM
     for (unsigned int i = 0; i < bars.size(); ++i)
       if (n_missing[i] > 0.)
         throw RunError(
-          "the structure '" + structures.list[bars[i].structure]->name +
+          "the structure '" + bars[i].structure->name +
           "' is tied to a removed part of the body in the stage '" + stage +
           "'\n  remedy:  leave the stage out of '" +
-          structures.list[bars[i].structure]->parameter("Acts in") +
-          "', or move its points");
+          bars[i].structure->parameter("Acts in") + "', or move its points");
   }
 
   void
@@ -134,37 +240,59 @@ namespace geocone::GEOCONE_DIM
   {
     h           = step;
     constraints = &of_problem;
-    if (stage != of_step)
+    const bool is_new = stage != of_step;
+    if (is_new)
       {
         stage = of_step;
+        for (Plate &plate : plates)
+          if (const Bar &bar = bars[plate.first_segment];
+              bar.acts != bar.structure->acts_in(stage))
+            std::fill(plate.displacement.begin(),
+                      plate.displacement.end(),
+                      Tensor<1, dim>());
         for (Bar &bar : bars)
           {
-            const Structure &structure = *structures.list[bar.structure];
-            const bool       acts      = structure.acts_in(stage);
+            const bool acts = bar.structure->acts_in(stage);
             if (acts != bar.acts)
               {
                 bar.n       = {};
-                bar.n.force = acts ? structure.pre_stress : 0.;
+                bar.n.force = acts ? bar.initial_force() : 0.;
               }
             bar.acts = acts;
           }
         check_body();
       }
-    if (of_problem.turned_nodes.empty())
-      {
-        for (Bar &bar : bars)
-          bar.row = bar.along_axes;
-        return;
-      }
-    Vector b(space.partitioner());
+    if (is_new || !of_problem.turned_nodes.empty())
+      set_rows();
+  }
+
+  void
+  Bars::set_rows()
+  {
+    const unsigned int n_owned = space.partitioner()->locally_owned_size();
+    const unsigned int n_local =
+      n_owned + space.partitioner()->n_ghost_indices();
+    Vector     b(space.partitioner());
+    const auto turn = [&](Functional &functional, const bool with_ghosts) {
+      b = 0.;
+      for (const auto &[dof, value] : functional.along_axes)
+        b.local_element(dof) = value;
+      constraints->turn(b);
+      functional.row = entries_of(b, n_owned);
+      if (with_ghosts)
+        b.update_ghost_values();
+    };
     for (Bar &bar : bars)
       {
-        b = 0.;
-        for (const auto &[dof, value] : bar.along_axes)
-          b.local_element(dof) = value;
-        constraints->turn(b);
-        bar.row = owned_entries(b);
+        turn(bar, bar.is_assembled);
+        if (bar.is_assembled_here)
+          bar.assembled = entries_of(b, n_local);
+        b.zero_out_ghost_values();
       }
+    for (Plate &plate : plates)
+      for (auto &components : plate.components)
+        for (Functional &component : components)
+          turn(component, false);
   }
 
   std::vector<double>
@@ -172,12 +300,7 @@ namespace geocone::GEOCONE_DIM
   {
     std::vector<double> sums;
     for (const Bar &bar : bars)
-      {
-        double sum = 0.;
-        for (const auto &[dof, value] : bar.row)
-          sum += value * x.local_element(dof);
-        sums.push_back(sum);
-      }
+      sums.push_back(bar.product(x));
     sum_over_ranks(sums, space.partitioner()->get_mpi_communicator());
     return sums;
   }
@@ -185,22 +308,33 @@ namespace geocone::GEOCONE_DIM
   void
   Bars::residual(Vector &part, const Vector &v, const LocalLaw &)
   {
-    part                            = 0.;
-    const std::vector<double> rates = products(v);
+    part = 0.;
+    std::vector<double> rates; // of bars, and the velocities of plates
+    for (const Bar &bar : bars)
+      rates.push_back(bar.product(v));
+    for (const Plate &plate : plates)
+      for (const auto &components : plate.components)
+        for (const Functional &component : components)
+          rates.push_back(component.product(v));
+    sum_over_ranks(rates, space.partitioner()->get_mpi_communicator());
     for (unsigned int i = 0; i < bars.size(); ++i)
       {
         Bar &bar = bars[i];
         if (!bar.acts)
           continue;
-        bar.rate                   = rates[i];
-        const Structure &structure = *structures.list[bar.structure];
-        const double     trial     = force_of_bar(
-          structure, bar.k, bar.n.elongation + h * bar.rate - bar.n.plastic);
-        bar.force   = structure.admissible(trial);
+        bar.rate = rates[i];
+        const double trial =
+          bar.elastic_force(bar.n.elongation + h * bar.rate - bar.n.plastic);
+        bar.force   = bar.admissible(trial);
         bar.elastic = bar.force == trial;
         for (const auto &[dof, value] : bar.row)
           part.local_element(dof) += bar.force * value;
       }
+    auto rate = rates.begin() + bars.size();
+    for (Plate &plate : plates)
+      for (Tensor<1, dim> &velocity : plate.velocity)
+        for (unsigned int d = 0; d < dim; ++d)
+          velocity[d] = *rate++;
   }
 
   void
@@ -222,12 +356,45 @@ namespace geocone::GEOCONE_DIM
           dst.local_element(dof) += bar.k * h * value * value;
   }
 
+  std::vector<std::vector<unsigned int>>
+  Bars::node_groups() const
+  {
+    std::vector<std::vector<unsigned int>> groups;
+    for (const Bar &bar : bars)
+      if (bar.is_assembled_here)
+        {
+          groups.emplace_back();
+          for (const auto &entry : bar.assembled)
+            groups.back().push_back(entry.first / dim);
+        }
+    return groups;
+  }
+
+  void
+  Bars::linearise(const JacobianPattern &pattern,
+                  const double           elastic_blend,
+                  SparseMatrix          &matrix) const
+  {
+    for (const Bar &bar : bars)
+      if (bar.acts && bar.is_assembled_here &&
+          (bar.elastic || elastic_blend > 0.))
+        {
+          const double size = bar.k * h * (bar.elastic ? 1. : elastic_blend);
+          for (const auto &[i, a] : bar.assembled)
+            if (const int row = constraints->free_row[i]; row >= 0)
+              for (const auto &[j, b] : bar.assembled)
+                if (const int column = constraints->free_row[j]; column >= 0)
+                  pattern.add_entry(row, column, size * a * b, matrix);
+        }
+  }
+
   LowRank
   Bars::low_rank(const double elastic_blend) const
   {
     std::vector<unsigned int> those;
     for (unsigned int i = 0; i < bars.size(); ++i)
-      if (bars[i].acts && (bars[i].elastic || elastic_blend > 0.))
+      if (bars[i].acts && !bars[i].is_assembled &&
+          (bars[i].elastic || elastic_blend > 0.))
         those.push_back(i);
     LowRank update;
     update.U = update.W =
@@ -256,24 +423,75 @@ namespace geocone::GEOCONE_DIM
     return sum;
   }
 
-  std::vector<BarState>
+  void
   Bars::commit()
   {
-    std::vector<BarState> states;
     for (Bar &bar : bars)
-      {
-        if (bar.acts)
-          {
-            const Structure &structure = *structures.list[bar.structure];
-            bar.n.elongation += h * bar.rate;
-            const double trial =
-              force_of_bar(structure, bar.k, bar.n.elongation - bar.n.plastic);
-            bar.n.yields = !bar.elastic && !is_slack(structure, trial);
-            if (bar.n.yields)
-              bar.n.plastic += (trial - bar.force) / bar.k;
-            bar.n.force = bar.force;
-          }
+      if (bar.acts)
+        {
+          bar.n.elongation += h * bar.rate;
+          const double trial =
+            bar.elastic_force(bar.n.elongation - bar.n.plastic);
+          bar.n.yields = !bar.elastic && !bar.is_slack(trial);
+          if (bar.n.yields)
+            bar.n.plastic += (trial - bar.force) / bar.k;
+          bar.n.force = bar.force;
+        }
+    for (Plate &plate : plates)
+      if (bars[plate.first_segment].acts)
+        for (unsigned int i = 0; i < plate.points.size(); ++i)
+          plate.displacement[i] += h * plate.velocity[i];
+  }
+
+  std::vector<BarState>
+  Bars::states_of_bars() const
+  {
+    std::vector<BarState> states;
+    for (const Bar &bar : bars)
+      if (!bar.structure->is_plate())
         states.push_back(bar.n);
+    return states;
+  }
+
+  std::vector<PlateState>
+  Bars::states_of_plates() const
+  {
+    std::vector<PlateState> states;
+    for (const Plate &plate : plates)
+      {
+        PlateState state;
+        state.acts = bars[plate.first_segment].acts;
+        double arc = 0.;
+        for (unsigned int i = 0; i < plate.n_segments(); ++i)
+          {
+            std::array<PlatePoint, 2> ends;
+            for (const unsigned int end : {0u, 1u})
+              {
+                ends[end].x            = plate.points[i + end];
+                ends[end].displacement = plate.displacement[i + end];
+                ends[end].normal       = bars[plate.first_segment + i].n.force;
+                if (plate.bending[i + end])
+                  {
+                    const BarState &bending = bars[*plate.bending[i + end]].n;
+                    ends[end].moment        = bending.force;
+                    ends[end].hinge         = bending.plastic;
+                  }
+              }
+            const double length = ends[0].x.distance(ends[1].x);
+            const double shear  = (ends[1].moment - ends[0].moment) / length;
+            ends[0].arc         = arc;
+            ends[1].arc         = arc += length;
+            for (PlatePoint &end : ends)
+              {
+                end.shear = shear;
+                state.points.push_back(end);
+              }
+          }
+        const bool is_closed = bars[plate.first_segment].structure->is_closed();
+        for (unsigned int i = is_closed ? 1 : 0; i < plate.bending.size(); ++i)
+          state.n_hinges +=
+            plate.bending[i] && bars[*plate.bending[i]].n.yields;
+        states.push_back(std::move(state));
       }
     return states;
   }
@@ -283,5 +501,7 @@ namespace geocone::GEOCONE_DIM
   {
     for (Bar &bar : bars)
       row(bar.acts, bar.n);
+    for (Plate &plate : plates)
+      row(plate.displacement);
   }
 } // namespace geocone::GEOCONE_DIM

@@ -15,7 +15,14 @@ namespace geocone::GEOCONE_DIM
   namespace
   {
     const UsedWhere used_structures[] = {
-      {"Structures/*", "Discretisation/Method", {"FEM"}}};
+      {"Structures/*", "Discretisation/Method", {"FEM"}},
+      {"Structures/*/Pre-stress",
+       "Structures/*/Type",
+       {"anchor", "strut", "geogrid"}},
+      {"Structures/*/Bending stiffness", "Structures/*/Type", {"plate"}},
+      {"Structures/*/Moment capacity", "Structures/*/Type", {"plate"}},
+      {"Structures/*/Spacing", "Structures/*/Type", {"plate"}},
+      {"Structures/*/Clamped ends", "Structures/*/Type", {"plate"}}};
 
     /** Strength of a bar from its text. @throws InputError */
     double
@@ -48,11 +55,14 @@ namespace geocone::GEOCONE_DIM
       "Type",
       ". Anchors and struts are bars between two points, one of which may lie "
       "outside of the body, where it is fixed. A geogrid is a chain of bars "
-      "without strength in compression.");
-    add_parameter("Points",
-                  points,
-                  "Ends of the bars [m]: two points of an anchor or strut, two "
-                  "or more of a geogrid.");
+      "without strength in compression. A plate (wall, lining, raft) bends, "
+      "too, and is tied to the body all along its polyline.");
+    add_parameter(
+      "Points",
+      points,
+      "Ends of the bars [m]: two points of an anchor or strut, two "
+      "or more of a geogrid; or corners of a plate, which is closed "
+      "if the last one is the first.");
     add_parameter("Axial stiffness",
                   stiffness,
                   "Axial stiffness EA per metre of thickness [N/m], > 0.");
@@ -68,7 +78,28 @@ namespace geocone::GEOCONE_DIM
     add_parameter("Pre-stress",
                   pre_stress,
                   "Axial force when it is installed, per metre of thickness "
-                  "[N/m], tension positive.");
+                  "[N/m], tension positive; of bars.");
+    add_parameter("Bending stiffness",
+                  bending,
+                  "Bending stiffness EI of a plate per metre of thickness "
+                  "[N m], > 0; of a wide plate E stands for E/(1 - nu^2).");
+    add_parameter("Moment capacity",
+                  capacity_text,
+                  "Greatest bending moment of a plate per metre of thickness "
+                  "[N], > 0, at which it forms plastic hinges, or unlimited.");
+    add_parameter(
+      "Spacing",
+      spacing_text,
+      "Largest distance between the points at which a plate is tied "
+      "to the body [m], > 0; automatic: where it crosses the sides "
+      "of cells, and between them by the degree of the element. "
+      "Unstructured meshes have sides along plates.");
+    clamped.declare(
+      *this,
+      "Clamped ends",
+      ": ends of a plate whose rotation is prevented, as on an axis "
+      "of symmetry or in a rigid support; otherwise ends carry no "
+      "moment.");
     add_parameter(
       "Acts in",
       stages,
@@ -81,15 +112,17 @@ namespace geocone::GEOCONE_DIM
   {
     const double infinite = std::numeric_limits<double>::infinity();
     const bool   grid     = type == Type::geogrid;
+    const bool   chain    = is_chain();
     tensile =
       strength_of_bar(*this, "Tensile strength", tensile_text, infinite);
     compressive = strength_of_bar(
       *this, "Compressive strength", compressive_text, grid ? 0. : infinite);
-    if (points.size() < 2 || (!grid && points.size() > 2))
+    if (points.size() < 2 || (!chain && points.size() > 2))
       throw InputError(parameter("Points"),
                        std::to_string(points.size()) + " points",
-                       grid ? "two or more points" : "two points",
-                       "give the ends of its bars");
+                       chain ? "two or more points" : "two points",
+                       is_plate() ? "give its ends and corners"
+                                  : "give the ends of its bars");
     for (std::size_t i = 1; i < points.size(); ++i)
       if (!(points[i].distance(points[i - 1]) > 0.))
         throw InputError(parameter("Points"),
@@ -102,6 +135,8 @@ namespace geocone::GEOCONE_DIM
         stiffness,
         "EA > 0 N/m",
         "give E times the cross-section, divided by the spacing");
+    if (is_plate())
+      prepare_plate();
     if (!(pre_stress >= -compressive && pre_stress <= tensile))
       throw InputError(parameter("Pre-stress"),
                        pre_stress,
@@ -115,9 +150,59 @@ namespace geocone::GEOCONE_DIM
                          "check the spelling");
   }
 
+  void
+  Structure::prepare_plate()
+  {
+    const double infinite = std::numeric_limits<double>::infinity();
+    const auto   positive = [&](const char        *entry,
+                              const std::string &text,
+                              const std::string &otherwise,
+                              const std::string &remedy) {
+      if (text == otherwise)
+        return infinite;
+      const std::optional<double> value = number_in(text);
+      if (!value || !(*value > 0. && std::isfinite(*value)))
+        throw InputError(
+          parameter(entry), text, "a number > 0, or " + otherwise, remedy);
+      return *value;
+    };
+    capacity = positive("Moment capacity",
+                        capacity_text,
+                        "unlimited",
+                        "give the plastic moment per metre of thickness");
+    spacing  = positive(
+      "Spacing", spacing_text, "automatic", "give about the distance of nodes");
+    if (!(bending > 0. && std::isfinite(bending)))
+      throw InputError(parameter("Bending stiffness"),
+                       bending,
+                       "EI > 0 N m",
+                       "give E times the second moment of area per metre of "
+                       "thickness; a geogrid does not bend");
+    if (pre_stress != 0.)
+      throw InputError(parameter("Pre-stress"),
+                       pre_stress,
+                       "0 for plates",
+                       "pre-stress an anchor or a strut");
+    if (!(tensile > 0. && compressive > 0.))
+      throw InputError(
+        parameter(tensile > 0. ? "Compressive strength" : "Tensile strength"),
+        tensile > 0. ? compressive_text : tensile_text,
+        "a strength > 0 N/m of a plate, or unlimited",
+        "raise it, or take a geogrid");
+    if (is_closed() && (points.size() < 4 || clamped != Ends::none))
+      throw InputError(parameter(points.size() < 4 ? "Points" : "Clamped ends"),
+                       points.size() < 4 ? "a plate there and back"
+                                         : clamped.word(),
+                       points.size() < 4 ? "three corners of a closed plate"
+                                         : "none for a closed plate",
+                       "leave the last point out, or check the corners");
+  }
+
   std::vector<std::string>
   Structure::names_of_bars() const
   {
+    if (is_plate())
+      return {};
     if (points.size() == 2)
       return {name};
     std::vector<std::string> names;
@@ -129,8 +214,8 @@ namespace geocone::GEOCONE_DIM
   Structures::Structures(const ParameterFile &file)
     : NamedList(file,
                 "Structures",
-                "Names of anchors, struts and geogrids, comma-separated; each "
-                "has a subsection of its name.")
+                "Names of anchors, struts, geogrids and plates, "
+                "comma-separated; each has a subsection of its name.")
   {
     make();
   }
@@ -147,7 +232,9 @@ namespace geocone::GEOCONE_DIM
     for (const auto &structure : list)
       {
         structure->prepare(stages);
-        for (const std::string &bar : structure->names_of_bars())
+        for (const std::string &bar :
+             structure->is_plate() ? std::vector<std::string>{structure->name}
+                                   : structure->names_of_bars())
           {
             if (std::count(keys.begin(), keys.end(), key_of(bar)) > 0)
               throw InputError(parameter(),
@@ -169,6 +256,16 @@ namespace geocone::GEOCONE_DIM
       for (const std::string &name : structure->names_of_bars())
         all.push_back(name);
     return all;
+  }
+
+  std::vector<const Structure *>
+  Structures::plates() const
+  {
+    std::vector<const Structure *> some;
+    for (const auto &structure : list)
+      if (structure->is_plate())
+        some.push_back(structure.get());
+    return some;
   }
 
   std::string

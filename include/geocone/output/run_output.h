@@ -66,7 +66,7 @@ namespace geocone::GEOCONE_DIM
   };
 
   /** Folder of an implicit run: statistics.csv (a line per step), newton.csv (a line
-   *  per iteration), summary.json, VTU series. The state is only read. */
+   *  per iteration), plates.csv (lines per step), summary.json, VTU series. The state is only read. */
   class RunOutput : public SceneOutput<ImplicitRecord>
   {
   public:
@@ -185,7 +185,9 @@ namespace geocone::GEOCONE_DIM
     Json
     contact() const;
     Json
-    structures() const; ///< bars at the last step
+    structures() const; ///< bars and plates at the last step
+    void
+    add_plate(Json &json, const unsigned int plate) const;
     Json
     friction_memory() const;
     Json
@@ -219,7 +221,11 @@ namespace geocone::GEOCONE_DIM
     void
     warn_of_jump();
 
-    CsvFile                    newton;
+    /** Adds the plates at the end of a step to plates.csv. */
+    void
+    add_plates(const Record &record);
+
+    CsvFile                    newton, plates;
     std::unique_ptr<Fields>    fields;
     std::optional<FieldErrors> field_errors;
     std::optional<Failure>     failure;

@@ -17,9 +17,10 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** An anchor, a strut or a geogrid: straight bars along a polyline, tied to
-   *  the body at its points. Forces and stiffness are per metre of thickness,
-   *  tension positive. */
+  /** An anchor, a strut, a geogrid or a plate. The first three are straight
+   *  bars along a polyline, tied to the body at its points; a plate is tied to
+   *  it along the polyline, and bends. Forces and stiffness are per metre of
+   *  thickness, tension positive. */
   class Structure : public dealii::ParameterAcceptor
   {
   public:
@@ -27,7 +28,16 @@ namespace geocone::GEOCONE_DIM
     {
       anchor,
       strut,
-      geogrid
+      geogrid,
+      plate
+    };
+
+    enum class Ends
+    {
+      none,
+      first,
+      last,
+      both
     };
 
     explicit Structure(const std::string &name);
@@ -57,9 +67,30 @@ namespace geocone::GEOCONE_DIM
       return stages;
     }
 
-    /** Names of its bars in results. */
+    /** Names of its bars in results; a plate has none, but results of its own. */
     std::vector<std::string>
     names_of_bars() const;
+
+    bool
+    is_plate() const
+    {
+      return type == Type::plate;
+    }
+
+    /** Whether the polyline of a plate ends where it begins. */
+    bool
+    is_closed() const
+    {
+      return is_plate() && points.front() == points.back();
+    }
+
+    /** Whether the rotation of an end of a plate is prevented. */
+    bool
+    is_clamped(const bool at_last) const
+    {
+      return clamped == Ends::both ||
+             clamped == (at_last ? Ends::last : Ends::first);
+    }
 
     /** Word of its type. */
     std::string
@@ -75,26 +106,57 @@ namespace geocone::GEOCONE_DIM
       return std::clamp(trial, -compressive, tensile);
     }
 
+    /** Bending moment of a trial one: the projection on [-M_p, M_p]. */
+    double
+    admissible_moment(const double trial) const
+    {
+      return std::clamp(trial, -capacity, capacity);
+    }
+
     /** Whether one end of an anchor or strut may lie outside of the body, where
      *  it is fixed. */
     bool
     may_be_fixed() const
     {
-      return type != Type::geogrid;
+      return type == Type::anchor || type == Type::strut;
+    }
+
+    /** Whether it consists of several bars, each of which couples neighbouring
+     *  cells only. */
+    bool
+    is_chain() const
+    {
+      return !may_be_fixed();
     }
 
     const std::string               name;
     std::vector<dealii::Point<dim>> points;
     double                          stiffness  = 0.; ///< EA (N/m)
     double                          pre_stress = 0.; ///< initial N (N/m)
+    double                          bending    = 0.; ///< EI (N m)
+
+    /** Largest distance between points at which a plate is tied to the body;
+     *  infinite: where it crosses the sides of cells (m). */
+    double spacing = 0.;
 
   private:
-    Choice<Type>             type = {{{"anchor", Type::anchor},
-                                      {"strut", Type::strut},
-                                      {"geogrid", Type::geogrid}}};
+    Choice<Type>             type    = {{{"anchor", Type::anchor},
+                                         {"strut", Type::strut},
+                                         {"geogrid", Type::geogrid},
+                                         {"plate", Type::plate}}};
+    Choice<Ends>             clamped = {{{"none", Ends::none},
+                                         {"first", Ends::first},
+                                         {"last", Ends::last},
+                                         {"both", Ends::both}}};
     std::vector<std::string> stages;
     std::string tensile_text = "unlimited", compressive_text = "automatic";
     double      tensile = 0., compressive = 0.; ///< N_t and N_c (N/m)
+    std::string capacity_text = "unlimited", spacing_text = "automatic";
+    double      capacity = 0.; ///< M_p (N)
+
+    /** @throws InputError */
+    void
+    prepare_plate();
   };
 
   /** The structures of "Structures/Names". */
@@ -107,9 +169,13 @@ namespace geocone::GEOCONE_DIM
     void
     prepare(const Geometry &geometry, const std::vector<std::string> &stages);
 
-    /** Names of the bars of all structures, in order. */
+    /** Names of the bars of all structures but plates, in order. */
     std::vector<std::string>
     names_of_bars() const;
+
+    /** Plates, in order. */
+    std::vector<const Structure *>
+    plates() const;
 
     /** A name as a part of a key of summary.json, without blanks. */
     static std::string

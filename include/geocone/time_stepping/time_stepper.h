@@ -78,8 +78,9 @@ namespace geocone::GEOCONE_DIM
     /** Contact with obstacles. */
     ContactReport contact;
 
-    /** Bars of all structures, in their order. */
-    std::vector<BarState> bars;
+    /** Bars of all structures, and all plates, in their order. */
+    std::vector<BarState>   bars;
+    std::vector<PlateState> plates;
 
     /** Load factor at its end; 1 without load stepping. */
     double load_factor = 1.;
@@ -106,6 +107,7 @@ namespace geocone::GEOCONE_DIM
           motion,
           contact,
           bars,
+          plates,
           load_factor,
           identity_error);
     }

@@ -5,6 +5,7 @@
 For each run folder, as far as the files for them exist:
   model.png                        model.json: soils, mesh, supports, loads, stages
   load_displacement.png, .svg      statistics.csv, the reference and the plateau
+  plates.png                       plates.csv: moments, forces and displacements of plates
   newton.png                       newton.csv: the residuals of all steps
   energy.png                       statistics.csv: where the energy goes
   plastic_strain_rate.png          the last cells-*.vtu, or points-*.vtu if they move, with
@@ -52,12 +53,14 @@ def pictures_of(run, times=None):
     if run.method == "explicit MPM":
         from geocone.plots import explicit
         return explicit.pictures(run, times)
-    from geocone.plots import energy, load, newton, points, pressures, rates, safety
+    from geocone.plots import energy, load, newton, plates, points, pressures, rates, safety
     curve = ({"safety.png": safety.draw_run} if "safety" in run.summary else
              {"load_displacement.png": load.draw_run})
     undrained = ({"excess_pore_pressure.png": pressures.draw_run}
                  if pressures.is_undrained(run) else {})
-    return {**curve, **undrained,
+    bending = ({"plates.png": plates.draw_run}
+               if (run.folder / "plates.csv").is_file() else {})
+    return {**curve, **bending, **undrained,
             "newton.png": newton.draw_run,
             "energy.png": energy.draw_implicit,
             "plastic_strain_rate.png": rates.draw_run,

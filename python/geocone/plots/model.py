@@ -355,15 +355,16 @@ def draw_obstacles(axes, model):
 
 
 def draw_structures(axes, model, stage=None, with_names=True):
-    """Anchors, struts and geogrids as lines with their names.
+    """Anchors, struts, geogrids and plates as lines with their names.
 
     @param stage name of one, to draw only what is there then"""
     for structure in model.data.get("structures", []):
         if stage is not None and structure["stages"] and stage not in structure["stages"]:
             continue
         points = np.array(structure["points"], dtype=float)
-        axes.plot(*points.T, color=STRUCTURE, linewidth=2., marker="o", markersize=3.5, zorder=5,
-                  solid_capstyle="butt")
+        look = ({"linewidth": 3.} if structure["type"] == "plate" else
+                {"linewidth": 2., "marker": "o", "markersize": 3.5})
+        axes.plot(*points.T, color=STRUCTURE, zorder=5, solid_capstyle="butt", **look)
         if with_names:
             axes.annotate(plain(structure["name"]), points.mean(axis=0), xytext=(0., 5.),
                           textcoords="offset points", fontsize=8, ha="center", va="bottom",

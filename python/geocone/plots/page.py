@@ -42,6 +42,7 @@ OF_BOUNDS = ("unit", "lower", "upper", "middle", "gap", "certified")  # those th
 CAPTIONS = {
     "model.png": "The model", "load_displacement.png": "Load against displacement",
     "safety.png": "Displacement while the strength is reduced",
+    "plates.png": "Moments, forces and displacements of plates at the ends of stages",
     "mechanism.png": "Mechanisms of both bounds, and where these differ",
     "dependence.png": "What the bounds depend on",
     "plastic_strain_rate.png": "Where the soil yields at the end, and how it moves",
