@@ -208,13 +208,13 @@ namespace geocone::GEOCONE_DIM
       VectorXd s_n, q;
       double   lambda = 0.;
 
-      Points               rate, r_p;
-      VectorXd             r_d, x_2;
-      double               r_g = 0., mu = 0., gap = 0., load = 0.;
-      double               equilibrium = 0., flow = 0.;
-      std::vector<Scaling> scaling;
-      Points               scaled;         ///< W z = W^-1 x
-      double               last_step = 1.; ///< the shorter of the two
+      Points                  rate, r_p;
+      VectorXd                r_d, x_2;
+      double                  r_g = 0., mu = 0., gap = 0., load = 0.;
+      double                  equilibrium = 0., flow = 0.;
+      std::vector<Scaling<3>> scaling;
+      Points                  scaled;         ///< W z = W^-1 x
+      double                  last_step = 1.; ///< the shorter of the two
 
       Points kept; ///< stresses() of the best iterate, and their load
       double kept_load = 0., most_admissible = no_load;
@@ -352,8 +352,8 @@ namespace geocone::GEOCONE_DIM
       along.steps = {{1. / 0.99, 1. / 0.99}};
       for (unsigned int p = 0; p < n; ++p)
         {
-          const Scaling &scale = scaling[p];
-          Vector3d      &dx = along.x[p], &dz = along.z[p];
+          const Scaling<3> &scale = scaling[p];
+          Vector3d         &dx = along.x[p], &dz = along.z[p];
           dz = -r_p[p] - omega[p] * e[p];
           if (problem.cone[p].is_cylinder())
             {
@@ -442,8 +442,8 @@ namespace geocone::GEOCONE_DIM
       Points d_new     = d;
       for (unsigned int p = 0; p < n; ++p)
         {
-          const Vector3d v = product(scaled[p] + t_x * along.scaled_x[p],
-                                     scaled[p] + t_z * along.scaled_z[p]);
+          const Vector3d v = product<3>(scaled[p] + t_x * along.scaled_x[p],
+                                        scaled[p] + t_z * along.scaled_z[p]);
           const double   T = v.tail<2>().norm();
           // Correction that moves an eigenvalue to the neighbourhood of the target.
           const auto moved = [&](const double x) {
