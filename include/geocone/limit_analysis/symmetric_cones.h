@@ -1,0 +1,292 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_limit_analysis_symmetric_cones_h
+#define geocone_limit_analysis_symmetric_cones_h
+
+#include <geocone/limit_analysis/cone_algebra.h>
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <cmath>
+
+/**
+ * Symmetric cones of an interior-point method, all with the same members:
+ *   size, degree  numbers of components and of eigenvalues that the product sums up,
+ *   unit()        identity of the Jordan product, unit.unit = degree
+ *   raised(x, e)  x with eigenvalues of at least e,
+ *   product(u, v) Jordan product; unit.product(u, v) = u.v
+ *   Scaling(x, z) Nesterov-Todd's, of x and z inside the cone: lambda = W z = W^-T x,
+ *                 x_hat(d) = W^-T d, z_hat(d) = W d, z_of(d) = W^-1 d,
+ *                 divide(d): the y with product(lambda, y) = d,
+ *                 step(d): the largest step with lambda + step d in the cone, at most
+ *                 1/0.99.
+ */
+namespace geocone
+{
+  /** {|x_t| <= x_0} of N components; the half-line for N = 1. */
+  template <int N>
+  struct SecondOrderCone
+  {
+    static constexpr int size = N, degree = 1;
+    using V = Eigen::Matrix<double, N, 1>;
+
+    static V
+    unit()
+    {
+      V e  = V::Zero();
+      e[0] = 1.;
+      return e;
+    }
+
+    static V
+    raised(const V &x, const double least)
+    {
+      V y  = x;
+      y[0] = std::max(x[0], x.template tail<N - 1>().norm() + least);
+      return y;
+    }
+
+    static V
+    product(const V &u, const V &v)
+    {
+      return cone_algebra::product<N>(u, v);
+    }
+
+    struct Scaling
+    {
+      Scaling(const V &x, const V &z)
+        : w(x, z)
+        , lambda(w.times(z))
+      {}
+
+      V
+      x_hat(const V &d) const
+      {
+        return w.inverse_times(d);
+      }
+      V
+      z_hat(const V &d) const
+      {
+        return w.times(d);
+      }
+      V
+      z_of(const V &d) const
+      {
+        return w.inverse_times(d);
+      }
+      V
+      divide(const V &d) const
+      {
+        return cone_algebra::divide<N>(lambda, d);
+      }
+      double
+      step(const V &d) const
+      {
+        return cone_algebra::step_in_cone<N>(lambda, d);
+      }
+
+      cone_algebra::Scaling<N> w;
+      V                        lambda;
+    };
+  };
+
+  /** Positive semidefinite 3 x 3 matrices as Mandel vectors, in the order of
+   *  base/types.h. */
+  struct SemidefiniteCone
+  {
+    static constexpr int size = 6, degree = 3;
+    using V = Eigen::Matrix<double, 6, 1>;
+    using M = Eigen::Matrix3d;
+
+    static M
+    matrix(const V &x)
+    {
+      const double a = x[2] * M_SQRT1_2, b = x[4] * M_SQRT1_2,
+                   c = x[5] * M_SQRT1_2;
+      M m;
+      m << x[0], a, c, a, x[1], b, c, b, x[3];
+      return m;
+    }
+
+    /** Of the symmetric part of a matrix. */
+    static V
+    vector(const M &m)
+    {
+      V x;
+      x << m(0, 0), m(1, 1), (m(0, 1) + m(1, 0)) * M_SQRT1_2, m(2, 2),
+        (m(1, 2) + m(2, 1)) * M_SQRT1_2, (m(2, 0) + m(0, 2)) * M_SQRT1_2;
+      return x;
+    }
+
+    static V
+    unit()
+    {
+      V e;
+      e << 1., 1., 0., 1., 0., 0.;
+      return e;
+    }
+
+    static V
+    raised(const V &x, const double least)
+    {
+      const Eigen::SelfAdjointEigenSolver<M> solver(matrix(x));
+      const Eigen::Vector3d l = solver.eigenvalues().cwiseMax(least);
+      return vector(solver.eigenvectors() * l.asDiagonal() *
+                    solver.eigenvectors().transpose());
+    }
+
+    static V
+    product(const V &u, const V &v)
+    {
+      return vector(matrix(u) * matrix(v));
+    }
+
+    /**
+     * R with R^-1 X R^-T = R' Z R = diag(l): for X = L_1 L_1', Z = L_2 L_2' and the
+     * singular values L_2' L_1 = U diag(l) V' it is R = L_1 V diag(l)^-1/2, and R^-1 =
+     * diag(l)^-1/2 U' L_2' needs no inverse.
+     */
+    struct Scaling
+    {
+      Scaling(const V &x, const V &z)
+      {
+        const M L_1 = matrix(x).llt().matrixL(),
+                L_2 = matrix(z).llt().matrixL();
+        const Eigen::JacobiSVD<M> svd(
+          L_2.transpose() * L_1, Eigen::ComputeFullU | Eigen::ComputeFullV);
+        l                       = svd.singularValues();
+        const Eigen::Vector3d r = l.cwiseSqrt().cwiseInverse();
+        R                       = L_1 * svd.matrixV() * r.asDiagonal();
+        R_inverse =
+          r.asDiagonal() * svd.matrixU().transpose() * L_2.transpose();
+        lambda = vector(M(l.asDiagonal()));
+      }
+
+      V
+      x_hat(const V &d) const
+      {
+        return vector(R_inverse * matrix(d) * R_inverse.transpose());
+      }
+      V
+      z_hat(const V &d) const
+      {
+        return vector(R.transpose() * matrix(d) * R);
+      }
+      V
+      z_of(const V &d) const
+      {
+        return vector(R_inverse.transpose() * matrix(d) * R_inverse);
+      }
+      V
+      divide(const V &d) const
+      {
+        M m = matrix(d);
+        for (int i = 0; i < 3; ++i)
+          for (int j = 0; j < 3; ++j)
+            m(i, j) *= 2. / (l[i] + l[j]);
+        return vector(m);
+      }
+      double
+      step(const V &d) const
+      {
+        const Eigen::Vector3d r = l.cwiseSqrt().cwiseInverse();
+        const M               m = r.asDiagonal() * matrix(d) * r.asDiagonal();
+        const double          least =
+          Eigen::SelfAdjointEigenSolver<M>(m, Eigen::EigenvaluesOnly)
+            .eigenvalues()[0];
+        return least < -0.99 ? -1. / least : 1. / 0.99;
+      }
+
+      M               R, R_inverse;
+      Eigen::Vector3d l;
+      V               lambda;
+    };
+  };
+
+  /** Cartesian product of two cones. */
+  template <typename A, typename B>
+  struct ProductCone
+  {
+    static constexpr int size   = A::size + B::size,
+                         degree = A::degree + B::degree;
+    using V                     = Eigen::Matrix<double, size, 1>;
+
+    static V
+    both(const typename A::V &a, const typename B::V &b)
+    {
+      V v;
+      v << a, b;
+      return v;
+    }
+    static typename A::V
+    first(const V &v)
+    {
+      return v.template head<A::size>();
+    }
+    static typename B::V
+    second(const V &v)
+    {
+      return v.template tail<B::size>();
+    }
+
+    static V
+    unit()
+    {
+      return both(A::unit(), B::unit());
+    }
+    static V
+    raised(const V &x, const double least)
+    {
+      return both(A::raised(first(x), least), B::raised(second(x), least));
+    }
+    static V
+    product(const V &u, const V &v)
+    {
+      return both(A::product(first(u), first(v)),
+                  B::product(second(u), second(v)));
+    }
+
+    struct Scaling
+    {
+      Scaling(const V &x, const V &z)
+        : a(first(x), first(z))
+        , b(second(x), second(z))
+        , lambda(both(a.lambda, b.lambda))
+      {}
+
+      V
+      x_hat(const V &d) const
+      {
+        return both(a.x_hat(first(d)), b.x_hat(second(d)));
+      }
+      V
+      z_hat(const V &d) const
+      {
+        return both(a.z_hat(first(d)), b.z_hat(second(d)));
+      }
+      V
+      z_of(const V &d) const
+      {
+        return both(a.z_of(first(d)), b.z_of(second(d)));
+      }
+      V
+      divide(const V &d) const
+      {
+        return both(a.divide(first(d)), b.divide(second(d)));
+      }
+      double
+      step(const V &d) const
+      {
+        return std::min(a.step(first(d)), b.step(second(d)));
+      }
+
+      typename A::Scaling a;
+      typename B::Scaling b;
+      V                   lambda;
+    };
+  };
+} // namespace geocone
+
+#endif
