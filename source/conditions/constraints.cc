@@ -33,16 +33,16 @@ namespace geocone::GEOCONE_DIM
 
   Constraints::Constraints(const Scene          &scene,
                            const BackgroundMesh &mesh,
-                           const Space          &space)
+                           const Space          &space,
+                           const std::string    &stage)
     : scene(scene)
     , space(space)
     , comm(mesh.triangulation().get_communicator())
+    , acts(scene.dirichlet.acting_in(stage))
   {
-    node_positions = &space.node_positions();
-    // Conditions that prescribe each local dof; the last one determines it.
+    node_positions   = &space.node_positions();
     const auto &list = scene.dirichlet.list;
-    std::map<unsigned int, std::vector<unsigned int>> of_dof;
-    std::vector<std::vector<unsigned int>>            nodes(list.size());
+    nodes.resize(list.size());
     for (unsigned int c = 0; c < list.size(); ++c)
       {
         owned_nodes.emplace_back();
@@ -71,9 +71,6 @@ namespace geocone::GEOCONE_DIM
                   extend(space.node_positions()[node]);
                   if (node < space.n_owned_nodes())
                     owned_nodes[c].push_back(node);
-                  for (unsigned int i = 0; i < dim; ++i)
-                    if (list[c]->components[i])
-                      of_dof[dim * node + i].push_back(c);
                 }
             n_nodes[c] = Utilities::MPI::sum(owned_nodes[c].size(), comm);
             list[c]->check_selection(n_nodes[c]);
@@ -87,7 +84,40 @@ namespace geocone::GEOCONE_DIM
         if (const auto given = scene.observation.moment_centre())
           centres.back() = *given;
       }
-    find_oblique_nodes(mesh, nodes, of_dof);
+    find_prescribed(mesh);
+  }
+
+  bool
+  Constraints::begin_stage(const BackgroundMesh &mesh, const std::string &stage)
+  {
+    std::vector<bool> next    = scene.dirichlet.acting_in(stage);
+    const bool        changes = next != acts;
+    if (changes)
+      {
+        acts = std::move(next);
+        prescribed.clear();
+        oblique.clear();
+        turned_nodes.clear();
+        shared.clear();
+        n_shares = 0;
+        first_part.clear();
+        parts.clear();
+        find_prescribed(mesh);
+      }
+    return changes;
+  }
+
+  void
+  Constraints::find_prescribed(const BackgroundMesh &mesh)
+  {
+    // Conditions that prescribe each local dof; the last one determines it.
+    std::map<unsigned int, std::vector<unsigned int>> of_dof;
+    for (unsigned int c = 0; c < nodes.size(); ++c)
+      for (unsigned int i = 0; i < dim && acts[c]; ++i)
+        if (scene.dirichlet.list[c]->components[i])
+          for (const unsigned int node : nodes[c])
+            of_dof[dim * node + i].push_back(c);
+    find_oblique_nodes(mesh, of_dof);
     find_shared(mesh, of_dof);
     for (const auto &[dof, conditions] : of_dof)
       prescribed.push_back({dof / dim,
@@ -185,13 +215,12 @@ namespace geocone::GEOCONE_DIM
   void
   Constraints::find_oblique_nodes(
     const BackgroundMesh                              &mesh,
-    const std::vector<std::vector<unsigned int>>      &nodes,
     std::map<unsigned int, std::vector<unsigned int>> &of_dof)
   {
     const auto                                    &list = scene.dirichlet.list;
     std::map<unsigned int, std::vector<Direction>> of_node;
     for (unsigned int c = 0; c < list.size(); ++c)
-      if (list[c]->normal)
+      if (list[c]->normal && acts[c])
         for (const auto &[node, n] : normals_of(*list[c], mesh, nodes[c]))
           of_node[node].push_back({c, dim, n});
 
@@ -270,7 +299,7 @@ namespace geocone::GEOCONE_DIM
               {
                 unsigned int holder = list.size();
                 for (unsigned int c = 0; c < list.size(); ++c)
-                  if (list[c]->components[d] &&
+                  if (acts[c] && list[c]->components[d] &&
                       ids[c].count(cell->face(f)->boundary_id()) > 0 &&
                       list[c]->holds_at(point.position))
                     holder = c;

@@ -10,6 +10,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace geocone::GEOCONE_DIM
 {
@@ -72,6 +73,35 @@ namespace geocone::GEOCONE_DIM
           return false;
       return true;
     }
+
+    /** Panels whose corners have moved with the velocity of the grid.
+     *  Collective. */
+    std::vector<SidePart>
+    moved_with_body(const std::vector<SidePart> &panels,
+                    const BackgroundMesh        &mesh,
+                    const Space                 &space,
+                    const Vector                &v,
+                    const double                 h)
+    {
+      constexpr double undivided = std::numeric_limits<double>::max();
+      MovingSurface    surface(panels, undivided);
+      surface.move(mesh, space, v, h);
+      // Of a panel in space: two triangles with its ends.
+      const std::vector<SidePart> facets   = surface.facets();
+      constexpr unsigned int      n_facets = dim - 1;
+      std::vector<SidePart>       moved;
+      for (std::size_t i = 0; i < facets.size(); i += n_facets)
+        {
+          const auto &first = facets[i].corners,
+                     &last  = facets[i + n_facets - 1].corners;
+          std::array<Point<dim>, dim> ends;
+          ends[0]       = first[0];
+          ends[1]       = first[1];
+          ends[dim - 1] = last.back();
+          moved.push_back(spanned_by(ends));
+        }
+      return moved;
+    }
   } // namespace
 
   MovingConditions::MovingConditions(const Scene          &scene,
@@ -80,6 +110,7 @@ namespace geocone::GEOCONE_DIM
     : scene(scene)
     , mesh(mesh)
     , space(space)
+    , acts(scene.dirichlet.acting_in(scene.loading.list.front()->name))
   {
     const auto &list = scene.dirichlet.list;
     for (unsigned int c = 0; c < list.size(); ++c)
@@ -237,6 +268,8 @@ namespace geocone::GEOCONE_DIM
   {
     for (const HeldSide &side : supports)
       {
+        if (!acts[side.condition])
+          continue;
         const BoundaryCondition &condition =
           *scene.dirichlet.list[side.condition];
         std::array<unsigned int, dim - 1> n;
@@ -294,12 +327,14 @@ namespace geocone::GEOCONE_DIM
         for (unsigned int p = points.first_point[c];
              p < points.first_point[c + 1];
              ++p)
-          if (const unsigned int held = points.held_by[p]; held > 0)
+          if (const unsigned int held = points.held_by[p];
+              held > 0 && acts[held - 1])
             of_cell[held - 1] += mesh.measure(points.position[p]);
         for (unsigned int p = points.first_point[c];
              p < points.first_point[c + 1];
              ++p)
-          if (const unsigned int held = points.held_by[p]; held > 0)
+          if (const unsigned int held = points.held_by[p];
+              held > 0 && acts[held - 1])
             {
               const double            size = mesh.measure(points.position[p]);
               const Imposition::Share share =
@@ -419,6 +454,11 @@ namespace geocone::GEOCONE_DIM
     for (HeldSide &side : supports)
       {
         side.before = side.panels;
+        if (!acts[side.condition])
+          {
+            side.panels = moved_with_body(side.panels, mesh, space, v, h);
+            continue;
+          }
         for (SidePart &panel : side.panels)
           {
             auto ends = ends_of(panel);
@@ -447,8 +487,9 @@ namespace geocone::GEOCONE_DIM
     };
     for (const HeldSide &side : supports)
       for (const SidePart &panel : side.panels)
-        for (const BoundaryPoint &point : points_on(mesh, space, panel))
-          mark_nodes(point);
+        if (acts[side.condition])
+          for (const BoundaryPoint &point : points_on(mesh, space, panel))
+            mark_nodes(point);
     for (const LoadedSide &side : loads)
       for_each_point(mesh,
                      space,
@@ -474,7 +515,7 @@ namespace geocone::GEOCONE_DIM
         {
           const SidePart &panel = side.panels[l];
           const Seen      now   = seen_from(panel, after);
-          if (!now.is_close_behind() ||
+          if (!now.is_close_behind() || !acts[side.condition] ||
               !holds_normal(*scene.dirichlet.list[side.condition], panel))
             continue;
           const Seen was = seen_from(side.before[l], before);
@@ -515,7 +556,7 @@ namespace geocone::GEOCONE_DIM
               const Seen seen = seen_from(panel, points.position[p]);
               behind =
                 behind ||
-                (seen.is_close_behind() &&
+                (acts[side.condition] && seen.is_close_behind() &&
                  seen.beyond > 0.1 * scene.geometry.size_of_point(
                                        points.position[p], points.volume[p]) &&
                  holds_normal(*scene.dirichlet.list[side.condition], panel));
@@ -534,7 +575,8 @@ namespace geocone::GEOCONE_DIM
         {
           const Tensor<1, dim> area = area_of(panel);
           for (unsigned int d = 0; d < dim; ++d)
-            if (std::abs(area[d]) > (1. - 1e-9) * area.norm() &&
+            if (acts[side.condition] &&
+                std::abs(area[d]) > (1. - 1e-9) * area.norm() &&
                 holds_normal(*scene.dirichlet.list[side.condition], panel))
               limits.push_back({d,
                                 panel.corners[0][d],

@@ -171,8 +171,8 @@ namespace geocone::GEOCONE_DIM
       {
         space.choose_element(false, true, method);
         const CartesianGrid grid(space.degree(), lines);
-        transfer =
-          std::make_unique<CartesianTransfer>(comm, grid, scene->dirichlet);
+        transfer = std::make_unique<CartesianTransfer>(
+          comm, grid, scene->dirichlet, scene->loading.list.front()->name);
         for (unsigned int d = 0; d < dim; ++d)
           datum[d] = lines[d].front();
         seed_columns(grid, remarks);
@@ -426,6 +426,8 @@ namespace geocone::GEOCONE_DIM
   {
     if (!progress.begun)
       progress = {true, t, {}};
+    if (transfer->begin_stage(stage.name))
+      must_refresh = true;
     ExplicitReport &report = progress.report;
     double         &now    = progress.now;
     const double    end    = t + h;

@@ -52,6 +52,12 @@ namespace geocone::GEOCONE_DIM
                       : known,
         "name a condition that is imposed on averages or segments "
         "of a side of the body, or leave it out");
+    if (!condition->stages.are_all())
+      throw InputError(parameter,
+                       name,
+                       "a condition that acts in all stages",
+                       "leave out '" +
+                         condition->parameter(ActingStages::entry) + "'");
     side = sides.box_of(*condition);
   }
 

@@ -144,7 +144,9 @@ namespace geocone::GEOCONE_DIM
           });
       }
     check_removals(*scene, mesh_, mesh_.triangulation().get_communicator());
-    constraints = std::make_unique<Constraints>(*scene, mesh_, space_);
+    const std::string &first_stage = scene->loading.list.front()->name;
+    constraints =
+      std::make_unique<Constraints>(*scene, mesh_, space_, first_stage);
     obstacles   = std::make_unique<ObstacleContact>(
       *scene, mesh_, space_, constraints.get());
     kinematics.velocity.reinit(space_.partitioner());
@@ -165,15 +167,31 @@ namespace geocone::GEOCONE_DIM
     check_resistance(points, mesh_.triangulation().get_communicator());
     newton.check(*problem);
     // Evaluates formulas just after the beginning of each stage, to reject
-    // those without a value.
+    // those without a value, and checks its supports.
     Vector v     = problem->make_vector();
     double start = 0.;
     for (const auto &stage : scene->loading.list)
       {
+        if (constraints->begin_stage(mesh_, stage->name) && !inertia &&
+            !obstacles->exists() && !scene->loading.changes_body())
+          try
+            {
+              constraints->check_support(mesh_, space_, points);
+            }
+          catch (const InputError &error)
+            {
+              throw InputError(error.what() +
+                               std::string("\n  in:      the stage '") +
+                               stage->name + "'");
+            }
         constraints->set_values(v, start + 1e-6 * stage->duration);
         start += stage->duration;
       }
-    return constraints->warn_of_bent_values();
+    const std::string warning = constraints->warn_of_bent_values();
+    begin_stage(*scene->loading.list.front());
+    if (!begun)
+      begin(points, timer);
+    return warning;
   }
 
   void

@@ -48,7 +48,8 @@ namespace geocone::GEOCONE_DIM
                  " with Advection = particle velocity lets "
                  "the total energy grow where particles and nodes move "
                  "differently: take the grid velocity";
-    datum = mesh->lower_corner();
+    present_stage = scene->loading.list.front()->name;
+    datum         = mesh->lower_corner();
     if (is_unbalanced(points))
       hand_over(points);
     set_up(newton);
@@ -99,7 +100,9 @@ namespace geocone::GEOCONE_DIM
   {
     problem.reset(); // refers to data that are replaced
     moving      = std::make_unique<MovingConditions>(*scene, *mesh, *space);
-    constraints = std::make_unique<Constraints>(*scene, *mesh, *space);
+    moving->begin_stage(present_stage);
+    constraints =
+      std::make_unique<Constraints>(*scene, *mesh, *space, present_stage);
     absorbing =
       std::make_unique<AbsorbingBoundary>(*scene, *mesh, *space, nullptr);
     obstacles =
@@ -113,6 +116,15 @@ namespace geocone::GEOCONE_DIM
     force.reinit(space->partitioner());
     if (space->is_spline() && advection != Advection::none)
       ghost_places.emplace(*mesh, *space);
+  }
+
+  void
+  ImplicitMPM::begin_stage(const Stage &stage)
+  {
+    ImplicitStepper::begin_stage(stage);
+    if (stage.name != present_stage)
+      moving->begin_stage(stage.name);
+    present_stage = stage.name;
   }
 
   bool
@@ -165,7 +177,8 @@ namespace geocone::GEOCONE_DIM
                               moving->soil_limits(),
                               points);
       if (nodes_moved)
-        constraints = std::make_unique<Constraints>(*scene, *mesh, *space);
+        constraints =
+          std::make_unique<Constraints>(*scene, *mesh, *space, present_stage);
       nodes_moved = false;
       lumped_mass.reinit(space->partitioner());
       velocity_L.reinit(space->partitioner());

@@ -212,10 +212,10 @@ namespace geocone::GEOCONE_DIM
   ImplicitMPM::holder_of(const MaterialPoints &points,
                          const unsigned int    p) const
   {
-    if (points.held_by[p] == 0)
+    const unsigned int held = points.held_by[p];
+    if (held == 0 || !moving->is_acting(held - 1))
       return nullptr;
-    const BoundaryCondition &condition =
-      *scene->dirichlet.list[points.held_by[p] - 1];
+    const BoundaryCondition &condition = *scene->dirichlet.list[held - 1];
     return condition.imposition.get()->single ? &condition : nullptr;
   }
 

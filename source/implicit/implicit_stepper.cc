@@ -22,6 +22,13 @@ namespace geocone::GEOCONE_DIM
     return net;
   }
 
+  void
+  ImplicitStepper::begin_stage(const Stage &stage)
+  {
+    if (constraints->begin_stage(*mesh, stage.name))
+      begun = false; // the problem has other unknowns
+  }
+
   BodyChange
   ImplicitStepper::change_body(const Stage    &stage,
                                const double    t,
@@ -29,6 +36,7 @@ namespace geocone::GEOCONE_DIM
                                Kinematics     &kinematics,
                                MaterialPoints &points)
   {
+    begin_stage(stage);
     if (!begun)
       begin(points, timer);
     BodyChange change;
@@ -234,6 +242,7 @@ namespace geocone::GEOCONE_DIM
                            const double           h,
                            const double           accepted_excess)
   {
+    begin_stage(scene->loading.stage_at(t + h / 2.));
     if (!begun)
       begin(points, timer);
     const TimeStep    step   = integration.step(t, h);

@@ -182,6 +182,10 @@ namespace geocone::GEOCONE_DIM
         let_water_flow(scene, comm, log, options.dry_run, seepage.time);
       }
     scene.dirichlet.prepare();
+    scene.dirichlet.refuse_stages("'Analysis/Kind' = " + analysis.word(),
+                                  "bounds have no stages: list the conditions "
+                                  "of one of them in 'Boundary "
+                                  "conditions/Names'");
     scene.tractions.prepare();
     scene.absorbing.refuse("'Analysis/Kind' = " + analysis.word(),
                            "nothing moves fast here: leave it out");

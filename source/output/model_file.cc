@@ -66,17 +66,23 @@ namespace geocone::GEOCONE_DIM
       return held;
     }
 
-    /** Sampling times of prescribed values: the ends of the stages and of tenths of
-     *  them. */
-    std::vector<double>
+    /** A sampling time of prescribed values. */
+    struct Sample
+    {
+      double      t;
+      std::string stage;
+    };
+
+    /** Sampling times: the ends of the stages and of tenths of them. */
+    std::vector<Sample>
     times_of(const LoadingProgramme &loading)
     {
-      std::vector<double> times = {0.};
+      std::vector<Sample> times = {{0., loading.list.front()->name}};
       for (const auto &stage : loading.list)
         {
-          const double begin = times.back();
+          const double begin = times.back().t;
           for (unsigned int i = 1; i <= 10; ++i)
-            times.push_back(begin + i / 10. * stage->duration);
+            times.push_back({begin + i / 10. * stage->duration, stage->name});
         }
       return times;
     }
@@ -86,13 +92,15 @@ namespace geocone::GEOCONE_DIM
     Tensor<1, dim>
     largest_value(const BoundaryCondition   &condition,
                   const SidePart            &face,
-                  const std::vector<double> &times)
+                  const std::vector<Sample> &times)
     {
       const Point<dim>     x    = face.middle();
       const Tensor<1, dim> area = area_of(face);
       Tensor<1, dim>       largest;
-      for (const double t : times)
+      for (const auto &[t, stage] : times)
         {
+          if (!condition.stages.include(stage))
+            continue;
           Tensor<1, dim> value;
           if (condition.normal || condition.tangential)
             value = condition.vector_on_side(x, area / area.norm(), t);
@@ -109,7 +117,7 @@ namespace geocone::GEOCONE_DIM
     Json
     conditions_of(const BoundaryConditions  &conditions,
                   const ModelMesh           &mesh,
-                  const std::vector<double> &times)
+                  const std::vector<Sample> &times)
     {
       Json all = Json::array();
       for (const auto &condition : conditions.list)
@@ -127,6 +135,7 @@ namespace geocone::GEOCONE_DIM
           all.push_back({{"name", condition->name},
                          {"prescribed", prescribed},
                          {"normal", condition->normal.has_value()},
+                         {"stages", condition->stages.names()},
                          {"faces", faces},
                          {"values", values}});
         }
@@ -238,7 +247,7 @@ namespace geocone::GEOCONE_DIM
         all.push_back({{"name", structure->name},
                        {"type", structure->kind()},
                        {"points", json_of_places(structure->points)},
-                       {"stages", structure->acting_stages()}});
+                       {"stages", structure->stages.names()}});
       return all;
     }
 
@@ -349,7 +358,7 @@ namespace geocone::GEOCONE_DIM
   Json
   model_of(const Scene &scene, const ModelMesh &mesh)
   {
-    const std::vector<double> times = times_of(scene.loading);
+    const std::vector<Sample> times = times_of(scene.loading);
     // For meshes from files the mesh is the body; for particles it is larger.
     auto [low, high] = mesh.box;
     if (scene.geometry.shape != Geometry::Shape::file)
@@ -389,7 +398,7 @@ namespace geocone::GEOCONE_DIM
        obstacles_of(scene, low + (high - low) / 2., (high - low).norm())},
       {"structures", structures_of(scene.structures)},
       {"observed_points", json_of_places(scene.observation.points)},
-      {"gravity_m_per_s2", json(scene.gravity.at(times.back()))},
+      {"gravity_m_per_s2", json(scene.gravity.at(times.back().t))},
       {"free_surfaces", surfaces},
       {"stages", stages_of(scene)}};
   }

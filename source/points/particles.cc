@@ -105,6 +105,7 @@ namespace geocone::GEOCONE_DIM
     MPI_Exscan(&n, &first, 1, MPI_UNSIGNED, MPI_SUM, comm);
     const auto  &conditions = scene.dirichlet.list;
     HistoryStart start;
+    std::string  held_twice; // a condition
     for (unsigned int i = 0; i < n; ++i)
       {
         const Seed            &seed = seeds[i];
@@ -134,9 +135,24 @@ namespace geocone::GEOCONE_DIM
           if (conditions[c]->holds() == Imposition::On::particles &&
               in_first_row(
                 *conditions[c], scene.geometry, seed.position, seed.volume))
-            set.held_by[p] = c + 1;
+            {
+              if (const unsigned int other = set.held_by[p];
+                  other > 0 && !(conditions[c]->stages.are_all() &&
+                                 conditions[other - 1]->stages.are_all()))
+                held_twice = conditions[c]->name;
+              set.held_by[p] = c + 1;
+            }
       }
     start.check<InputError>(comm);
+    held_twice = text_of_any_rank(comm, held_twice);
+    if (!held_twice.empty())
+      throw InputError("Boundary conditions/" + held_twice + "/" +
+                         ActingStages::entry,
+                       held_twice,
+                       "one condition per particle, where it does not act in "
+                       "all stages",
+                       "make it one condition with formulas in t, or impose it "
+                       "on nodes or segments");
     find_cells(points);
 
     const unsigned int k    = seeding.points_per_direction();

@@ -246,13 +246,13 @@ namespace geocone::GEOCONE_DIM
         stage = of_step;
         for (Plate &plate : plates)
           if (const Bar &bar = bars[plate.first_segment];
-              bar.acts != bar.structure->acts_in(stage))
+              bar.acts != bar.structure->stages.include(stage))
             std::fill(plate.displacement.begin(),
                       plate.displacement.end(),
                       Tensor<1, dim>());
         for (Bar &bar : bars)
           {
-            const bool acts = bar.structure->acts_in(stage);
+            const bool acts = bar.structure->stages.include(stage);
             if (acts != bar.acts)
               {
                 bar.n       = {};

@@ -187,6 +187,9 @@ namespace geocone::GEOCONE_DIM
           "bounds are those of drained strength: take another mesh");
         scene.structures.refuse("'Mesh/Type' = from the bounds",
                                 "bounds do not support them: take another mesh");
+        scene.dirichlet.refuse_stages(
+          "'Mesh/Type' = from the bounds",
+          "bounds have no stages: take another mesh");
         auto [sizes, bracket] = sizes_of_scene(parameters, scene, comm, log);
         if (scene.loading.reduces_strength())
           bracket.name = "the factor of all loads at full strength";

@@ -90,6 +90,10 @@ namespace geocone::GEOCONE_DIM
         "Traction [Pa] along the sides, positive with the body to the left.");
     if (quantity == "Velocity")
       {
+        stages.declare(
+          *this,
+          ". In the others its components are free, and its reaction is "
+          "released at once at the beginning of the stage.");
         imposition.declare(
           *this,
           "Imposed on",
@@ -379,5 +383,33 @@ namespace geocone::GEOCONE_DIM
     : NamedList(file, section, documentation)
   {
     make(section, quantity, unit, unset, file.folder());
+  }
+
+  void
+  BoundaryConditions::check_stages(const std::vector<std::string> &all) const
+  {
+    for (const auto &condition : list)
+      condition->stages.check(condition->parameter(ActingStages::entry), all);
+  }
+
+  void
+  BoundaryConditions::refuse_stages(const std::string &what,
+                                    const std::string &remedy) const
+  {
+    for (const auto &condition : list)
+      if (!condition->stages.are_all())
+        throw InputError(condition->parameter(ActingStages::entry),
+                         condition->stages.names().front(),
+                         "empty with " + what,
+                         remedy);
+  }
+
+  std::vector<bool>
+  BoundaryConditions::acting_in(const std::string &stage) const
+  {
+    std::vector<bool> act;
+    for (const auto &condition : list)
+      act.push_back(condition->stages.include(stage));
+    return act;
   }
 } // namespace geocone::GEOCONE_DIM

@@ -94,7 +94,9 @@ namespace geocone::GEOCONE_DIM
                    {&scene.dirichlet, &scene.tractions, &scene.absorbing})
                 for (const auto &condition : conditions->list)
                   for (const dealii::Point<dim> &x :
-                       places_held_by(*condition, scene.geometry))
+                       !condition->stages.include(stage->name)
+                         ? std::vector<dealii::Point<dim>>()
+                         : places_held_by(*condition, scene.geometry))
                     check(*condition, x, t);
             }
         }
@@ -169,6 +171,7 @@ namespace geocone::GEOCONE_DIM
     initial_velocity.prepare();
     initial_stress.prepare(gravity, geometry, regions, water, stage_that_adds);
     dirichlet.prepare();
+    dirichlet.check_stages(loading.names());
     tractions.prepare();
     absorbing.prepare();
     obstacles.prepare();

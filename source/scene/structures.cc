@@ -100,11 +100,8 @@ namespace geocone::GEOCONE_DIM
       ": ends of a plate whose rotation is prevented, as on an axis "
       "of symmetry or in a rigid support; otherwise ends carry no "
       "moment.");
-    add_parameter(
-      "Acts in",
-      stages,
-      "Stages in which it acts, comma-separated; it is installed at "
-      "the beginning of the first one. Empty: all.");
+    stages.declare(*this,
+                   "; it is installed at the beginning of the first one.");
   }
 
   void
@@ -142,12 +139,7 @@ namespace geocone::GEOCONE_DIM
                        pre_stress,
                        "a force within the strengths",
                        "lower it, or raise the strength");
-    for (const std::string &stage : stages)
-      if (std::count(all_stages.begin(), all_stages.end(), stage) == 0)
-        throw InputError(parameter("Acts in"),
-                         stage,
-                         "names in 'Loading/Stages'",
-                         "check the spelling");
+    stages.check(parameter(ActingStages::entry), all_stages);
   }
 
   void

@@ -67,17 +67,20 @@ namespace geocone::GEOCONE_DIM
 
   CartesianTransfer::CartesianTransfer(const MPI_Comm            comm,
                                        const CartesianGrid      &grid,
-                                       const BoundaryConditions &conditions)
+                                       const BoundaryConditions &conditions,
+                                       const std::string        &first_stage)
     : comm(comm)
     , rank(Utilities::MPI::this_mpi_process(comm))
     , n_ranks(Utilities::MPI::n_mpi_processes(comm))
     , grid(grid)
     , kernels(transfer_kernels())
+    , conditions(conditions)
+    , acts(conditions.acting_in(first_stage))
   {
     const std::vector<GridSide> sides = sides_of_grid(grid);
 
-    // The last condition in the list that prescribes a component determines it.
-    std::map<std::array<unsigned int, dim + 1>, PrescribedNode> of_component;
+    std::map<std::array<unsigned int, dim + 1>, std::vector<PrescribedNode>>
+      of_component;
     for (unsigned int c = 0; c < conditions.list.size(); ++c)
       {
         const BoundaryCondition &condition = *conditions.list[c];
@@ -116,9 +119,9 @@ namespace geocone::GEOCONE_DIM
                   for (unsigned int d = 0; d < dim; ++d)
                     if (condition.components[d])
                       {
-                        key[dim]          = d;
-                        p.component       = d;
-                        of_component[key] = p;
+                        key[dim]    = d;
+                        p.component = d;
+                        of_component[key].push_back(p);
                       }
                 }
             }
@@ -127,6 +130,15 @@ namespace geocone::GEOCONE_DIM
       }
     for (const auto &entry : of_component)
       prescribed_functions.push_back(entry.second);
+  }
+
+  bool
+  CartesianTransfer::begin_stage(const std::string &stage)
+  {
+    std::vector<bool> next    = conditions.acting_in(stage);
+    const bool        changes = next != acts;
+    acts                      = std::move(next);
+    return changes;
   }
 
   void
@@ -282,8 +294,16 @@ namespace geocone::GEOCONE_DIM
         }
 
     prescribed.clear();
-    for (PrescribedNode p : prescribed_functions)
+    for (const std::vector<PrescribedNode> &all : prescribed_functions)
       {
+        // The last acting condition in the list determines the component.
+        const auto last = std::find_if(
+          all.rbegin(), all.rend(), [&](const PrescribedNode &one) {
+            return acts[one.condition];
+          });
+        if (last == all.rend())
+          continue;
+        PrescribedNode  p         = *last;
         const GridIndex function  = index_in_grid(p.node, n_functions());
         bool            is_stored = true;
         for (unsigned int d = 0; d < dim; ++d)

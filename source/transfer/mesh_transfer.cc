@@ -24,8 +24,9 @@ namespace geocone::GEOCONE_DIM
     , comm(mesh.triangulation().get_communicator())
     , n(space.nodes_per_cell())
     , search(mesh)
+    , stage(scene.loading.list.front()->name)
   {
-    const Constraints constraints(scene, mesh, space);
+    const Constraints constraints(scene, mesh, space, stage);
     store_nodes(constraints);
     for (unsigned int c = 0; c < scene.dirichlet.list.size(); ++c)
       centres.push_back(constraints.centre(c));
@@ -63,7 +64,18 @@ namespace geocone::GEOCONE_DIM
         if (group.cell[p] != numbers::invalid_unsigned_int)
           ++n_in_cell[group.cell[p]];
     balance.repartition(std::move(n_in_cell), mesh, space);
-    store_nodes(Constraints(scene, mesh, space));
+    store_nodes(Constraints(scene, mesh, space, stage));
+  }
+
+  bool
+  MeshTransfer::begin_stage(const std::string &next)
+  {
+    const bool changes =
+      scene.dirichlet.acting_in(next) != scene.dirichlet.acting_in(stage);
+    stage = next;
+    if (changes)
+      prescribed = Constraints(scene, mesh, space, stage).prescribed_nodes();
+    return changes;
   }
 
   void

@@ -131,7 +131,10 @@ namespace mechanics_b_bar_01
             mass.local_element(dim * points.nodes[c * points.n_nodes + i] +
                                d) +=
               points.mass[p] * points.values[p * points.n_nodes + i];
-    Constraints constraints(setup.scene, setup.mesh, setup.space);
+    Constraints constraints(setup.scene,
+                            setup.mesh,
+                            setup.space,
+                            setup.scene.loading.list.front()->name);
     constraints.number_unknowns(&mass);
     IncrementalProblem problem(points,
                                setup.scene.materials,

@@ -175,7 +175,10 @@ namespace solvers_not_solved_01
                                  0.,
                                  0.02,
                                  1.);
-          Constraints constraints(other->scene, other->mesh, other->space);
+          Constraints constraints(other->scene,
+                                  other->mesh,
+                                  other->space,
+                                  other->scene.loading.list.front()->name);
           constraints.number_unknowns(nullptr);
           IncrementalProblem problem(other->points,
                                      other->scene.materials,

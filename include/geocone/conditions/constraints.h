@@ -34,17 +34,26 @@ namespace geocone::GEOCONE_DIM
    * and a part of the remainder proportional to int_c N_i dA. Hence each nodal
    * force counts once, and no support reports the load carried by an adjacent
    * one.
+   *
+   * Conditions act in their stages only; in the others their dofs are free.
    */
   class Constraints : public Unknowns
   {
   public:
     /**
-     * Collects the conditions imposed on nodes.
+     * Collects the conditions imposed on nodes, and lets those of a stage act.
      * @throws InputError if one of them selects no node
      */
     Constraints(const Scene          &scene,
                 const BackgroundMesh &mesh,
-                const Space          &space);
+                const Space          &space,
+                const std::string    &stage);
+
+    /** Lets the conditions of a stage act. Unknowns must be numbered and
+     *  problems set up anew thereafter. Collective.
+     *  @return whether they are others than before */
+    bool
+    begin_stage(const BackgroundMesh &mesh, const std::string &stage);
 
     /**
      * Checks that the prescribed dofs support every connected part of the body
@@ -193,8 +202,11 @@ namespace geocone::GEOCONE_DIM
     void
     find_oblique_nodes(
       const BackgroundMesh                              &mesh,
-      const std::vector<std::vector<unsigned int>>      &nodes,
       std::map<unsigned int, std::vector<unsigned int>> &of_dof);
+
+    /** Finds the dofs that the acting conditions prescribe. Collective. */
+    void
+    find_prescribed(const BackgroundMesh &mesh);
 
     /** Finds the components prescribed by several conditions and numbers these
      *  conditions. Collective. */
@@ -247,6 +259,8 @@ namespace geocone::GEOCONE_DIM
     const MPI_Comm                         comm;
     std::vector<PrescribedNode>            prescribed;
     std::vector<Oblique>                   oblique;
+    std::vector<bool>                      acts;        ///< per condition
+    std::vector<std::vector<unsigned int>> nodes;       ///< per condition
     std::vector<std::vector<unsigned int>> owned_nodes; ///< per condition
     std::vector<unsigned int>              n_nodes;     ///< of all ranks
     std::vector<dealii::Point<dim>>        centres;     ///< per condition

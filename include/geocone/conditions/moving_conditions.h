@@ -26,6 +26,21 @@ namespace geocone::GEOCONE_DIM
                      const BackgroundMesh &mesh,
                      const Space          &space);
 
+    /** Lets the conditions of a stage act. Segments of the others move with
+     *  the body. */
+    void
+    begin_stage(const std::string &stage)
+    {
+      acts = scene.dirichlet.acting_in(stage);
+    }
+
+    /** Whether a condition acts. */
+    bool
+    is_acting(const unsigned int condition) const
+    {
+      return acts[condition];
+    }
+
     /** @throws InputError if a condition selects no particle. Collective. */
     void
     check_held_particles(const MaterialPoints &points) const;
@@ -67,7 +82,7 @@ namespace geocone::GEOCONE_DIM
 
     /**
      * Moves the boundary segments over a step h: those with prescribed velocity
-     * by the velocity at time t, loaded ones by that of the nodes. Collective.
+     * by the velocity at time t, others by that of the nodes. Collective.
      */
     void
     move(const Vector &v, const double h, const double t);
@@ -192,6 +207,7 @@ namespace geocone::GEOCONE_DIM
     const Scene            &scene;
     const BackgroundMesh   &mesh;
     const Space            &space;
+    std::vector<bool>       acts; ///< per condition of Scene::dirichlet
     std::vector<HeldSide>   supports;
     std::vector<LoadedSide> loads;
   };

@@ -153,6 +153,9 @@ namespace geocone::GEOCONE_DIM
     /** @} */
 
     void
+    begin_stage(const Stage &stage) override;
+
+    void
     begin(MaterialPoints &points, dealii::TimerOutput &timer) override;
 
     /** Stencils of ghost stiffness for the present points. Collective. */
@@ -357,6 +360,7 @@ namespace geocone::GEOCONE_DIM
     std::string                  grid_follows; ///< a condition, or nothing
     std::optional<FollowingGrid> following;
     bool nodes_moved = false; ///< since the setup of constraints
+    std::string present_stage;       ///< whose conditions act
 
     Particles   particles;
     RankBalance balance;

@@ -90,6 +90,10 @@ namespace geocone::GEOCONE_DIM
     /** @name Steps */
     /** @{ */
 
+    /** Lets the conditions of a stage act. Collective. */
+    virtual void
+    begin_stage(const Stage &stage);
+
     /** Sets up mass, unknowns, problem and pattern, which depend on t_n only.
      *  Collective.
      *  @throws InputError or StepFailure if there is no such problem */

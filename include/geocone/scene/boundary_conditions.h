@@ -6,6 +6,7 @@
 
 #include <geocone/base/named_list.h>
 #include <geocone/functions/expression.h>
+#include <geocone/scene/acting_stages.h>
 #include <geocone/scene/imposition.h>
 
 #include <deal.II/base/parameter_acceptor.h>
@@ -132,6 +133,9 @@ namespace geocone::GEOCONE_DIM
       return texts[component];
     }
 
+    /** Stages in which a prescribed velocity acts. */
+    ActingStages stages;
+
     /** Imposition method of a prescribed velocity. */
     Choice<const Imposition *> imposition = imposition_choice();
 
@@ -212,6 +216,19 @@ namespace geocone::GEOCONE_DIM
                        const std::string   &unit,
                        const std::string   &unset,
                        const std::string   &documentation);
+
+    /** @param all names of the stages
+     *  @throws InputError if a condition acts in another one */
+    void
+    check_stages(const std::vector<std::string> &all) const;
+
+    /** @throws InputError for a condition that does not act in all stages */
+    void
+    refuse_stages(const std::string &what, const std::string &remedy) const;
+
+    /** Which of the conditions act in a stage. */
+    std::vector<bool>
+    acting_in(const std::string &stage) const;
   };
 } // namespace geocone::GEOCONE_DIM
 

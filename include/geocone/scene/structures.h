@@ -7,6 +7,7 @@
 #include <geocone/base/choice.h>
 #include <geocone/base/named_list.h>
 #include <geocone/base/types.h>
+#include <geocone/scene/acting_stages.h>
 #include <geocone/scene/geometry.h>
 
 #include <deal.II/base/point.h>
@@ -51,20 +52,6 @@ namespace geocone::GEOCONE_DIM
     parameter(const std::string &entry) const
     {
       return "Structures/" + name + "/" + entry;
-    }
-
-    bool
-    acts_in(const std::string &stage) const
-    {
-      return stages.empty() ||
-             std::count(stages.begin(), stages.end(), stage) > 0;
-    }
-
-    /** Names of its stages; none for all. */
-    const std::vector<std::string> &
-    acting_stages() const
-    {
-      return stages;
     }
 
     /** Names of its bars in results; a plate has none, but results of its own. */
@@ -130,6 +117,7 @@ namespace geocone::GEOCONE_DIM
     }
 
     const std::string               name;
+    ActingStages                    stages;
     std::vector<dealii::Point<dim>> points;
     double                          stiffness  = 0.; ///< EA (N/m)
     double                          pre_stress = 0.; ///< initial N (N/m)
@@ -148,7 +136,6 @@ namespace geocone::GEOCONE_DIM
                                          {"first", Ends::first},
                                          {"last", Ends::last},
                                          {"both", Ends::both}}};
-    std::vector<std::string> stages;
     std::string tensile_text = "unlimited", compressive_text = "automatic";
     double      tensile = 0., compressive = 0.; ///< N_t and N_c (N/m)
     std::string capacity_text = "unlimited", spacing_text = "automatic";

@@ -22,14 +22,20 @@ namespace geocone::GEOCONE_DIM
   public:
     /**
      * @param conditions the prescribed velocities, on sides of the grid
+     * @param first_stage whose conditions act
      * @throws InputError for sides that are not sides of the grid
      */
     CartesianTransfer(const MPI_Comm            comm,
                       const CartesianGrid      &grid,
-                      const BoundaryConditions &conditions);
+                      const BoundaryConditions &conditions,
+                      const std::string        &first_stage);
 
     void
     sort(std::vector<PointArrays> &groups) override;
+
+    bool
+    begin_stage(const std::string &stage) override;
+
     bool
     must_sort(const PassSums &sums) const override;
 
@@ -146,8 +152,12 @@ namespace geocone::GEOCONE_DIM
     const CartesianGrid    grid;
     const TransferKernels &kernels;
 
-    /** Prescribed functions of the whole grid, by number_in_grid(). */
-    std::vector<PrescribedNode> prescribed_functions;
+    const BoundaryConditions &conditions;
+    std::vector<bool>         acts; ///< per condition
+
+    /** Components prescribed by conditions, and by which of them, for functions
+     *  of the whole grid, by number_in_grid(). */
+    std::vector<std::vector<PrescribedNode>> prescribed_functions;
 
     std::vector<int>   slab_begin;     ///< first column of cells of each rank
     Range              cells[dim];     ///< range of this rank's points

@@ -43,6 +43,11 @@ namespace geocone::GEOCONE_DIM
     virtual void
     sort(std::vector<PointArrays> &groups) = 0;
 
+    /** Lets the prescribed velocities of a stage act, from the next sort() on.
+     *  Collective. @return whether they are others than before */
+    virtual bool
+    begin_stage(const std::string &stage) = 0;
+
     /** Whether the next step requires a sort(), for points moved to these
      *  bounds on this rank (not collective). */
     virtual bool

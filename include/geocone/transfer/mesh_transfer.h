@@ -31,6 +31,9 @@ namespace geocone::GEOCONE_DIM
 
     void
     sort(std::vector<PointArrays> &groups) override;
+
+    bool
+    begin_stage(const std::string &stage) override;
     bool
     must_sort(const PassSums &) const override
     {
@@ -168,6 +171,8 @@ namespace geocone::GEOCONE_DIM
     const MPI_Comm     comm;
     const unsigned int n; ///< nodes per cell
     const CellSearch   search;
+
+    std::string stage; ///< whose conditions act
 
     std::vector<unsigned int> cell_nodes; ///< n per active cell index
     std::vector<Functions>    functions;  ///< per group

@@ -255,6 +255,12 @@ def value_text(values, unit):
             f"{low:.3g} to {high:.4g} {prefix}")
 
 
+def acts_in(member, stage):
+    """Whether a structure or a condition acts in a stage."""
+    stages = member.get("stages", [])
+    return not stages or stage in stages
+
+
 def draw_supports(axes, model):
     """Supports: ticks where no component may move, rollers where one may, arrows
     where it is moved. @return entries of the legend"""
@@ -263,14 +269,15 @@ def draw_supports(axes, model):
     for condition in model.data["supports"]:
         if not condition["faces"]:
             continue
+        when = ", ".join(condition.get("stages", []))
         values = np.array(condition["values"], dtype=float)
         index, places, outward = spaced(condition["faces"], step)
         moved = np.linalg.norm(values[index], axis=1) > 0.
         if np.any(moved):
             draw_arrows(axes, places[moved], values[index][moved], outward[moved], MOTION,
                         0.09 * model.size)
-            text = f"{plain(condition['name'])}: {value_text(values, 'm/s')}"
-            entries[text] = arrow_entry(MOTION)
+            text = f"{condition['name']}: {value_text(values, 'm/s')}"
+            entries[plain(f"{text} ({when})" if when else text)] = arrow_entry(MOTION)
         held = ~moved
         if not np.any(held):
             continue
@@ -281,14 +288,32 @@ def draw_supports(axes, model):
         if all(condition["prescribed"]) or condition["normal"] and any(condition["prescribed"]):
             ticks = np.stack([x, x + 0.45 * step * (n - 0.8 * t)], axis=1)
             axes.add_collection(LineCollection(ticks, colors=SUPPORT, linewidths=0.8, zorder=4))
-            entries["fixed"] = Line2D([], [], color=SUPPORT, marker="|", markersize=9)
+            text = f"{condition['name']}: fixed ({when})" if when else "fixed"
+            entries[plain(text)] = Line2D([], [], color=SUPPORT, marker="|", markersize=9)
         else:
             x = x + 0.25 * step * n
             axes.plot(*x.T, "o", color=SUPPORT, markerfacecolor="white", markersize=3.6,
                       markeredgewidth=0.8, zorder=4, linestyle="none")
-            entries["roller"] = Line2D([], [], color=SUPPORT, marker="o", markersize=4.,
-                                       markerfacecolor="white")
+            text = f"{condition['name']}: roller ({when})" if when else "roller"
+            entries[plain(text)] = Line2D([], [], color=SUPPORT, marker="o", markersize=4.,
+                                          markerfacecolor="white")
     return entries
+
+
+def draw_acting(axes, model, stage):
+    """The conditions of some stages that act in this one: a bar along their faces, and
+    an arrow where they move."""
+    for condition in model.data["supports"]:
+        if condition.get("stages") and condition["faces"] and acts_in(condition, stage):
+            values = np.array(condition["values"], dtype=float)
+            index, places, outward = spaced(condition["faces"], model.size)
+            moved = np.linalg.norm(values[index], axis=1) > 0.
+            axes.add_collection(LineCollection(
+                segments_of(condition["faces"]), zorder=4, linewidths=3.,
+                colors=MOTION if np.any(moved) else SUPPORT))
+            if np.any(moved):
+                draw_arrows(axes, places[moved], values[index][moved], outward[moved], MOTION,
+                            0.09 * model.size)
 
 
 def arrow_entry(color):
@@ -359,7 +384,7 @@ def draw_structures(axes, model, stage=None, with_names=True):
 
     @param stage name of one, to draw only what is there then"""
     for structure in model.data.get("structures", []):
-        if stage is not None and structure["stages"] and stage not in structure["stages"]:
+        if stage is not None and not acts_in(structure, stage):
             continue
         points = np.array(structure["points"], dtype=float)
         look = ({"linewidth": 3.} if structure["type"] == "plate" else
@@ -422,10 +447,18 @@ def legend_of(model):
 
 
 def notable_stages(model):
-    """The stages whose beginning or end looks otherwise than what was before."""
-    return [stage for stage in model.data["stages"] if any(
-        key in stage for key in ("removed", "removed_lattice", "added", "changed",
-                                 "water_table", "water_levels"))]
+    """The stages whose beginning or end looks otherwise than what was before. The picture
+    of the model shows all structures and conditions."""
+    notable, before = [], None
+    for stage in model.data["stages"]:
+        acting = [acts_in(member, stage["name"]) for kind in ("supports", "structures")
+                  for member in model.data.get(kind, [])]
+        if (acting != before if before is not None else not all(acting)) or any(
+                key in stage for key in ("removed", "removed_lattice", "added", "changed",
+                                         "water_table", "water_levels")):
+            notable.append(stage)
+        before = acting
+    return notable
 
 
 def words_of(stage):
@@ -469,6 +502,7 @@ def draw_stages(axes_of, model, stages, view):
             draw_lattice(axes, stage["removed_lattice"], "#ffffff", zorder=1.4)
         draw_outlines(axes, model)
         draw_structures(axes, model, stage["name"], with_names=False)
+        draw_acting(axes, model, stage["name"])
         draw_table(axes, table)
         draw_free_surface(axes, model.free_surface(end))
         axes.set_title(words_of(stage), fontsize=8)

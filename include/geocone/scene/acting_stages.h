@@ -1,0 +1,54 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_scene_acting_stages_h
+#define geocone_scene_acting_stages_h
+
+#include <deal.II/base/parameter_acceptor.h>
+
+#include <string>
+#include <vector>
+
+namespace geocone
+{
+  /** The stages of the loading programme in which a structure or a condition
+   *  acts: the parameter 'Acts in'. */
+  class ActingStages
+  {
+  public:
+    /** @param rest of the documentation */
+    void
+    declare(dealii::ParameterAcceptor &section, const std::string &rest);
+
+    /** @param parameter its full name, for messages
+     *  @param all names of the stages
+     *  @throws InputError for another name */
+    void
+    check(const std::string              &parameter,
+          const std::vector<std::string> &all) const;
+
+    bool
+    are_all() const
+    {
+      return list.empty();
+    }
+
+    bool
+    include(const std::string &stage) const;
+
+    /** Their names; none for all. */
+    const std::vector<std::string> &
+    names() const
+    {
+      return list;
+    }
+
+    /** Name of the parameter in its section. */
+    static constexpr const char *entry = "Acts in";
+
+  private:
+    std::vector<std::string> list;
+  };
+} // namespace geocone
+
+#endif
