@@ -81,7 +81,9 @@ namespace geocone::GEOCONE_DIM
         }
       else
         {
-          constexpr double least = 0.1; // parts of a side
+          // Nearer points would tie more displacements than the cells have, and
+          // their axial forces would oscillate.
+          constexpr double least = 0.7; // parts of a side
           for (const auto &[place, side] : crossings_of_line(a, b, mesh))
             if ((place - ends.back()) * length > least * side &&
                 (1. - place) * length > least * side)

@@ -391,9 +391,12 @@ def draw_structures(axes, model, stage=None, with_names=True):
                 {"linewidth": 2., "marker": "o", "markersize": 3.5})
         axes.plot(*points.T, color=STRUCTURE, zorder=5, solid_capstyle="butt", **look)
         if with_names:
-            axes.annotate(plain(structure["name"]), points.mean(axis=0), xytext=(0., 5.),
-                          textcoords="offset points", fontsize=8, ha="center", va="bottom",
-                          color=STRUCTURE, zorder=6, annotation_clip=True)
+            width, height = np.ptp(points, axis=0)
+            place = ({"xytext": (5., 0.), "ha": "left", "va": "center"} if height > width else
+                     {"xytext": (0., 5.), "ha": "center", "va": "bottom"})
+            axes.annotate(plain(structure["name"]), points.mean(axis=0), **place,
+                          textcoords="offset points", fontsize=8, color=STRUCTURE, zorder=6,
+                          annotation_clip=True)
 
 
 def draw_side_names(axes, model):
