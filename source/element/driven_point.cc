@@ -45,6 +45,12 @@ namespace geocone::GEOCONE_DIM
     materials.refuse_undrained("the method 'point'",
                                "hold the volume of the point by its path "
                                "instead: its stresses are effective ones");
+    if (const std::string entry = materials.law(0).formula_of_place();
+        !entry.empty())
+      throw InputError("Materials/" + materials.name(0) + "/" + entry,
+                       "a formula",
+                       "empty with the method 'point'",
+                       "a single point has no position: give its value");
     mixed_control.prepare();
     if (initial_stress.size() != 6)
       throw InputError("Element/Initial stress",

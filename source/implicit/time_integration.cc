@@ -214,7 +214,8 @@ namespace geocone::GEOCONE_DIM
       const Mandel beyond =
         extrapolation * stress - (extrapolation - 1.) * stress_n;
       const Mandel end  = material.nearest_admissible(beyond, history);
-      const Mandel back = material.elasticity().strain(Mandel(beyond - end));
+      const Mandel back =
+        material.elasticity_at(stress_n, history).strain(Mandel(beyond - end));
       const Mandel all  = extrapolation * plastic + back;
       return {end,
               all,

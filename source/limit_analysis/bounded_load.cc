@@ -236,10 +236,11 @@ namespace geocone::GEOCONE_DIM
                            "a law that hardens",
                            "Mohr-Coulomb | Tresca where loads are bounded",
                            "take the strength that counts, initial or final");
-        if (scene.materials[m].has_strength_formula())
-          throw InputError("Materials/" + scene.materials.name(m) +
-                             "/Cohesion formula",
-                           "a formula",
+        if (const std::string formula = scene.materials[m].strength_formula();
+            !formula.empty())
+          throw InputError("Materials/" + scene.materials.name(m) + "/" +
+                             formula,
+                           "set",
                            "a 'Cohesion gradient' where loads are bounded",
                            "strength is to be linear in each triangle: give a "
                            "gradient, or layers");

@@ -85,8 +85,9 @@ namespace geocone::GEOCONE_DIM
   {
     MohrCoulomb::prepare();
     if (cohesion_grows())
-      throw InputError(parameter(has_strength_formula() ? "Cohesion formula"
-                                                        : "Cohesion gradient"),
+      throw InputError(parameter(strength_formula().empty()
+                                   ? "Cohesion gradient"
+                                   : strength_formula()),
                        "set",
                        "none for a law that hardens",
                        "take Mohr-Coulomb, or layers of several materials");

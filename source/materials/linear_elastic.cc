@@ -14,6 +14,20 @@ namespace geocone::GEOCONE_DIM
   {
     if (axisymmetric)
       return SpatialLaw::update(increment, response);
+    if (!has_constant_stiffness())
+      {
+        for (std::size_t p = 0; p < increment.strain.size(); ++p)
+          {
+            const Elasticity own =
+              own_elasticity(increment.history_n + increment.n_history * p);
+            response.stress[p] =
+              increment.stress_n[p] + own.stress(increment.strain[p]);
+            response.mode[p] = Mode::elastic;
+            if (response.tangent.size() > 0)
+              response.tangent[p] = own.stiffness();
+          }
+        return;
+      }
     for (std::size_t p = 0; p < increment.strain.size(); ++p)
       {
         response.stress[p] =
@@ -22,6 +36,17 @@ namespace geocone::GEOCONE_DIM
       }
     for (MandelMatrix &tangent : response.tangent)
       tangent = elasticity().stiffness();
+  }
+
+  bool
+  LinearElastic::set_axisymmetric()
+  {
+    if (!has_constant_stiffness())
+      throw InputError(parameter(entry),
+                       "a formula",
+                       "empty in axisymmetric scenes",
+                       "take layers of constant stiffness");
+    return axisymmetric = true;
   }
 
   Mode
@@ -41,6 +66,8 @@ namespace geocone::GEOCONE_DIM
   {
     if (axisymmetric)
       return SpatialLaw::advance(block, counts);
+    if (!has_constant_stiffness())
+      return Material::advance(block, counts);
     counts.updates += block.n_points;
     FlowCone everything;
     everything.k = std::numeric_limits<double>::max();

@@ -80,7 +80,8 @@ namespace geocone::GEOCONE_DIM
 
   SpatialMandel
   Material::elastic_strain(const SpatialMandel &from,
-                           const SpatialMandel &to) const
+                           const SpatialMandel &to,
+                           const double *) const
   {
     return extended(elastic.strain(Mandel((to - from).head<n_mandel>())), 0.);
   }
@@ -89,7 +90,8 @@ namespace geocone::GEOCONE_DIM
   Material::elastic_energy(const Mandel &stress, const double *history) const
   {
     const SpatialMandel whole = whole_stress(stress, history);
-    return whole.dot(elastic_strain(SpatialMandel::Zero(), whole)) / 2.;
+    return whole.dot(elastic_strain(SpatialMandel::Zero(), whole, history)) /
+           2.;
   }
 
   std::optional<double>
@@ -144,15 +146,15 @@ namespace geocone::GEOCONE_DIM
       return std::nullopt;
     const Mandel stress_n = point.stress_n.head<n_mandel>(),
                  stress   = point.stress.head<n_mandel>();
-    const Mandel z =
-      to_cone_axes(Mandel(elastic.strain(Mandel(stress - stress_n)) -
-                          point.strain.head<n_mandel>()));
+    const Elasticity own  = elasticity_at(stress_n, point.history_n);
+    const Mandel z = to_cone_axes(Mandel(own.strain(Mandel(stress - stress_n)) -
+                                         point.strain.head<n_mandel>()));
     const double slip = FlowCone::tangential_norm(z);
     return FlowCheck::of_cone(*end_cone(stress_n, point.history_n, step, slip),
                               *exact_end_cone(point.history_n, slip),
                               z,
                               to_cone_axes(stress),
-                              elastic.two_G);
+                              own.two_G);
   }
 
   void
@@ -241,7 +243,8 @@ namespace geocone::GEOCONE_DIM
         block.plastic_strain[p] +=
           mode[p] == Mode::elastic
             ? 0.
-            : (extended(strain[p], zz) - elastic_strain(whole_n, whole)).norm();
+            : (extended(strain[p], zz) - elastic_strain(whole_n, whole, own))
+                .norm();
         block.set_stress(p, components_of(stress[p]));
         block.wave_modulus[p] = wave_modulus(stress_of(whole), own);
       }

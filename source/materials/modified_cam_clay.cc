@@ -477,7 +477,8 @@ namespace geocone::GEOCONE_DIM
 
   SpatialMandel
   ModifiedCamClay::elastic_strain(const SpatialMandel &from,
-                                  const SpatialMandel &to) const
+                                  const SpatialMandel &to,
+                                  const double *) const
   {
     const double P_n = pressure(from);
     const double x   = kappa * std::log(pressure(to) / P_n);

@@ -81,16 +81,16 @@ namespace geocone::GEOCONE_DIM
   }
 
   Mode
-  MohrCoulomb::return_to_cone(const Mandel  &trial,
-                              const Mandel  &stress_n,
-                              const double  *history_n,
-                              const StepLaw &step,
-                              Mandel        &stress,
-                              double        &slip,
-                              MandelMatrix  *tangent) const
+  MohrCoulomb::return_to_cone(const Elasticity &elastic,
+                              const Mandel     &trial,
+                              const Mandel     &stress_n,
+                              const double     *history_n,
+                              const StepLaw    &step,
+                              Mandel           &stress,
+                              double           &slip,
+                              MandelMatrix     *tangent) const
   {
-    const double K     = elasticity().normal_stiffness(),
-                 two_G = elasticity().two_G;
+    const double K = elastic.normal_stiffness(), two_G = elastic.two_G;
     if (varies())
       return return_map_varying(
         [&](const double g) { return *end_cone(stress_n, history_n, step, g); },
@@ -118,6 +118,7 @@ namespace geocone::GEOCONE_DIM
   MohrCoulomb::advance(const PointBlock &block, LawCounts &counts) const
   {
     const bool only_remembers = memory.time() > 0. && !cohesion_grows() &&
+                                has_constant_stiffness() &&
                                 n_history() == MohrCoulomb::n_history();
     if (!only_remembers || cone.is_cut())
       return Material::advance(block, counts);
@@ -139,11 +140,14 @@ namespace geocone::GEOCONE_DIM
     const MandelMatrix elastic_tangent = elasticity().stiffness();
     const bool         fixed           = !has_history();
     const bool         is_plain = fixed && increment.step.friction_lag == 0.;
+    const bool         uniform         = has_constant_stiffness();
     for (std::size_t p = 0; p < increment.strain.size(); ++p)
       {
         const std::size_t first = increment.n_history * p;
-        const Mandel      trial =
-          increment.stress_n[p] + elasticity().stress(increment.strain[p]);
+        const Elasticity  elastic =
+          uniform ? elasticity() : own_elasticity(increment.history_n + first);
+        const Mandel trial =
+          increment.stress_n[p] + elastic.stress(increment.strain[p]);
         const Mandel        in_axes = to_cone_axes(trial);
         Mandel              returned;
         MandelMatrix        tangent;
@@ -151,7 +155,8 @@ namespace geocone::GEOCONE_DIM
         double              slip   = 0.;
         response.mode[p] =
           is_plain ? return_map(cone, K, two_G, in_axes, returned, wanted)
-                   : return_to_cone(in_axes,
+                   : return_to_cone(elastic,
+                                    in_axes,
                                     increment.stress_n[p],
                                     increment.history_n + first,
                                     increment.step,
@@ -167,11 +172,12 @@ namespace geocone::GEOCONE_DIM
             add_to_history(slip, history);
           }
         // Elastic points keep their trial stress exactly.
-        const bool elastic = response.mode[p] == Mode::elastic;
-        response.stress[p] = elastic ? trial : from_cone_axes(returned);
+        const bool is_elastic = response.mode[p] == Mode::elastic;
+        response.stress[p]    = is_elastic ? trial : from_cone_axes(returned);
         if (linear)
-          response.tangent[p] =
-            elastic ? elastic_tangent : from_cone_axes(tangent);
+          response.tangent[p] = !is_elastic ? from_cone_axes(tangent)
+                                : uniform   ? elastic_tangent
+                                            : elastic.stiffness();
       }
   }
 } // namespace geocone::GEOCONE_DIM

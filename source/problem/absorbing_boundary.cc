@@ -28,7 +28,7 @@ namespace geocone::GEOCONE_DIM
             ParameterFile::value("Materials/" + materials.name(m) + "/Type"),
             "a law of constant stiffness where a side absorbs "
             "waves",
-            "take linear elastic, or leave out 'Absorbing "
+            "take linear elastic without a formula, or leave out 'Absorbing "
             "boundaries/Names'");
     }
 

@@ -644,8 +644,9 @@ namespace geocone::GEOCONE_DIM
   {
     if (mode[p] == Mode::elastic)
       return SpatialMandel::Zero();
-    return whole_strain(p) - materials[points.material[p]].elastic_strain(
-                               whole_stress_n(p), whole_stress(p));
+    return whole_strain(p) -
+           materials[points.material[p]].elastic_strain(
+             whole_stress_n(p), whole_stress(p), points.history_of(p));
   }
 
   SpatialMandel
@@ -674,8 +675,8 @@ namespace geocone::GEOCONE_DIM
   InternalForces::work(const unsigned int p) const
   {
     const SpatialMandel s = whole_stress(p);
-    double              elastic =
-      s.dot(materials[points.material[p]].elastic_strain(whole_stress_n(p), s));
+    double elastic        = s.dot(materials[points.material[p]].elastic_strain(
+      whole_stress_n(p), s, points.history_of(p)));
     if (is_undrained())
       elastic -= pressure[p] * trace(whole_strain(p));
     return {elastic, s.dot(plastic_strain_increment(p))};

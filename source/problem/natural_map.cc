@@ -1,6 +1,7 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <geocone/points/point_elasticity.h>
 #include <geocone/problem/natural_map.h>
 
 #include <Eigen/LU>
@@ -63,7 +64,7 @@ namespace geocone::GEOCONE_DIM
     for (unsigned int p = 0; p < strain.size(); ++p)
       {
         const unsigned int material   = points.material[p];
-        const Elasticity  &elasticity = materials[material].elasticity();
+        const Elasticity elasticity = elasticity_at_start(materials, points, p);
         Mandel             s          = iterate[p];
         if (moves)
           s += slope[p] * (strain[p] - last_strain[p]);

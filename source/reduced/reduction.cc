@@ -3,6 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
+#include <geocone/points/point_elasticity.h>
 #include <geocone/reduced/reduction.h>
 
 #include <deal.II/base/mpi.h>
@@ -122,7 +123,7 @@ namespace geocone::GEOCONE_DIM
     reduced.S.resize(n_mandel * n);
     for (unsigned int p = 0; p < n; ++p)
       {
-        const Elasticity &e = materials[points.material[p]].elasticity();
+        const Elasticity e = elasticity_at_start(materials, points, p);
         reduced.S.segment<n_mandel>(n_mandel * p) =
           Mandel::Constant(points.weight[p] / e.two_G);
         reduced.S[n_mandel * p] = points.weight[p] / e.normal_stiffness();

@@ -158,6 +158,14 @@ namespace geocone::GEOCONE_DIM
     take_place(const dealii::Point<dim> & /*place*/, double * /*history*/) const
     {}
 
+    /** Name of a parameter that is a formula in the initial position; empty:
+     *  none. */
+    virtual std::string
+    formula_of_place() const
+    {
+      return "";
+    }
+
     /** Size given to initialise(), of laws that need it (m). */
     virtual double
     size(const double * /*history*/) const

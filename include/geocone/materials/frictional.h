@@ -12,6 +12,7 @@
 #include <geocone/materials/material.h>
 #include <geocone/materials/with_friction_memory.h>
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,7 +22,8 @@ namespace geocone::GEOCONE_DIM
   /**
    * A law with cohesion, friction and dilatancy. Strength variables of a point
    * are the delayed normal stress (WithFrictionMemory) and, if the cohesion
-   * varies in space, c(y) = c + gradient (level - y) or a formula, its increase
+   * varies in space, c(y) = c + gradient (level - y), a formula or a ratio of the
+   * initial vertical stress, its increase
    * above c at the initial position of the point (Pa), which is the next
    * history variable.
    * @tparam Base Material, or a class derived from it
@@ -34,12 +36,21 @@ namespace geocone::GEOCONE_DIM
   public:
     using typename Remembering::Components;
     using typename Remembering::Shown;
+    using typename Remembering::Stress;
 
     void
     prepare() override
     {
       Remembering::prepare();
       given.prepare(this->parameter());
+      if (!(ratio >= 0.) ||
+          (ratio > 0. && (given.gradient != 0. || !profile_text.empty())))
+        throw InputError(this->parameter("Cohesion ratio"),
+                         ratio,
+                         ">= 0, and 0 with a formula or a gradient of the "
+                         "cohesion",
+                         "0.22 to 0.3 are usual for normally consolidated "
+                         "clay");
       if (profile_text.empty())
         return;
       if (given.gradient != 0.)
@@ -53,10 +64,16 @@ namespace geocone::GEOCONE_DIM
                                 this->parameter("Cohesion formula"));
     }
 
-    bool
-    has_strength_formula() const override
+    std::string
+    strength_formula() const override
     {
-      return profile.has_value();
+      return profile ? "Cohesion formula" : ratio > 0. ? "Cohesion ratio" : "";
+    }
+
+    std::string
+    formula_of_place() const override
+    {
+      return profile ? "Cohesion formula" : Remembering::formula_of_place();
     }
 
     unsigned int
@@ -68,7 +85,8 @@ namespace geocone::GEOCONE_DIM
     void
     take_place(const dealii::Point<dim> &place, double *history) const override
     {
-      if (!cohesion_grows())
+      Remembering::take_place(place, history);
+      if (given.gradient == 0. && !profile)
         return;
       const double more =
         profile ? profile->value(place, 0.) - given.c : given.growth(place[1]);
@@ -82,6 +100,17 @@ namespace geocone::GEOCONE_DIM
                   : "give 'Cohesion' at the top of the soil, and its y as "
                     "'Cohesion level'");
       history[place_of_growth()] = more;
+    }
+
+    std::string
+    initialise(const Stress &stress,
+               const double  size,
+               double       *history) const override
+    {
+      const std::string remark = Remembering::initialise(stress, size, history);
+      if (ratio > 0.)
+        history[place_of_growth()] = std::max(-ratio * stress[1] - given.c, 0.);
+      return remark;
     }
 
     std::vector<Shown>
@@ -129,7 +158,7 @@ namespace geocone::GEOCONE_DIM
     bool
     cohesion_grows() const
     {
-      return given.gradient != 0. || profile;
+      return given.gradient != 0. || profile || ratio > 0.;
     }
 
     /** Increase of the cohesion of a point above c (Pa).
@@ -161,10 +190,17 @@ namespace geocone::GEOCONE_DIM
         profile_text,
         "Cohesion [Pa] as a formula in the initial coordinates of a point, "
         "instead of 'Cohesion'. Empty: not used.");
+      this->add_parameter(
+        "Cohesion ratio",
+        ratio,
+        "Cohesion over the initial effective vertical stress of a point [-], "
+        "e.g. 0.25 for the undrained strength of normally consolidated clay; "
+        "at least 'Cohesion'. 0: not used.");
     }
 
     std::string               profile_text;
     std::optional<Expression> profile;
+    double                    ratio = 0.; ///< of s_u to the vertical stress
   };
 } // namespace geocone::GEOCONE_DIM
 

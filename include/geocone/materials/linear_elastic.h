@@ -5,14 +5,15 @@
 #define geocone_materials_linear_elastic_h
 
 #include <geocone/materials/spatial_law.h>
+#include <geocone/materials/with_stiffness_formula.h>
 
 namespace geocone::GEOCONE_DIM
 {
   /** Isotropic linear elasticity, s = s_n + D e. No parameters of its own. */
-  class LinearElastic : public SpatialReturnMap
+  class LinearElastic : public WithStiffnessFormula<SpatialReturnMap>
   {
   public:
-    using SpatialReturnMap::SpatialReturnMap;
+    using WithStiffnessFormula::WithStiffnessFormula;
 
     /** A plane law unless axisymmetric: s_zz follows from the plane
      *  stresses. */
@@ -29,10 +30,7 @@ namespace geocone::GEOCONE_DIM
     }
 
     bool
-    set_axisymmetric() override
-    {
-      return axisymmetric = true;
-    }
+    set_axisymmetric() override;
 
     void
     update(const Increment &increment, const Response &response) const override;
@@ -43,10 +41,14 @@ namespace geocone::GEOCONE_DIM
 
     SpatialMandel
     elastic_strain(const SpatialMandel &from,
-                   const SpatialMandel &to) const override
+                   const SpatialMandel &to,
+                   const double        *history) const override
     {
-      return axisymmetric ? SpatialReturnMap::elastic_strain(from, to)
-                          : Material::elastic_strain(from, to);
+      if (axisymmetric)
+        return SpatialReturnMap::elastic_strain(from, to, history);
+      return has_constant_stiffness()
+               ? Material::elastic_strain(from, to, history)
+               : WithStiffnessFormula::elastic_strain(from, to, history);
     }
 
   protected:

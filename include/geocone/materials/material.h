@@ -172,9 +172,11 @@ namespace geocone::GEOCONE_DIM
     whole_stress(const Mandel &stress, const double *history) const;
 
     /** Elastic strain between two stresses. For plane laws it has no zz
-     *  component, and s_zz does no work. */
+     *  component, and s_zz does no work. @param history of the point */
     virtual SpatialMandel
-    elastic_strain(const SpatialMandel &from, const SpatialMandel &to) const;
+    elastic_strain(const SpatialMandel &from,
+                   const SpatialMandel &to,
+                   const double        *history) const;
 
     /** Violation of the yield condition (Pa), negative inside; no value for
      *  laws without one. @param history of the point */
@@ -337,11 +339,12 @@ namespace geocone::GEOCONE_DIM
       return {};
     }
 
-    /** Whether the strength is given by a formula in the coordinates. */
-    virtual bool
-    has_strength_formula() const
+    /** Name of the parameter by which the strength is not linear in the
+     *  coordinates; empty: none. */
+    virtual std::string
+    strength_formula() const
     {
-      return false;
+      return "";
     }
 
     /**
@@ -373,14 +376,14 @@ namespace geocone::GEOCONE_DIM
     }
 
     /** Elasticity of all states; for a stress-dependent stiffness, that at the
-     *  pressure 100 kPa. */
+     *  pressure 100 kPa, and for a formula, that of 'Young modulus'. */
     const Elasticity &
     elasticity() const
     {
       return elastic;
     }
 
-    /** @name Laws with a stress-dependent stiffness */
+    /** @name Laws with a stiffness that depends on stress or position */
     /** @{ */
     /** Elastic energy of a stress, per volume (J/m^3). @param history of the
      *  point */

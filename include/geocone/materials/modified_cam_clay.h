@@ -97,7 +97,8 @@ namespace geocone::GEOCONE_DIM
 
     SpatialMandel
     elastic_strain(const SpatialMandel &from,
-                   const SpatialMandel &to) const override;
+                   const SpatialMandel &to,
+                   const double        *history) const override;
 
     /** kappa (p - a ln(1 + p/a)) + q^2/(6G), the energy stored by isotropic
      *  compression and by shear at constant pressure. An exact stored energy

@@ -5,6 +5,7 @@
 #define geocone_materials_mohr_coulomb_h
 
 #include <geocone/materials/frictional.h>
+#include <geocone/materials/with_stiffness_formula.h>
 
 namespace geocone::GEOCONE_DIM
 {
@@ -29,7 +30,7 @@ namespace geocone::GEOCONE_DIM
    * In a steady state p = s_n, the exact strength; tau = 0 is the exact law.
    * The plastic work is never negative, since p >= -k/a at all times.
    */
-  class MohrCoulomb : public Frictional<Material>
+  class MohrCoulomb : public Frictional<WithStiffnessFormula<Material>>
   {
   public:
     explicit MohrCoulomb(const std::string &section)
@@ -152,17 +153,19 @@ namespace geocone::GEOCONE_DIM
 
     /**
      * Solves the one-point problem of a step, in cone axes.
+     * @param elastic of the point
      * @param trial s_n + D e @param[out] slip |z_t| of the step (-)
      * @param[out] tangent ds/de, or null
      */
     Mode
-    return_to_cone(const Mandel  &trial,
-                   const Mandel  &stress_n,
-                   const double  *history_n,
-                   const StepLaw &step,
-                   Mandel        &stress,
-                   double        &slip,
-                   MandelMatrix  *tangent) const;
+    return_to_cone(const Elasticity &elastic,
+                   const Mandel     &trial,
+                   const Mandel     &stress_n,
+                   const double     *history_n,
+                   const StepLaw    &step,
+                   Mandel           &stress,
+                   double           &slip,
+                   MandelMatrix     *tangent) const;
 
     void
     set_cone(const double F);

@@ -60,7 +60,8 @@ namespace geocone::GEOCONE_DIM
 
     SpatialMandel
     elastic_strain(const SpatialMandel &from,
-                   const SpatialMandel &to) const override
+                   const SpatialMandel &to,
+                   const double * /*history*/) const override
     {
       return elasticity().strain(SpatialMandel(to - from));
     }

@@ -19,11 +19,12 @@ CONSTANTS = {
     "Density": ("ρ", "kg/m³", 1.), "Unit weight": ("γ", "kN/m³", 1e3),
     "Saturated unit weight": ("γsat", "kN/m³", 1e3),
     "Cohesion": ("c", "kPa", 1e3), "Cohesion formula": ("c(x, y)", "Pa", 1.),
-    "Cohesion gradient": ("dc/dz", "kPa/m", 1e3),
+    "Cohesion gradient": ("dc/dz", "kPa/m", 1e3), "Cohesion ratio": ("c/σv", "-", 1.),
     "Cohesion level": ("c at y", "m", 1.), "Undrained strength": ("su", "kPa", 1e3),
     "Tensile strength": ("tension", "kPa", 1e3),
     "Friction angle": ("φ", "°", 1.), "Dilatancy angle": ("ψ", "°", 1.),
-    "Young modulus": ("E", "MPa", 1e6), "Poisson ratio": ("ν", "-", 1.), "K0": ("K0", "-", 1.),
+    "Young modulus": ("E", "MPa", 1e6), "Young modulus formula": ("E(x, y)", "Pa", 1.),
+    "Poisson ratio": ("ν", "-", 1.), "K0": ("K0", "-", 1.),
     "Pore fluid bulk modulus": ("Kw/n", "MPa", 1e6)}
 # Settings of a material that describe where it is or how it is computed.
 SETTINGS = ("Type", "Region polygon", "Region number", "Region below", "Points",

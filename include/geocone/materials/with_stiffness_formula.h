@@ -1,0 +1,156 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_materials_with_stiffness_formula_h
+#define geocone_materials_with_stiffness_formula_h
+
+#include <geocone/base/exceptions.h>
+#include <geocone/base/log.h>
+#include <geocone/functions/expression.h>
+#include <geocone/functions/formula.h>
+#include <geocone/materials/material.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace geocone::GEOCONE_DIM
+{
+  /**
+   * A law whose Young's modulus can be a formula in the coordinates where the
+   * point began: then it is the history variable E (Pa) after those of the base
+   * class. Poisson's ratio is that of the law.
+   * @tparam Base Material, or a class derived from it
+   */
+  template <typename Base>
+  class WithStiffnessFormula : public Base
+  {
+  public:
+    using Stress     = typename Base::Stress;
+    using Shown      = typename Base::Shown;
+    using Components = typename Base::Components;
+
+    explicit WithStiffnessFormula(const std::string &section)
+      : Base(section)
+    {
+      this->add_parameter(
+        entry,
+        text,
+        "Young's modulus [Pa] as a formula in the initial coordinates of a "
+        "point, instead of 'Young modulus'. Empty: not used.");
+    }
+
+    void
+    prepare() override
+    {
+      Base::prepare();
+      if (text.empty())
+        return;
+      check_formula(text, this->parameter(entry), FormulaOf::place);
+      formula.emplace().prepare(text, this->parameter(entry));
+    }
+
+    bool
+    has_constant_stiffness() const override
+    {
+      return !formula;
+    }
+
+    std::string
+    formula_of_place() const override
+    {
+      return formula ? entry : Base::formula_of_place();
+    }
+
+    unsigned int
+    n_history() const override
+    {
+      return Base::n_history() + formula.has_value();
+    }
+
+    void
+    take_place(const dealii::Point<dim> &place, double *history) const override
+    {
+      Base::take_place(place, history);
+      if (!formula)
+        return;
+      const double E = formula->value(place, 0.);
+      if (!(E > 0.))
+        throw InputError(this->parameter(entry),
+                         text,
+                         format("E > 0 Pa everywhere; here it is %g Pa", E),
+                         "limit it from below, e.g. max(1e6, ...)");
+      history[place_of_modulus()] = E;
+    }
+
+    Elasticity
+    elasticity_at(const Mandel &stress, const double *history) const override
+    {
+      return formula ? own_elasticity(history)
+                     : Base::elasticity_at(stress, history);
+    }
+
+    SpatialMandel
+    elastic_strain(const SpatialMandel &from,
+                   const SpatialMandel &to,
+                   const double        *history) const override
+    {
+      if (!formula)
+        return Base::elastic_strain(from, to, history);
+      const Mandel change = (to - from).template head<n_mandel>();
+      return extended(own_elasticity(history).strain(change), 0.);
+    }
+
+    double
+    wave_modulus(const Stress &stress, const double *history) const override
+    {
+      if (!formula)
+        return Base::wave_modulus(stress, history);
+      const Elasticity own = own_elasticity(history);
+      return own.lambda + own.two_G;
+    }
+
+    std::vector<Shown>
+    shown() const override
+    {
+      std::vector<Shown> all = Base::shown();
+      if (formula)
+        all.push_back({"young_modulus", "Young's modulus (Pa)"});
+      return all;
+    }
+
+    void
+    show(const Components &stress,
+         const double     *history,
+         double           *values) const override
+    {
+      Base::show(stress, history, values);
+      if (formula)
+        values[Base::shown().size()] = history[place_of_modulus()];
+    }
+
+  protected:
+    /** Name of the parameter in its section. */
+    static constexpr const char *entry = "Young modulus formula";
+
+    /** Elasticity of a point. @pre there is a formula */
+    Elasticity
+    own_elasticity(const double *history) const
+    {
+      return {history[place_of_modulus()], this->poisson()};
+    }
+
+  private:
+    /** Index of E in the history, if there is a formula. */
+    unsigned int
+    place_of_modulus() const
+    {
+      return Base::n_history();
+    }
+
+    std::string               text;
+    std::optional<Expression> formula;
+  };
+} // namespace geocone::GEOCONE_DIM
+
+#endif
