@@ -197,7 +197,7 @@ namespace geocone::GEOCONE_DIM
   void
   ImplicitFEM::begin(MaterialPoints &points, TimerOutput &timer)
   {
-    if (scene->loading.changes_body())
+    if (scene->loading.changes_body() || space->has_ties())
       {
         Vector n_cells(space->partitioner()); // number of cells per node
         for (const unsigned int node : points.nodes)

@@ -3,6 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/lexicographic.h>
+#include <geocone/base/log.h>
 #include <geocone/base/unused_parameters.h>
 #include <geocone/space/space.h>
 
@@ -13,7 +14,10 @@
 #include <deal.II/fe/fe_simplex_p.h>
 #include <deal.II/fe/fe_tools.h>
 
+#include <algorithm>
+#include <map>
 #include <numeric>
+#include <set>
 
 namespace geocone::GEOCONE_DIM
 {
@@ -29,11 +33,16 @@ namespace geocone::GEOCONE_DIM
                                      {"FEM", "MPM", "explicit MPM"}},
                                     {"Discretisation/Basis",
                                      "Discretisation/Method",
+                                     {"FEM", "MPM", "explicit MPM"}},
+                                    {"Discretisation/Tied sides",
+                                     "Discretisation/Method",
                                      {"FEM", "MPM", "explicit MPM"}}};
   } // namespace
 
   namespace
   {
+    constexpr const char *tied_parameter = "Discretisation/Tied sides";
+
     /** The dofs of nodes, dim each: owned nodes are a contiguous range. */
     IndexSet
     expand(const IndexSet &nodes)
@@ -75,6 +84,12 @@ namespace geocone::GEOCONE_DIM
                   "the points of the cell, or for Q2 and Q3 its projection "
                   "onto polynomials of one degree less. In implicit steps of "
                   "dilatant soil the pressure is projected in the same way.");
+    add_parameter("Tied sides",
+                  tied_sides,
+                  "FEM on one rank: SIDE: OTHER, ...: pairs of sides that move "
+                  "equally (periodic sides), e.g. left: right for a part of an "
+                  "infinite slope or layer. The sides are equal but for a "
+                  "translation, and their nodes, too. Empty: none.");
   }
 
   std::string
@@ -144,6 +159,12 @@ namespace geocone::GEOCONE_DIM
                        "mesh");
     if (basis == Basis::automatic)
       basis = method.is_mpm() ? Basis::bernstein : Basis::lagrange;
+    if (has_ties() && method.is_mpm())
+      throw InputError(tied_parameter,
+                       tied_sides.begin()->first,
+                       "empty with particles",
+                       "set Discretisation/Method = FEM, or prescribe the "
+                       "motion of both sides");
     if (b_bar && simplicial)
       throw InputError(
         "Discretisation/B-bar",
@@ -173,6 +194,8 @@ namespace geocone::GEOCONE_DIM
   {
     const IndexSet owned =
       is_spline() ? prepare_splines(*mesh) : prepare_finite_element(*mesh);
+    if (has_ties())
+      tie();
 
     // Only the nodes of own cells are needed, not those of all ghost cells.
     IndexSet                             active(owned.size());
@@ -225,29 +248,122 @@ namespace geocone::GEOCONE_DIM
     for (const auto &cell : mesh->triangulation().active_cell_iterators())
       if (!cell->is_artificial())
         {
-          cell_nodes(cell, nodes);
-          const auto place = is_spline() ? mesh->place_in_grid(cell)
-                                         : std::array<unsigned int, dim>();
+          untied_nodes(cell, nodes);
           for (unsigned int i = 0; i < nodes.size(); ++i)
             if (layout->in_local_range(dim * nodes[i]) ||
                 layout->is_ghost_entry(dim * nodes[i]))
-              {
-                Point<dim> &x = positions[local_node(nodes[i])];
-                if (is_spline())
-                  for (unsigned int c = 0; c < dim; ++c)
-                    x[c] = splines[c].greville(place[c] + lattice[i][c]);
-                else
-                  {
-                    Point<dim> unit;
-                    if (basis == Basis::bernstein)
-                      for (unsigned int c = 0; c < dim; ++c)
-                        unit[c] = 1. * lattice[i][c] / p;
-                    else
-                      unit = fe->unit_support_point(i);
-                    x = mesh->mapping().transform_unit_to_real_cell(cell, unit);
-                  }
-              }
+              positions[local_node(nodes[i])] = place_of_node(cell, i);
         }
+  }
+
+  Point<dim>
+  Space::place_of_node(const Cell &cell, const unsigned int i) const
+  {
+    Point<dim> x;
+    if (is_spline())
+      {
+        const auto place = mesh->place_in_grid(cell);
+        for (unsigned int c = 0; c < dim; ++c)
+          x[c] = splines[c].greville(place[c] + lattice[i][c]);
+        return x;
+      }
+    if (basis == Basis::bernstein)
+      for (unsigned int c = 0; c < dim; ++c)
+        x[c] = 1. * lattice[i][c] / p;
+    else
+      x = fe->unit_support_point(i);
+    return mesh->mapping().transform_unit_to_real_cell(cell, x);
+  }
+
+  std::vector<std::pair<types::global_dof_index, Point<dim>>>
+  Space::nodes_of_tied_side(const std::string &side) const
+  {
+    const auto  found = mesh->named_sides().find(side);
+    std::string known;
+    for (const auto &named : mesh->named_sides())
+      known += (known.empty() ? "" : ", ") + named.first;
+    if (found == mesh->named_sides().end())
+      throw InputError(
+        tied_parameter, side, known + " (sides of the body)", "choose two");
+    std::map<types::global_dof_index, Point<dim>> places;
+    std::vector<types::global_dof_index>          nodes;
+    for (const auto &cell : mesh->triangulation().active_cell_iterators())
+      for (const unsigned int f : cell->face_indices())
+        if (cell->face(f)->at_boundary() &&
+            cell->face(f)->boundary_id() == found->second)
+          {
+            untied_nodes(cell, nodes);
+            for (unsigned int i = 0; i < nodes.size(); ++i)
+              if (is_on_face(i, f))
+                places[nodes[i]] = place_of_node(cell, i);
+          }
+    return {places.begin(), places.end()};
+  }
+
+  void
+  Space::tie()
+  {
+    if (Utilities::MPI::n_mpi_processes(
+          mesh->triangulation().get_communicator()) > 1)
+      throw InputError(tied_parameter,
+                       tied_sides.begin()->first,
+                       "empty on several ranks",
+                       "run on one rank");
+    tied.resize(dofs->n_dofs());
+    std::iota(tied.begin(), tied.end(), 0);
+    for (const auto &[name, other_name] : tied_sides)
+      {
+        const auto side  = nodes_of_tied_side(name),
+                   other = nodes_of_tied_side(other_name);
+        // The translation between them: that of their lower left corners.
+        const auto corner = [](const auto &all) {
+          Point<dim> low = all.front().second;
+          for (const auto &[node, x] : all)
+            for (unsigned int d = 0; d < dim; ++d)
+              low[d] = std::min(low[d], x[d]);
+          return low;
+        };
+        const Tensor<1, dim> shift = corner(other) - corner(side);
+        const double         most  = 1e-6 * shift.norm();
+        for (const auto &[node, x] : other)
+          {
+            const auto equal =
+              std::find_if(side.begin(), side.end(), [&](const auto &one) {
+                return (x - shift).distance(one.second) <= most;
+              });
+            if (equal == side.end() || side.size() != other.size() ||
+                equal->first == node)
+              throw InputError(
+                tied_parameter,
+                name + ": " + other_name,
+                "two sides with equal nodes but for a translation",
+                format("the sides have %zu and %zu nodes, and the one at (%s) "
+                       "has no partner: take Mesh/Type = uniform, or equal "
+                       "sizes of cells along both sides",
+                       side.size(),
+                       other.size(),
+                       text_of_place(x).c_str()));
+            tied[node] = equal->first;
+          }
+      }
+    // Nodes of several pairs, at corners.
+    for (auto &node : tied)
+      for (std::size_t n = 0; tied[node] != node && n <= tied_sides.size(); ++n)
+        node = tied[node];
+
+    // Matrices of cells are added once per pair of nodes.
+    std::vector<types::global_dof_index> nodes;
+    for (const auto &cell : mesh->triangulation().active_cell_iterators())
+      {
+        cell_nodes(cell, nodes);
+        if (std::set<types::global_dof_index>(nodes.begin(), nodes.end())
+              .size() < nodes.size())
+          throw InputError(tied_parameter,
+                           tied_sides.begin()->first + ": " +
+                             tied_sides.begin()->second,
+                           "sides with at least two cells between them",
+                           "take smaller cells");
+      }
   }
 
   IndexSet
@@ -337,6 +453,16 @@ namespace geocone::GEOCONE_DIM
   void
   Space::cell_nodes(const Cell                           &cell,
                     std::vector<types::global_dof_index> &nodes) const
+  {
+    untied_nodes(cell, nodes);
+    if (!tied.empty())
+      for (types::global_dof_index &node : nodes)
+        node = tied[node];
+  }
+
+  void
+  Space::untied_nodes(const Cell                           &cell,
+                      std::vector<types::global_dof_index> &nodes) const
   {
     nodes.resize(n_nodes_per_cell);
     if (is_spline())
@@ -452,26 +578,29 @@ namespace geocone::GEOCONE_DIM
     });
   }
 
+  bool
+  Space::is_on_face(const unsigned int i, const unsigned int face) const
+  {
+    if (mesh->is_simplicial())
+      {
+        // Barycentric coordinate that vanishes on a face; `rest` is that of
+        // the first vertex.
+        unsigned int rest = p;
+        for (const unsigned int a : lattice[i])
+          rest -= a;
+        constexpr unsigned int first         = dim;
+        constexpr unsigned int of_face[2][4] = {{1, first, 0, 0},
+                                                {2, 1, 0, first}};
+        const unsigned int     c             = of_face[dim - 2][face];
+        return (c == first ? rest : lattice[i][c]) == 0;
+      }
+    return lattice[i][face / 2] == (face % 2 == 0 ? 0 : p);
+  }
+
   std::vector<unsigned int>
   Space::nodes_on_faces(
     const std::function<bool(const Cell &, const unsigned int)> &holds) const
   {
-    const auto on_face = [&](const unsigned int i, const unsigned int f) {
-      if (mesh->is_simplicial())
-        {
-          // Barycentric coordinate that vanishes on a face; `rest` is that of
-          // the first vertex.
-          unsigned int rest = p;
-          for (const unsigned int a : lattice[i])
-            rest -= a;
-          constexpr unsigned int first         = dim;
-          constexpr unsigned int of_face[2][4] = {{1, first, 0, 0},
-                                                  {2, 1, 0, first}};
-          const unsigned int     c             = of_face[dim - 2][f];
-          return (c == first ? rest : lattice[i][c]) == 0;
-        }
-      return lattice[i][f / 2] == (f % 2 == 0 ? 0 : p);
-    };
     // Includes ghost cells: the boundary face at a node of this rank may belong
     // to a cell of another rank.
     std::set<unsigned int>               found;
@@ -483,8 +612,9 @@ namespace geocone::GEOCONE_DIM
             {
               cell_nodes(cell, nodes);
               for (unsigned int i = 0; i < nodes.size(); ++i)
-                if (on_face(i, f) && (layout->in_local_range(dim * nodes[i]) ||
-                                      layout->is_ghost_entry(dim * nodes[i])))
+                if (is_on_face(i, f) &&
+                    (layout->in_local_range(dim * nodes[i]) ||
+                     layout->is_ghost_entry(dim * nodes[i])))
                   found.insert(local_node(nodes[i]));
             }
     return {found.begin(), found.end()};

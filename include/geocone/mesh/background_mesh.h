@@ -232,6 +232,13 @@ namespace geocone::GEOCONE_DIM
     std::set<dealii::types::boundary_id>
     side_ids(const BoundaryCondition &condition) const;
 
+    /** Sides by their names. */
+    const std::map<std::string, dealii::types::boundary_id> &
+    named_sides() const
+    {
+      return sides;
+    }
+
     /** Vertices of each face on the sides of a condition, over all ranks: in
      *  the plane with the body on the left, in space counterclockwise as seen
      *  from outside. Collective. @throws InputError for a name without a

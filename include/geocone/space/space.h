@@ -19,6 +19,7 @@
 #include <deal.II/lac/la_parallel_vector.h>
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -59,6 +60,10 @@ namespace geocone::GEOCONE_DIM
    * reversed in the cell; this class sorts them per cell, so that shape
    * functions need not be swapped (deal.II 9.4 has no cubic simplex and leaves
    * this to its user).
+   *
+   * Nodes of tied (periodic) sides that differ by the translation between them
+   * are one node, at the place of the first side; the numbers of the others
+   * belong to no cell.
    */
   class Space : public dealii::ParameterAcceptor
   {
@@ -177,6 +182,13 @@ namespace geocone::GEOCONE_DIM
              double                   *N,
              dealii::Tensor<1, dim>   *gradient) const;
 
+    /** Whether sides are tied. */
+    bool
+    has_ties() const
+    {
+      return !tied_sides.empty();
+    }
+
     /** Number of nodes on all ranks. */
     dealii::types::global_dof_index
     n_nodes() const
@@ -244,6 +256,28 @@ namespace geocone::GEOCONE_DIM
     void
     place_nodes();
 
+    /** Position of a node of a cell. */
+    dealii::Point<dim>
+    place_of_node(const Cell &cell, const unsigned int i) const;
+
+    /** cell_nodes() without ties. */
+    void
+    untied_nodes(const Cell                                   &cell,
+                 std::vector<dealii::types::global_dof_index> &nodes) const;
+
+    /** Whether the function of a node of a cell is not zero on a face. */
+    bool
+    is_on_face(const unsigned int i, const unsigned int face) const;
+
+    /** Finds the nodes that are one.
+     *  @throws InputError for sides whose nodes do not match */
+    void
+    tie();
+
+    /** Nodes of a side with their positions, as tied so far. */
+    std::vector<std::pair<dealii::types::global_dof_index, dealii::Point<dim>>>
+    nodes_of_tied_side(const std::string &side) const;
+
     /** Sets up splines on the tensor grid. @return the nodes owned by this
      *  rank */
     dealii::IndexSet
@@ -283,6 +317,12 @@ namespace geocone::GEOCONE_DIM
                             {"Bernstein", Basis::bernstein}}};
 
     bool b_bar = false;
+
+    /** Pairs of sides by their names. */
+    std::map<std::string, std::string> tied_sides;
+
+    /** Node that each node is; empty without tied sides. */
+    std::vector<dealii::types::global_dof_index> tied;
 
     const BackgroundMesh *mesh             = nullptr;
     unsigned int          p                = 0;
