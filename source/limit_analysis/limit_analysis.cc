@@ -181,12 +181,11 @@ namespace geocone::GEOCONE_DIM
                            "0: the initial pressures");
         let_water_flow(scene, comm, log, options.dry_run, seepage.time);
       }
-    scene.dirichlet.prepare();
+    scene.prepare_conditions();
     scene.dirichlet.refuse_stages("'Analysis/Kind' = " + analysis.word(),
                                   "bounds have no stages: list the conditions "
                                   "of one of them in 'Boundary "
                                   "conditions/Names'");
-    scene.tractions.prepare();
     scene.absorbing.refuse("'Analysis/Kind' = " + analysis.word(),
                            "nothing moves fast here: leave it out");
     scene.obstacles.prepare();

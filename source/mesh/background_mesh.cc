@@ -122,17 +122,14 @@ namespace geocone::GEOCONE_DIM
         expected.intervals.fill(1.);
         expected.intervals[0] = expected.n_cells;
       }
-    expected.area          = 0.;
-    const Polygon &outline = parameters.outline;
     if (dim == 3)
-      expected.area = BoundingBox<dim>(outline).volume();
-    for (std::size_t i = 0; i < outline.size() && dim == 2; ++i)
+      expected.area = BoundingBox<dim>(parameters.outline).volume();
+    else
       {
-        const Point<dim> &a = outline[i],
-                         &b = outline[(i + 1) % outline.size()];
-        expected.area += (a[0] * b[1] - b[0] * a[1]) / 2.;
+        expected.area = std::abs(signed_area(parameters.outline));
+        for (const Polygon &hole : parameters.holes)
+          expected.area -= std::abs(signed_area(hole));
       }
-    expected.area = std::abs(expected.area);
     expected.parameter =
       parameters.type == MeshParameters::Type::from_bounds
         ? "Mesh/Number of cells"

@@ -17,43 +17,66 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    /** The side of a polygon nearest to x. */
+    /** The side of a domain nearest to x. @param loops its outline and holes */
     types::boundary_id
-    nearest_side(const Polygon &outline, const Point<dim> &x)
+    nearest_side(const std::vector<Polygon> &loops, const Point<dim> &x)
     {
-      std::size_t nearest  = 0;
+      std::size_t nearest = 0, first = 0;
       double      distance = std::numeric_limits<double>::max();
       if (dim == 3)
         {
           for (unsigned int c = 0; c < dim; ++c)
             for (unsigned int i = 0; i < 2; ++i)
-              if (const double d = std::abs(x[c] - outline[i][c]); d < distance)
+              if (const double d = std::abs(x[c] - loops[0][i][c]);
+                  d < distance)
                 {
                   distance = d;
                   nearest  = sides_of_box().at(side_of_box[c][i]);
                 }
           return nearest;
         }
-      for (std::size_t i = 0; i < outline.size(); ++i)
-        if (const double d = distance_to_segment(
-              x, outline[i], outline[(i + 1) % outline.size()]);
-            d < distance)
-          {
-            distance = d;
-            nearest  = i;
-          }
+      for (const Polygon &loop : loops)
+        {
+          for (std::size_t i = 0; i < loop.size(); ++i)
+            if (const double d =
+                  distance_to_segment(x, loop[i], loop[(i + 1) % loop.size()]);
+                d < distance)
+              {
+                distance = d;
+                nearest  = first + i;
+              }
+          first += loop.size();
+        }
       return nearest;
     }
 
     void
-    set_materials_and_sides(CoarseMesh    &mesh,
-                            const Regions &regions,
-                            const Polygon &outline)
+    set_materials_and_sides(CoarseMesh                 &mesh,
+                            const Regions              &regions,
+                            const std::vector<Polygon> &loops)
     {
       for (auto &cell : mesh.cells)
         cell.material_id = regions.material_at(mesh.centre(cell));
       for (const CoarseMesh::Face &face : mesh.outer_faces())
-        mesh.add_boundary(face, nearest_side(outline, mesh.centre(face)));
+        mesh.add_boundary(face, nearest_side(loops, mesh.centre(face)));
+    }
+
+    /** Lines of the water and of what stages remove, which cuts complete cells,
+     *  as edges of plane meshes. */
+    MeshLines
+    lines_of_scene(const Scene &scene, const dealii::BoundingBox<dim> &domain)
+    {
+      const auto [low, high] = domain.get_boundary_points();
+      MeshLines lines        = scene.water.lines(low, high);
+      for (const auto &stage : scene.loading.list)
+        if (const Polygon &polygon = stage->removed_polygon; !polygon.empty())
+          for (std::size_t i = 0; i < polygon.size(); ++i)
+            lines.push_back({{polygon[i], polygon[(i + 1) % polygon.size()]}});
+      // Plates are tied to nodes.
+      for (const Structure *plate : scene.structures.plates())
+        for (std::size_t i = 1; i < plate->points.size(); ++i)
+          lines.push_back({{plate->points[i - 1], plate->points[i]}});
+      return lines;
     }
   } // namespace
 
@@ -77,28 +100,16 @@ namespace geocone::GEOCONE_DIM
       {
         MeshLines lines;
         if (dim == 2)
-          {
-            lines = scene.water.lines(domain.get_boundary_points().first,
-                                      domain.get_boundary_points().second);
-            // Stages remove complete cells.
-            for (const auto &stage : scene.loading.list)
-              if (const Polygon &polygon = stage->removed_polygon;
-                  !polygon.empty())
-                for (std::size_t i = 0; i < polygon.size(); ++i)
-                  lines.push_back(
-                    {{polygon[i], polygon[(i + 1) % polygon.size()]}});
-            // Plates are tied to nodes.
-            for (const Structure *plate : scene.structures.plates())
-              for (std::size_t i = 1; i < plate->points.size(); ++i)
-                lines.push_back({{plate->points[i - 1], plate->points[i]}});
-          }
+          lines = lines_of_scene(scene, domain);
         mesh =
           sizes != nullptr
             ? mesh_with_sizes(
                 domain_of(parameters), scene.regions, lines, *sizes, comm)
             : unstructured_mesh(parameters, scene.regions, lines, comm);
       }
-    set_materials_and_sides(mesh, scene.regions, parameters.outline);
+    std::vector<Polygon> loops = {parameters.outline};
+    loops.insert(loops.end(), parameters.holes.begin(), parameters.holes.end());
+    set_materials_and_sides(mesh, scene.regions, loops);
     mesh.sides = parameters.fits_body ? scene.geometry.sides : sides_of_box();
     return mesh;
   }
@@ -124,9 +135,10 @@ namespace geocone::GEOCONE_DIM
       }
     MeshDomain domain;
     domain.outline  = geometry.outline;
+    domain.holes    = geometry.holes;
     domain.vertices = vertices;
     CoarseMesh mesh = mesh_with_sizes(domain, scene.regions, lines, sizes, comm);
-    set_materials_and_sides(mesh, scene.regions, geometry.outline);
+    set_materials_and_sides(mesh, scene.regions, geometry.loops());
     mesh.sides = geometry.sides;
     return mesh;
   }

@@ -10,6 +10,7 @@
 
 #include <gmsh.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -355,9 +356,22 @@ namespace geocone::GEOCONE_DIM
       limit_sizes(parameters.smallest, parameters.largest);
     }
 
+    /** Adds the loop of lines along a polygon. @return its tag */
+    int
+    add_loop(const Polygon &polygon)
+    {
+      std::vector<int> points, lines;
+      for (const Point<dim> &x : polygon)
+        points.push_back(occ::addPoint(x[0], x[1], 0.));
+      for (std::size_t i = 0; i < points.size(); ++i)
+        lines.push_back(
+          occ::addLine(points[i], points[(i + 1) % points.size()]));
+      return occ::addCurveLoop(lines);
+    }
+
     /** Adds a plane surface, or in three dimensions a box. @return its tag */
     int
-    add_body(const Polygon &polygon)
+    add_body(const Polygon &polygon, const std::vector<Polygon> &holes = {})
     {
       if constexpr (dim == 3)
         {
@@ -365,13 +379,19 @@ namespace geocone::GEOCONE_DIM
           const dealii::Tensor<1, dim> size = polygon[1] - a;
           return occ::addBox(a[0], a[1], a[2], size[0], size[1], size[2]);
         }
-      std::vector<int> points, lines;
-      for (const Point<dim> &x : polygon)
-        points.push_back(occ::addPoint(x[0], x[1], 0.));
-      for (std::size_t i = 0; i < points.size(); ++i)
-        lines.push_back(
-          occ::addLine(points[i], points[(i + 1) % points.size()]));
-      return occ::addPlaneSurface({occ::addCurveLoop(lines)});
+      if (holes.empty())
+        return occ::addPlaneSurface({add_loop(polygon)});
+      // Loops of different orientations give the holes instead of the body.
+      std::vector<Polygon> all = {polygon};
+      all.insert(all.end(), holes.begin(), holes.end());
+      std::vector<int> loops;
+      for (Polygon &loop : all)
+        {
+          if (signed_area(loop) < 0.)
+            std::reverse(loop.begin(), loop.end());
+          loops.push_back(add_loop(loop));
+        }
+      return occ::addPlaneSurface(loops);
     }
 
     /** Adds the domain, fragmented by the boundaries of the body and the
@@ -383,10 +403,11 @@ namespace geocone::GEOCONE_DIM
                const Regions    &regions,
                const MeshLines  &lines)
     {
-      const gmsh::vectorpair domain = {{int(dim), add_body(of.outline)}};
+      const gmsh::vectorpair domain = {
+        {int(dim), add_body(of.outline, of.holes)}};
       gmsh::vectorpair       tools;
-      if (!of.body.empty())
-        tools.emplace_back(dim, add_body(of.body));
+      for (const Polygon &polygon : of.inner)
+        tools.emplace_back(dim, add_body(polygon));
       for (const Polygon &polygon : regions.polygons())
         tools.emplace_back(dim, add_body(polygon));
       for (const auto &line : lines)
@@ -468,7 +489,8 @@ namespace geocone::GEOCONE_DIM
   domain_of(const MeshParameters &parameters)
   {
     return {parameters.outline,
-            parameters.body,
+            parameters.holes,
+            parameters.inner,
             parameters.grading_points,
             parameters.algorithm,
             parameters.cells == MeshParameters::Cells::quadrilaterals};

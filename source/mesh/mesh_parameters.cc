@@ -106,11 +106,13 @@ namespace geocone::GEOCONE_DIM
                                      geometry.shape != Geometry::Shape::discs);
     if (fits_body)
       {
-        outline = geometry.outline;
+        // Particles move into holes.
+        outline                           = geometry.outline;
+        (method.is_mpm() ? inner : holes) = geometry.holes;
         return;
       }
-    if (is_unstructured())
-      body = geometry.outline;
+    if (is_unstructured() && !geometry.outline.empty())
+      inner = geometry.loops();
     const auto [lower, upper] = geometry.bounding_box();
     if (box.empty())
       box = {lower, upper};
@@ -144,6 +146,12 @@ namespace geocone::GEOCONE_DIM
                        "another type with Geometry/Dimension = 3",
                        remedy);
     geometry.refuse_axis("'Mesh/Type' = " + std::string(type.word()), remedy);
+    // Its mesh covers the holes, whose bounds would be those of a full body.
+    if (method.is_mpm() && !geometry.holes.empty())
+      throw InputError("Mesh/Type",
+                       type.word(),
+                       "another type with MPM and Geometry/Holes",
+                       "set Mesh/Type = unstructured");
     if (geometry.outline.empty() || method.is_explicit() ||
         (method.is_mpm() && !box.empty()))
       throw InputError("Mesh/Type",
@@ -222,16 +230,21 @@ namespace geocone::GEOCONE_DIM
                        "",
                        "one or more points for a graded mesh",
                        "give e.g. the edge of the footing: 0.1, 0");
+    std::vector<Polygon> loops = {outline};
+    loops.insert(loops.end(), holes.begin(), holes.end());
     if (geometry.shape != Geometry::Shape::file)
       for (const Point<dim> &x : grading_points)
         {
           double distance = 1e300;
-          for (std::size_t i = 0; i < outline.size() && dim == 2; ++i)
-            distance =
-              std::min(distance,
-                       distance_to_segment(
-                         x, outline[i], outline[(i + 1) % outline.size()]));
-          if (distance > geometry.rounding() && !contains(outline, x))
+          bool   is_in    = contains(outline, x);
+          for (const Polygon &hole : holes)
+            is_in = is_in && !contains(hole, x);
+          for (const Polygon &loop : loops)
+            for (std::size_t i = 0; i < loop.size() && dim == 2; ++i)
+              distance = std::min(
+                distance,
+                distance_to_segment(x, loop[i], loop[(i + 1) % loop.size()]));
+          if (distance > geometry.rounding() && !is_in)
             throw InputError("Mesh/Grading points",
                              dealii::Patterns::Tools::to_string(x),
                              "points of the domain",
@@ -263,6 +276,11 @@ namespace geocone::GEOCONE_DIM
       throw InputError("Mesh/Type",
                        type.word(),
                        "unstructured, where the domain is a polygon",
+                       "set Mesh/Type = unstructured");
+    if (!is_unstructured() && !method.is_mpm() && !geometry.holes.empty())
+      throw InputError("Mesh/Type",
+                       type.word(),
+                       "unstructured, where the domain has holes",
                        "set Mesh/Type = unstructured");
     check_grading_points(geometry);
     if (geometry.shape != Geometry::Shape::file)

@@ -115,11 +115,19 @@ namespace geocone::GEOCONE_DIM
     if (dim == 3) // volume h^3/6 sqrt2 of a regular tetrahedron with edge h
       return std::max(
         6., 6. * sqrt2 * integral.over_box({{outline[0], outline[1]}}));
-    double sum = 0.;
-    for (std::size_t i = 1; i + 1 < outline.size(); ++i)
-      sum += integral.over({{outline[0], outline[i], outline[i + 1]}});
-    const double n_triangles =
-      std::max(4. / std::sqrt(3.) * std::abs(sum), outline.size() - 2.);
+    const auto over = [&](const Polygon &polygon) {
+      double sum = 0.;
+      for (std::size_t i = 1; i + 1 < polygon.size(); ++i)
+        sum += integral.over({{polygon[0], polygon[i], polygon[i + 1]}});
+      return std::abs(sum);
+    };
+    double sum = over(outline), least = outline.size() - 2.;
+    for (const Polygon &hole : parameters.holes)
+      {
+        sum -= over(hole);
+        least += hole.size() + 2.; // triangles without further vertices
+      }
+    const double n_triangles = std::max(4. / std::sqrt(3.) * sum, least);
     return (parameters.cells == MeshParameters::Cells::quadrilaterals ? 2.
                                                                       : 1.) *
            n_triangles;

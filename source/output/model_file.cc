@@ -182,6 +182,11 @@ namespace geocone::GEOCONE_DIM
             for (const auto &[name, id] : geometry.sides)
               sides[name] = json_of_places(geometry.side_ends(id));
           body["sides"] = sides;
+          Json holes    = Json::object();
+          for (std::size_t i = 0; i < geometry.holes.size(); ++i)
+            holes["hole " + std::to_string(i)] =
+              json_of_places(geometry.holes[i]);
+          body["holes"] = holes;
         }
       // Outlines describe neither discs nor the region where a formula is positive.
       if (dim == 2 && geometry.shape != Geometry::Shape::file &&

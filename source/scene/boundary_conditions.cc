@@ -147,6 +147,31 @@ namespace geocone::GEOCONE_DIM
                        "and the size of the cells there");
   }
 
+  void
+  BoundaryPart::replace_groups(
+    const std::map<std::string, std::vector<std::string>> &groups)
+  {
+    std::vector<std::string> all;
+    for (const std::string &name : sides)
+      if (const auto group = groups.find(name); group != groups.end())
+        all.insert(all.end(), group->second.begin(), group->second.end());
+      else
+        {
+          if (!groups.empty() && name.rfind("hole", 0) == 0)
+            {
+              std::string known;
+              for (const auto &entry : groups)
+                known += (known.empty() ? "" : ", ") + entry.first;
+              throw InputError(parameter("Sides"),
+                               name,
+                               known + ", or names of other sides",
+                               "choose some of them");
+            }
+          all.push_back(name);
+        }
+    sides = all;
+  }
+
   std::string
   BoundaryPart::parameter(const std::string &entry) const
   {
@@ -163,6 +188,7 @@ namespace geocone::GEOCONE_DIM
                        "of a box: bottom, right, top, left; of a polygon: 0, "
                        "1, ...; of a file: its physical curves");
     sides       = unquoted(sides, parameter("Sides"));
+    sides_given = sides;
     bool is_box = box.empty() || box.size() == 2;
     for (unsigned int c = 0; c < dim && box.size() == 2; ++c)
       is_box = is_box && box[0][c] <= box[1][c];
@@ -248,7 +274,8 @@ namespace geocone::GEOCONE_DIM
   std::string
   BoundaryPart::part() const
   {
-    return "Sides = " + dealii::Patterns::Tools::to_string(sides) + ", Box = " +
+    return "Sides = " + dealii::Patterns::Tools::to_string(sides_given) +
+           ", Box = " +
            (box.empty() ? "" : dealii::Patterns::Tools::to_string(box)) +
            (where_text.empty() ? "" : ", Where = " + where_text);
   }

@@ -8,6 +8,7 @@
 #include <geocone/base/unused_parameters.h>
 #include <geocone/functions/formula.h>
 #include <geocone/scene/geometry.h>
+#include <geocone/scene/holes.h>
 
 #include <deal.II/base/bounding_box.h>
 
@@ -24,6 +25,7 @@ namespace geocone::GEOCONE_DIM
       {"Geometry/*", "Discretisation/Method", {"FEM", "MPM", "explicit MPM"}},
       {"Geometry/Box", "Geometry/Shape", {"box"}},
       {"Geometry/Polygon", "Geometry/Shape", {"polygon"}},
+      {"Geometry/Holes", "Geometry/Shape", {"box", "polygon"}},
       {"Geometry/Centres", "Geometry/Shape", {"discs"}},
       {"Geometry/Radii", "Geometry/Shape", {"discs"}},
       {"Geometry/File", "Geometry/Shape", {"file"}}};
@@ -37,32 +39,6 @@ namespace geocone::GEOCONE_DIM
       return (a[0] - o[0]) * (b[1] - o[1]) - (a[1] - o[1]) * (b[0] - o[0]);
     }
 
-    bool
-    segments_meet(const Point<dim> &a,
-                  const Point<dim> &b,
-                  const Point<dim> &c,
-                  const Point<dim> &d,
-                  const double      tolerance)
-    {
-      if (distance_to_segment(a, c, d) < tolerance ||
-          distance_to_segment(b, c, d) < tolerance ||
-          distance_to_segment(c, a, b) < tolerance ||
-          distance_to_segment(d, a, b) < tolerance)
-        return true;
-      return cross(a, b, c) * cross(a, b, d) < 0. &&
-             cross(c, d, a) * cross(c, d, b) < 0.;
-    }
-
-    double
-    signed_area(const Polygon &polygon)
-    {
-      double area = 0.;
-      for (std::size_t i = 0; i < polygon.size(); ++i)
-        area +=
-          cross(polygon[0], polygon[i], polygon[(i + 1) % polygon.size()]) / 2.;
-      return area;
-    }
-
     /** Whether these are the lowest and the highest corner of a box. */
     bool
     is_box(const std::vector<Point<dim>> &corners)
@@ -73,6 +49,32 @@ namespace geocone::GEOCONE_DIM
       return ok;
     }
   } // namespace
+
+  bool
+  segments_meet(const Point<dim> &a,
+                const Point<dim> &b,
+                const Point<dim> &c,
+                const Point<dim> &d,
+                const double      tolerance)
+  {
+    if (distance_to_segment(a, c, d) < tolerance ||
+        distance_to_segment(b, c, d) < tolerance ||
+        distance_to_segment(c, a, b) < tolerance ||
+        distance_to_segment(d, a, b) < tolerance)
+      return true;
+    return cross(a, b, c) * cross(a, b, d) < 0. &&
+           cross(c, d, a) * cross(c, d, b) < 0.;
+  }
+
+  double
+  signed_area(const Polygon &polygon)
+  {
+    double area = 0.;
+    for (std::size_t i = 0; i < polygon.size(); ++i)
+      area +=
+        cross(polygon[0], polygon[i], polygon[(i + 1) % polygon.size()]) / 2.;
+    return area;
+  }
 
   std::string
   text_of_polygon(const Polygon &polygon)
@@ -289,6 +291,16 @@ namespace geocone::GEOCONE_DIM
                   polygon,
                   "Vertices x, y; x, y; ... [m] in order. Side i connects "
                   "vertex i and the next one, and is named i (0, 1, ...).");
+    if (dim == 2)
+      add_parameter(
+        "Holes",
+        holes_text,
+        "Holes of the box or polygon, separated by |: polygons x, y; x, y; "
+        "... [m] or circle(x, y, r), circle(x, y, r, n) with n sides (48) and "
+        "their vertices on the circle. The numbers of their sides follow those "
+        "of the outline, in the order of the holes; 'hole 0', 'hole 1', ... "
+        "are all sides of one. For FEM and bounds with an unstructured mesh, "
+        "and for particles.");
     add_parameter(
       "Centres", centres, "Centres of the discs x, y; x, y; ... [m].");
     add_parameter("Radii",
@@ -317,6 +329,8 @@ namespace geocone::GEOCONE_DIM
                        "leave it out, or set Dimension = 2");
     outline.clear();
     sides.clear();
+    holes.clear();
+    sides_of_hole.clear();
     if (!where_text.empty())
       {
         check_formula(where_text, "Geometry/Where", FormulaOf::place);
@@ -348,9 +362,22 @@ namespace geocone::GEOCONE_DIM
         for (unsigned int i = 0; i < outline.size(); ++i)
           sides[std::to_string(i)] = i;
       }
-    else if (shape == Shape::discs)
+    if (!outline.empty() && !holes_text.empty())
+      holes = holes_of(holes_text, outline);
+    for (const Polygon &hole : holes)
+      {
+        std::vector<std::string> &names =
+          sides_of_hole["hole " + std::to_string(sides_of_hole.size())];
+        for (std::size_t i = 0; i < hole.size(); ++i)
+          {
+            const unsigned int id = sides.size();
+            names.push_back(std::to_string(id));
+            sides[names.back()] = id;
+          }
+      }
+    if (shape == Shape::discs)
       check_discs();
-    else
+    else if (shape == Shape::file)
       file = existing_file(file,
                            folder_of_parameters,
                            "Geometry/File",
@@ -439,8 +466,30 @@ namespace geocone::GEOCONE_DIM
   std::array<Point<dim>, 2>
   Geometry::side_ends(const dealii::types::boundary_id side) const
   {
-    AssertIndexRange(side, outline.size());
-    return {{outline[side], outline[(side + 1) % outline.size()]}};
+    std::size_t i = side;
+    for (const Polygon &loop : loops())
+      {
+        if (i < loop.size())
+          {
+            std::array<Point<dim>, 2> ends = {
+              {loop[i], loop[(i + 1) % loop.size()]}};
+            const bool is_outline = i == side;
+            if ((signed_area(loop) > 0.) != is_outline)
+              std::swap(ends[0], ends[1]);
+            return ends;
+          }
+        i -= loop.size();
+      }
+    AssertThrow(false, dealii::ExcInternalError());
+    return {};
+  }
+
+  std::vector<Polygon>
+  Geometry::loops() const
+  {
+    std::vector<Polygon> all = {outline};
+    all.insert(all.end(), holes.begin(), holes.end());
+    return all;
   }
 
   bool
@@ -458,7 +507,11 @@ namespace geocone::GEOCONE_DIM
               return true;
           return false;
         default:
-          return geocone::contains(outline, x);
+          return geocone::contains(outline, x) &&
+                 std::none_of(
+                   holes.begin(), holes.end(), [&](const Polygon &hole) {
+                     return geocone::contains(hole, x);
+                   });
       }
   }
 
@@ -510,7 +563,10 @@ namespace geocone::GEOCONE_DIM
       }
     if (dim == 3)
       return dealii::BoundingBox<dim>(outline).volume();
-    return std::abs(signed_area(outline));
+    double area = std::abs(signed_area(outline));
+    for (const Polygon &hole : holes)
+      area -= std::abs(signed_area(hole));
+    return area;
   }
 
   double

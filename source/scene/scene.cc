@@ -170,10 +170,8 @@ namespace geocone::GEOCONE_DIM
     water.prepare_stages(loading);
     initial_velocity.prepare();
     initial_stress.prepare(gravity, geometry, regions, water, stage_that_adds);
-    dirichlet.prepare();
+    prepare_conditions();
     dirichlet.check_stages(loading.names());
-    tractions.prepare();
-    absorbing.prepare();
     obstacles.prepare();
     contacts.prepare(materials.names());
     structures.prepare(geometry, loading.names());
@@ -193,6 +191,18 @@ namespace geocone::GEOCONE_DIM
                            "it is the load of a strip; set it to none or to "
                            "the load of the round footing (N)");
     check_values(*this);
+  }
+
+  void
+  Scene::prepare_conditions()
+  {
+    for (BoundaryConditions *const conditions :
+         {&dirichlet, &tractions, &absorbing})
+      {
+        conditions->prepare();
+        for (const auto &condition : conditions->list)
+          condition->replace_groups(geometry.sides_of_hole);
+      }
   }
 
   void

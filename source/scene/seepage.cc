@@ -124,6 +124,8 @@ namespace geocone::GEOCONE_DIM
     if (!acts())
       return;
     NamedList::prepare();
+    for (const auto &boundary : list)
+      boundary->replace_groups(geometry.sides_of_hole);
     const std::string names = dealii::Patterns::Tools::to_string(this->names());
     if (dim == 3)
       throw InputError(parameter(),

@@ -29,13 +29,12 @@ namespace geocone::GEOCONE_DIM
     ends_of_boxes(const Scene &scene)
     {
       std::vector<Point<dim>> ends;
-      const Polygon          &outline = scene.geometry.outline;
+      const Geometry         &geometry = scene.geometry;
       for (const auto &boundary : scene.water.seepage.list)
         if (boundary->box_corners())
-          for (std::size_t i = 0; i < outline.size(); ++i)
+          for (unsigned int side = 0; side < geometry.sides.size(); ++side)
             {
-              const Point<dim> &a = outline[i],
-                               &b = outline[(i + 1) % outline.size()];
+              const auto [a, b]   = geometry.side_ends(side);
               const auto   part   = part_in_box(*boundary->wide_box(), a, b);
               const double least  = 1e-6 * a.distance(b);
               if (part && (*part)[0].distance((*part)[1]) > least)

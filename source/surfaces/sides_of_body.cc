@@ -38,23 +38,12 @@ namespace geocone::GEOCONE_DIM
           "sides of a body that is a box or a polygon",
           "describe the body as one of them; velocities may also be "
           "imposed on nodes of the background mesh");
-      // Outlines may have either orientation.
-      double area = 0.;
-      for (std::size_t i = 0; i < geometry.outline.size(); ++i)
-        {
-          const Point<dim> &v = geometry.outline[i],
-                           &w = geometry
-                                  .outline[(i + 1) % geometry.outline.size()];
-          area += v[0] * w[1] - w[0] * v[1];
-        }
       condition.check_sides(geometry.sides, "sides of the body");
       std::vector<SidePart> panels;
       for (const auto &[name, id] : geometry.sides)
         if (condition.is_on_side(name))
           {
-            auto [a, b] = geometry.side_ends(id);
-            if (area < 0.)
-              std::swap(a, b);
+            const auto [a, b] = geometry.side_ends(id);
             std::vector<std::pair<double, double>> in_box;
             if (const auto box = condition.box_corners())
               for (unsigned int c = 0; c < dim; ++c)

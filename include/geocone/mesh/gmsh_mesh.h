@@ -46,7 +46,8 @@ namespace geocone::GEOCONE_DIM
   struct MeshDomain
   {
     Polygon                         outline;
-    Polygon                         body;     ///< with edges of the mesh, or empty
+    std::vector<Polygon>            holes;
+    std::vector<Polygon>            inner;    ///< with edges of the mesh
     std::vector<dealii::Point<dim>> vertices; ///< of the mesh
     int                             algorithm      = 5; ///< gmsh's number
     bool                            quadrilaterals = false;

@@ -44,8 +44,12 @@ namespace geocone::GEOCONE_DIM
     /** Whether the domain is the body. */
     bool fits_body = true;
 
-    /** A polygon in the box on which unstructured meshes have edges, or empty. */
-    Polygon body;
+    /** Holes of that domain. */
+    std::vector<Polygon> holes;
+
+    /** Polygons in the domain on which unstructured meshes have edges: the
+     *  boundaries of a body of particles. */
+    std::vector<Polygon> inner;
 
     enum class Type
     {

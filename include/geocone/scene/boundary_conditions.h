@@ -32,6 +32,12 @@ namespace geocone::GEOCONE_DIM
     void
     prepare();
 
+    /** Replaces names of groups by the names of their sides.
+     *  @throws InputError for a name that begins like a group and is none */
+    void
+    replace_groups(
+      const std::map<std::string, std::vector<std::string>> &groups);
+
     /** Whether a side of this name, or all sides, are in the list. */
     bool
     is_on_side(const std::string &side) const;
@@ -98,6 +104,7 @@ namespace geocone::GEOCONE_DIM
     std::vector<std::string> sides;
 
   private:
+    std::vector<std::string>        sides_given; ///< before groups are replaced
     std::vector<dealii::Point<dim>> box;
     std::string                     where_text;
     std::optional<Expression>       where;

@@ -86,6 +86,18 @@ namespace geocone::GEOCONE_DIM
   void
   check_polygon(const Polygon &polygon, const std::string &parameter);
 
+  /** Area of a polygon (m^2), positive if its vertices are counterclockwise. */
+  double
+  signed_area(const Polygon &polygon);
+
+  /** Whether two sides, ab and cd, meet within a tolerance (m). */
+  bool
+  segments_meet(const dealii::Point<dim> &a,
+                const dealii::Point<dim> &b,
+                const dealii::Point<dim> &c,
+                const dealii::Point<dim> &d,
+                const double              tolerance);
+
   /** Vertices as in a parameter file, for messages. */
   std::string
   text_of_polygon(const Polygon &polygon);
@@ -94,7 +106,8 @@ namespace geocone::GEOCONE_DIM
    * The domain: a box, a polygon, discs, or the content of a .msh file (or of a
    * gmsh script); for MPM optionally only its part with a positive formula. The
    * sides of a box are called bottom, right, top, left; those of a polygon 0,
-   * 1, 2, ... (side i connects vertex i to the next one); those of a file have
+   * 1, 2, ... (side i connects vertex i to the next one); the numbers of the
+   * sides of holes follow those of the outline; those of a file have
    * the numbers or names of its physical curves; discs have none, and are
    * supported by the material point method only.
    */
@@ -164,8 +177,18 @@ namespace geocone::GEOCONE_DIM
     /** Vertices of the box or polygon, in order; empty for discs and files. */
     Polygon outline;
 
-    /** Number of each named side of the box or polygon. */
+    /** Polygons inside the outline that are no part of the body. */
+    std::vector<Polygon> holes;
+
+    /** Outline and holes. */
+    std::vector<Polygon>
+    loops() const;
+
+    /** Number of each named side of the box or polygon, and of its holes. */
     std::map<std::string, dealii::types::boundary_id> sides;
+
+    /** Names of the sides of each hole: "hole 0", "hole 1", ... */
+    std::map<std::string, std::vector<std::string>> sides_of_hole;
 
     /** Name of the .msh file or the geo script. */
     std::string file;
@@ -178,7 +201,7 @@ namespace geocone::GEOCONE_DIM
     bool
     is_script() const;
 
-    /** Ends of a side of the outline: its vertex and the next one. */
+    /** Ends of a side of the outline or of a hole, with the body to the left. */
     std::array<dealii::Point<dim>, 2>
     side_ends(const dealii::types::boundary_id side) const;
 
@@ -228,6 +251,7 @@ namespace geocone::GEOCONE_DIM
     unsigned int                    dimension = dim;
     std::vector<dealii::Point<dim>> box;
     std::vector<dealii::Point<dim>> polygon;
+    std::string                     holes_text;
     std::vector<dealii::Point<dim>> centres = {dealii::Point<dim>()};
     std::vector<double>             radii   = {1.};
   };

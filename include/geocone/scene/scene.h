@@ -43,6 +43,10 @@ namespace geocone::GEOCONE_DIM
       return !obstacles.list.empty() || !contacts.list.empty();
     }
 
+    /** Prepares the conditions on the boundary. */
+    void
+    prepare_conditions();
+
     /** Prepares gravity, water, and the densities derived from them. */
     void
     prepare_weight();

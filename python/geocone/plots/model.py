@@ -27,6 +27,7 @@ SOILS = ["#e3d3ae", "#b99f77", "#cfdccb", "#9fb3bf", "#e8c3a8", "#c9bedb", "#8f8
 SUPPORT, LOAD, MOTION = "#303030", "#b02020", "#0060a0"
 STRUCTURE = "#5a2d82"
 MOST_STAGES = 6  # small pictures of stages
+MOST_NUMBERS = 12  # sides of a hole, with numbers
 
 
 class Model:
@@ -113,11 +114,25 @@ def color_of(material):
     return SOILS[material % len(SOILS)]
 
 
+def is_left_turning(polygon):
+    """Whether the vertices (n, 2) of a polygon are counterclockwise."""
+    x, y = np.array(polygon, dtype=float).T
+    return x @ np.roll(y, -1) - y @ np.roll(x, -1) > 0.
+
+
 def outline_of(model):
-    """The outline of the body as a clip path; None where cells or a lattice show it."""
+    """The outline of the body with its holes as a clip path; None where cells or a lattice
+    show it."""
     outline = model.data["body"].get("outline")
-    return None if outline is None else Outline(
-        np.array([*outline, outline[0]]), closed=True)
+    if outline is None:
+        return None
+    loops = []
+    for polygon in [outline, *model.data["body"].get("holes", {}).values()]:
+        # Holes run the other way: paths are filled where they wind around.
+        if is_left_turning(polygon) != (polygon is outline):
+            polygon = polygon[::-1]
+        loops.append(Outline(np.array([*polygon, polygon[0]], dtype=float), closed=True))
+    return Outline.make_compound_path(*loops)
 
 
 def draw_lattice(axes, lattice, color, **options):
@@ -230,7 +245,7 @@ def segments_of(faces):
 
 
 def spaced(faces, distance):
-    """Places along faces in the plane, about a distance apart on each straight part.
+    """Places along faces in the plane, about a distance apart, on arcs of many chords too.
 
     @return indices of the nearest faces, places (n, 2), outward unit normals (n, 2)"""
     places, normals = [], []
@@ -238,8 +253,13 @@ def spaced(faces, distance):
         x, y = b - a
         length = max(math.hypot(x, y), 1e-300)
         n = max(1, min(60, round(length / distance)))
-        places.extend(a + (k + 0.5) / n * (b - a) for k in range(n))
-        normals.extend([(y / length, -x / length)] * n)
+        normal = np.array([y, -x]) / length
+        for k in range(n):
+            place = a + (k + 0.5) / n * (b - a)
+            if not any(other @ normal > 0.5 and np.linalg.norm(near - place) < 0.6 * distance
+                       for near, other in zip(places, normals)):
+                places.append(place)
+                normals.append(normal)
     places = np.array(places)
     middles = np.array(faces, dtype=float).mean(axis=1)
     index = np.array([np.argmin(np.sum((middles - x)**2, axis=1)) for x in places])
@@ -359,7 +379,10 @@ def draw_tractions(axes, model):
         if not len(values) or not sizes.max() > 0.:
             continue
         index, places, outward = spaced(condition["faces"], model.size / 45.)
-        draw_arrows(axes, places, values[index], outward, LOAD, 0.1 * model.size)
+        length = 0.1 * model.size
+        if np.linalg.norm(outward.mean(axis=0)) < 0.2:  # all around, e.g. a hole
+            length = min(length, 0.3 * np.ptp(places, axis=0).min())
+        draw_arrows(axes, places, values[index], outward, LOAD, length)
         text = f"{plain(condition['name'])}: {value_text(values, model.stress_unit)}"
         entries[text] = arrow_entry(LOAD)
     return entries
@@ -400,18 +423,26 @@ def draw_structures(axes, model, stage=None, with_names=True):
 
 
 def draw_side_names(axes, model):
-    """Names of the sides beside their middles, as conditions call them."""
+    """Names of the sides beside their middles, and of holes in them, as conditions call
+    them."""
     body = model.data["body"]
-    x, y = np.array(body.get("outline", np.empty((0, 2)))).T
-    turn = np.sign(x @ np.roll(y, -1) - y @ np.roll(x, -1))  # the outline may run either way
+    style = {"textcoords": "offset points", "ha": "center", "va": "center", "fontsize": 7,
+             "color": "#303030", "zorder": 6, "bbox": {
+                 "boxstyle": "round,pad=0.15", "fc": "white", "ec": "#909090", "lw": 0.5,
+                 "alpha": 0.85}}
+    without_number = set()
+    n = len(body.get("outline", ()))
+    for name, hole in body.get("holes", {}).items():
+        axes.annotate(name, np.mean(hole, axis=0), xytext=(0., 0.), **style)
+        if len(hole) > MOST_NUMBERS:
+            without_number.update(str(i) for i in range(n, n + len(hole)))
+        n += len(hole)
     for name, ends in body.get("sides", {}).items():
+        if name in without_number:
+            continue
         a, b = np.array(ends)
-        middle = (a + b) / 2.
-        normal = turn * np.array([b[1] - a[1], a[0] - b[0]]) / np.linalg.norm(b - a)
-        axes.annotate(plain(name), middle, xytext=11. * -normal, textcoords="offset points",
-                      ha="center", va="center", fontsize=7, color="#303030", zorder=6,
-                      bbox={"boxstyle": "round,pad=0.15", "fc": "white", "ec": "#909090",
-                            "lw": 0.5, "alpha": 0.85})
+        inward = np.array([a[1] - b[1], b[0] - a[0]]) / np.linalg.norm(b - a)
+        axes.annotate(plain(name), (a + b) / 2., xytext=11. * inward, **style)
 
 
 def view_of(model):
