@@ -43,6 +43,11 @@ namespace geocone::GEOCONE_DIM
     : vertices(mesh.points)
     , sides(mesh.sides)
   {
+    if (!mesh.cells.empty() && !mesh.has_simplices())
+      throw InputError("Geometry/File",
+                       "a mesh of quadrilaterals",
+                       "a mesh of triangles for strict bounds",
+                       "mesh the domain with triangles");
     std::map<std::array<unsigned int, 2>, unsigned int> number;
     const auto sorted = [](const unsigned int a, const unsigned int b) {
       return std::array<unsigned int, 2>{{std::min(a, b), std::max(a, b)}};
