@@ -208,10 +208,11 @@ namespace geocone::GEOCONE_DIM
   LimitAnalysis::warnings_of(const dealii::BoundingBox<dim> &body) const
   {
     std::vector<std::string> warnings = warn_of_magnitudes(scene, body);
-    if (scene.geometry.shape == Geometry::Shape::file && most_levels > 1)
-      warnings.push_back("a mesh from a file is not made anew: the bounds are "
-                         "those of this mesh; give a box or a polygon, or set "
-                         "Analysis/Maximum levels = 1");
+    if (!refines() && most_levels > 1)
+      warnings.push_back(
+        "the mesh from the file is not refined: " + file_domain->obstacle() +
+        "; the bounds are those of this mesh. Give a mesh of one body, or set "
+        "Analysis/Maximum levels = 1");
     constexpr double later     = 1e6; // after any ramp
     const auto       is_loaded = [](const RigidMotion &load) {
       return load.centre.norm() + load.rotation.norm() > 0.;
@@ -237,6 +238,8 @@ namespace geocone::GEOCONE_DIM
                        "triangles with 'Analysis/Kind' = limit load",
                        "set Mesh/Cells = triangles");
     triangles.emplace(fitted_mesh(mesh_parameters, scene, comm));
+    if (scene.geometry.shape == Geometry::Shape::file)
+      file_domain.emplace(domain_of_file(*triangles, scene));
     if (scene.water.acts() && !scene.water.varies_in_cells())
       check_water();
     if (reduces_strength())
@@ -253,6 +256,17 @@ namespace geocone::GEOCONE_DIM
     const dealii::BoundingBox<dim> body(triangles->vertices);
     log.print(options.name + ": " + text_of_magnitudes(scene, body));
     return warnings_of(body);
+  }
+
+  CoarseMesh
+  LimitAnalysis::next_mesh() const
+  {
+    if (!file_domain)
+      return fitted_mesh(mesh_parameters, scene, comm, &*sizes);
+    const dealii::BoundingBox<dim> body(triangles->vertices);
+    const auto [low, high] = body.get_boundary_points();
+    return file_domain->mesh(
+      *sizes, scene.water.lines(low, high), mesh_parameters.algorithm, comm);
   }
 
   void
@@ -287,7 +301,7 @@ namespace geocone::GEOCONE_DIM
   std::vector<unsigned int>
   LimitAnalysis::programme() const
   {
-    return {scene.geometry.shape == Geometry::Shape::file ? 1 : most_levels};
+    return {refines() ? most_levels : 1};
   }
 
   void
@@ -400,7 +414,7 @@ namespace geocone::GEOCONE_DIM
   {
     dealii::Timer mesh_time;
     if (sizes)
-      triangles.emplace(fitted_mesh(mesh_parameters, scene, comm, &*sizes));
+      triangles.emplace(next_mesh());
     const double  in_mesh = mesh_time.cpu_time();
     dealii::Timer time;
     BoundLevel    level;
@@ -426,8 +440,7 @@ namespace geocone::GEOCONE_DIM
     const bool is_narrow = best && *best < gap_tolerance;
     const bool is_last   = is_narrow ||
                          growth * level.cells > 1.15 * most_cells ||
-                         scene.geometry.shape == Geometry::Shape::file ||
-                         levels.size() == most_levels;
+                         !refines() || levels.size() == most_levels;
     if (!is_last)
       sizes = adapted_sizes(*triangles, bounds.uneven, next_cells(level));
     return is_last ? Ended::stage : Ended::well;

@@ -86,7 +86,9 @@ namespace geocone::GEOCONE_DIM
         std::error_code error;
         const double    size =
           std::filesystem::file_size(scene.geometry.file, error);
-        const double n = tria    ? tria->n_global_active_cells()
+        const double n = tria ? tria->n_global_active_cells()
+                         : parameters.type == MeshParameters::Type::from_bounds
+                           ? parameters.number
                          : error ? 1.
                                  : std::max(1., size / 80.);
         Expected     expected;

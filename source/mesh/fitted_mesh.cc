@@ -3,6 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/quoted_names.h>
+#include <geocone/mesh/domain_of_triangles.h>
 #include <geocone/mesh/fitted_mesh.h>
 #include <geocone/mesh/structured_mesh.h>
 
@@ -78,6 +79,29 @@ namespace geocone::GEOCONE_DIM
           lines.push_back({{plate->points[i - 1], plate->points[i]}});
       return lines;
     }
+
+    /** A mesh of the body of a file with prescribed sizes.
+     *  @throws InputError if no other mesh can be made of it */
+    CoarseMesh
+    other_mesh_of_file(const CoarseMesh     &of_file,
+                       const MeshParameters &parameters,
+                       const Scene          &scene,
+                       const CellSizes      &sizes,
+                       const MPI_Comm        comm)
+    {
+      const Triangles         triangles(of_file);
+      const DomainOfTriangles domain = domain_of_file(triangles, scene);
+      if (!domain.obstacle().empty())
+        throw InputError("Mesh/Type",
+                         parameters.type.word(),
+                         "unstructured with a mesh from this file",
+                         domain.obstacle() + ": give a mesh of one body");
+      return domain.mesh(
+        sizes,
+        lines_of_scene(scene, dealii::BoundingBox<dim>(of_file.points)),
+        parameters.algorithm,
+        comm);
+    }
   } // namespace
 
   CoarseMesh
@@ -88,10 +112,17 @@ namespace geocone::GEOCONE_DIM
               const bool            parts_bodies)
   {
     if (scene.geometry.shape == Geometry::Shape::file)
-      return mesh_of_file(scene.geometry,
-                          scene.regions,
-                          parts_bodies ? &scene.contacts : nullptr,
-                          comm);
+      {
+        const CoarseMesh of_file =
+          mesh_of_file(scene.geometry,
+                       scene.regions,
+                       parts_bodies ? &scene.contacts : nullptr,
+                       comm);
+        if (sizes == nullptr)
+          return of_file;
+        if constexpr (dim == 2)
+          return other_mesh_of_file(of_file, parameters, scene, *sizes, comm);
+      }
     const dealii::BoundingBox<dim> domain(parameters.outline);
     CoarseMesh                     mesh;
     if (!parameters.is_unstructured())

@@ -18,7 +18,6 @@ namespace geocone::GEOCONE_DIM
   {
     const UsedWhere used_mesh_parameters[] = {
       {"Mesh/*", "Discretisation/Method", {"FEM", "MPM", "explicit MPM"}},
-      {"Mesh/Type", "Geometry/Shape", {"box", "polygon", "discs"}},
       {"Mesh/Box", "Geometry/Shape", {"box", "polygon", "discs"}},
       {"Mesh/Box", "Discretisation/Method", {"MPM", "explicit MPM"}},
       {"Mesh/Cells", "Geometry/Shape", {"box", "polygon", "discs"}},
@@ -52,7 +51,9 @@ namespace geocone::GEOCONE_DIM
                  "Type",
                  ". Uniform and graded: for boxes. Unstructured: by gmsh. From "
                  "the bounds: by gmsh, with cell sizes from a limit analysis "
-                 "of the scene. Not used if the domain is a .msh file.");
+                 "of the scene, of which the mesh of a .msh file is the first "
+                 "one. All others are without effect if the domain is a .msh "
+                 "file.");
     add_parameter(
       "Box",
       box,
@@ -152,13 +153,15 @@ namespace geocone::GEOCONE_DIM
                        type.word(),
                        "another type with MPM and Geometry/Holes",
                        "set Mesh/Type = unstructured");
-    if (geometry.outline.empty() || method.is_explicit() ||
-        (method.is_mpm() && !box.empty()))
-      throw InputError("Mesh/Type",
-                       type.word(),
-                       "a mesh of the body, a box or a polygon, for FEM "
-                       "and implicit MPM without Mesh/Box",
-                       "set Mesh/Type = unstructured");
+    const bool is_file = geometry.shape == Geometry::Shape::file;
+    if (geometry.shape == Geometry::Shape::discs || method.is_explicit() ||
+        (method.is_mpm() && (is_file || !box.empty())))
+      throw InputError(
+        "Mesh/Type",
+        type.word(),
+        "a mesh of the body, a box or a polygon, for FEM "
+        "and implicit MPM without Mesh/Box, or of a file for FEM",
+        "set Mesh/Type = unstructured");
     if (cells == Cells::quadrilaterals)
       throw InputError("Mesh/Cells",
                        cells.word(),

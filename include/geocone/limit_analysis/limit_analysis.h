@@ -9,6 +9,7 @@
 #include <geocone/limit_analysis/gradients.h>
 #include <geocone/limit_analysis/limit_output.h>
 #include <geocone/limit_analysis/strength_reduction.h>
+#include <geocone/mesh/domain_of_triangles.h>
 #include <geocone/run/simulation.h>
 
 #include <deal.II/base/bounding_box.h>
@@ -101,6 +102,18 @@ namespace geocone::GEOCONE_DIM
     BoundLevel
     bound_factor();
 
+    /** Whether other meshes than the first one can be made. */
+    bool
+    refines() const
+    {
+      return scene.geometry.shape != Geometry::Shape::file ||
+             file_domain->obstacle().empty();
+    }
+
+    /** Mesh with the sizes of the next one. */
+    CoarseMesh
+    next_mesh() const;
+
     /** Number of cells requested of the next mesh. */
     double
     next_cells(const BoundLevel &level);
@@ -170,6 +183,10 @@ namespace geocone::GEOCONE_DIM
     double       tolerance     = 1e-3;
 
     std::optional<CellSizes> sizes; ///< of the next mesh
+
+    /** Of the mesh of a file, if others can be made of it. */
+    std::optional<DomainOfTriangles> file_domain;
+
     double asked_cells = 0.;        ///< requested of it, or 0 for the first one
 
     std::vector<std::array<double, 2>> davis; ///< of the last mesh
