@@ -70,6 +70,12 @@ namespace geocone::GEOCONE_DIM
                           "with VTKHDF (ParaView >= 5.12) and XDMF indices.");
     add_parameter(
       "Pictures", pictures, "Whether scripts/plot draws pictures at the end.");
+    add_parameter(
+      "Principal stresses",
+      stress_pictures,
+      "Whether the pictures include principal_stresses.png: crosses "
+      "of the principal stresses in the plane over the mesh at the "
+      "end; those of the lower bound with strict bounds.");
     add_parameter("Verbosity",
                   verbosity,
                   "0: results only; 1: progress; 2: also each Newton "

@@ -173,6 +173,7 @@ namespace geocone::GEOCONE_DIM
     Choice<IfExists> if_exists = if_exists_choice();
 
     bool                     pictures = true;
+    bool                     stress_pictures = false; ///< read by scripts/plot
     std::vector<std::string> expectation_texts;
     std::vector<Expectation> expectations;
 

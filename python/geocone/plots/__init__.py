@@ -10,6 +10,8 @@ For each run folder, as far as the files for them exist:
   energy.png                       statistics.csv: where the energy goes
   plastic_strain_rate.png          the last cells-*.vtu, or points-*.vtu if they move, with
                                    the displacement (or the velocity)
+  principal_stresses.png           the last cells-*.vtu, points-*.vtu or bounds-*.vtu, if
+                                   Output/Principal stresses = true (or by --stresses)
   excess_pore_pressure.png         the last cells-*.vtu or points-*.vtu of undrained soil
   plastic_strain.png               points-*.vtu at several times, if they move;
                                    shear_stress.png of an elastic body instead
@@ -44,6 +46,15 @@ def pictures_of(run, times=None):
     if run.method == "point":
         from geocone.plots import element
         return element.pictures(run)
+    found = pictures_of_method(run, times)
+    if run.parameters.get("Output/Principal stresses") == "true":
+        from geocone.plots import stresses
+        found["principal_stresses.png"] = stresses.draw_run
+    return found
+
+
+def pictures_of_method(run, times):
+    """The pictures that all runs of a method have."""
     if run.method in ("limit load", "strength reduction"):
         from geocone.plots import bounds
         return bounds.pictures(run)
@@ -139,6 +150,9 @@ def main(arguments, prog="plot"):
     parser.add_argument("--paraview", action="store_true",
                         help="only write paraview_state.py, which opens the fields in "
                         "ParaView")
+    parser.add_argument("--stresses", action="store_true",
+                        help="only draw principal_stresses.png, crosses of the principal "
+                        "stresses")
     parser.add_argument("--model", action="store_true",
                         help="only draw model.png, also of a folder of --dry-run --picture")
     call = parser.parse_args(arguments)
@@ -169,6 +183,11 @@ def main(arguments, prog="plot"):
                 (below or run.folder).mkdir(parents=True, exist_ok=True)
                 animation.draw(run, [(below or run.folder) / film
                                      for film in call.films])
+                continue
+            if call.stresses:
+                from geocone.plots import stresses
+                (below or run.folder).mkdir(parents=True, exist_ok=True)
+                stresses.draw_run(run, (below or run.folder) / f"principal_stresses.{call.format}")
                 continue
             if call.paraview:
                 from geocone.plots import paraview

@@ -45,6 +45,7 @@ CAPTIONS = {
     "plates.png": "Moments, forces and displacements of plates at the ends of stages",
     "mechanism.png": "Mechanisms of both bounds, and where these differ",
     "dependence.png": "What the bounds depend on",
+    "principal_stresses.png": "Principal stresses at the end",
     "plastic_strain_rate.png": "Where the soil yields at the end, and how it moves",
     "excess_pore_pressure.png": "Excess pore pressure at the end",
     "plastic_strain.png": "Plastic strain of the material points",
