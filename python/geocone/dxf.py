@@ -143,11 +143,12 @@ def supports(body: Points, tolerance: float) -> tuple[list[int], list[int]]:
 
 
 def scene_of(file: str | os.PathLike, unit: float | None = None, body: str | None = None,
-             water: str = "water") -> str:
+             water: str = "water", holes: str = "holes") -> str:
     """Writes the parameter file of a drawing.
 
-    The greatest closed line is the body; another closed line is a region, and an open one
-    the top of what lies below it, of a material that has the name of the layer.
+    The greatest closed line is the body; another closed line is a hole on the layer of holes,
+    else a region, and an open one the top of what lies below it, of a material that has the
+    name of the layer.
 
     Parameters
     ----------
@@ -155,7 +156,7 @@ def scene_of(file: str | os.PathLike, unit: float | None = None, body: str | Non
         Path of the DXF file.
     unit
         Length of its unit (m); None: as the drawing says.
-    body, water
+    body, water, holes
         Names of layers.
 
     Returns
@@ -172,6 +173,8 @@ def scene_of(file: str | os.PathLike, unit: float | None = None, body: str | Non
     closed = [(layer, line[:-1]) for layer, lines in layers.items() for line in lines
               if len(line) > 3 and max(abs(line[0][0] - line[-1][0]),
                                        abs(line[0][1] - line[-1][1])) <= tolerance]
+    empty = [line for layer, line in closed if layer.lower() == holes.lower()]
+    closed = [pair for pair in closed if pair[0].lower() != holes.lower()]
     candidates = [pair for pair in closed if body in (None, pair[0])]
     if not candidates:
         raise DrawingError(
@@ -217,6 +220,8 @@ def scene_of(file: str | os.PathLike, unit: float | None = None, body: str | Non
               "geocone --dry-run THIS_FILE --picture\n",
               section("Analysis", ["set Kind = strength reduction"]),
               section("Geometry", ["set Shape   = polygon", f"set Polygon = {text(outline)}",
+                                   *([f"set Holes   = {' | '.join(map(text, empty))}"]
+                                     if empty else []),
                                    *(f"# side {i}: from {text([a])} to {text([b])}" for i, (a, b)
                                      in enumerate(zip(outline, [*outline[1:], outline[0]])))]),
               section("Mesh", ["set Type      = unstructured", "set Cells     = triangles",
@@ -249,18 +254,20 @@ def main(arguments: list[str], prog: str) -> int:
     parser = argparse.ArgumentParser(
         prog=prog, description=__doc__ + " The greatest closed line is the body; another closed "
         "line is a region, and an open one the top of what lies below it, of a material named "
-        "as the layer; the open line on the layer 'water' is the water.")
+        "as the layer; the open line on the layer 'water' is the water, closed ones on the "
+        "layer 'holes' are holes of the body.")
     parser.add_argument("drawing", type=Path)
     parser.add_argument("scene", type=Path, help="the new parameter file")
     parser.add_argument("--unit", choices=UNITS, help="of the drawing; default: as it says")
     parser.add_argument("--body", metavar="LAYER", help="layer of the body's outline")
     parser.add_argument("--water", metavar="LAYER", default="water")
+    parser.add_argument("--holes", metavar="LAYER", default="holes")
     options = parser.parse_args(arguments)
     try:
         if options.scene.exists():
             raise DrawingError(f"'{options.scene}' exists\n  remedy:  give another name")
         text_of_scene = scene_of(options.drawing, UNITS.get(options.unit), options.body,
-                                 options.water)
+                                 options.water, options.holes)
         write_whole(options.scene, text_of_scene)
     except DrawingError as error:
         print(f"error: {error}", file=sys.stderr)

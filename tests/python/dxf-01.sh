@@ -1,5 +1,5 @@
 # A drawing becomes a parameter file: body, layers and water by the names of its layers, in
-# metres, with sides that are held. What holds no body is refused, and no file is replaced.
+# metres, with holes, and sides that are held. What holds no body is refused, and no file is replaced.
 program=$1 root=$2 folder=$3
 . "$root/tests/fails.sh"
 rm -rf "$folder" && mkdir -p "$folder" && cd "$folder"
@@ -24,6 +24,8 @@ def drawing(name, unit, code, body):
     space.add_lwpolyline(points((0, 4), (18, 4)), dxfattribs={"layer": "silt.1"})
     space.add_lwpolyline(points((2, 5), (4, 5), (4, 7), (2, 7)), close=True,
                          dxfattribs={"layer": "block"})
+    space.add_lwpolyline(points((8, -3), (10, -3), (9, -1)), close=True,
+                         dxfattribs={"layer": "Holes"})
     space.add_lwpolyline(points((26, 0), (16, 2), (0, 3)), dxfattribs={"layer": "Water"})
     file.saveas(name)
 
@@ -41,7 +43,7 @@ dxf millimetres.dxf millimetres.prm
 diff <(tail -n +2 metres.prm) <(tail -n +2 millimetres.prm)
 for line in 'Polygon = 0, -4; 40, -4; 40, 0; 26, 0; 10, 8; 0, 8' 'Names = fill, silt_1, clay, block' \
   'Region below = 0, 4; 18, 4' 'Region below = 0, 0; 40, 0' 'Region polygon = 2, 5; 4, 5; 4, 7; 2, 7' \
-  'Table = 0, 3; 16, 2; 26, 0'; do
+  'Table = 0, 3; 16, 2; 26, 0' 'Holes = 8, -3; 10, -3; 9, -1'; do
   grep -qF "$line" <(tr -s ' ' <metres.prm) || { cat metres.prm; exit 1; }
 done
 "$program" metres.prm --dry-run --picture --quiet --output model \
