@@ -16,13 +16,15 @@ namespace geocone
   class ActingStages
   {
   public:
-    /** @param rest of the documentation */
+    /** Declares the parameter 'Acts in'.
+     *  @param rest remainder of its documentation */
     void
     declare(dealii::ParameterAcceptor &section, const std::string &rest);
 
-    /** @param parameter its full name, for messages
-     *  @param all names of the stages
-     *  @throws InputError for another name */
+    /** Checks the names of the stages.
+     *  @param parameter full name of the parameter, for messages
+     *  @param all names of all stages
+     *  @throws InputError for an unknown stage */
     void
     check(const std::string              &parameter,
           const std::vector<std::string> &all) const;
@@ -36,7 +38,7 @@ namespace geocone
     bool
     include(const std::string &stage) const;
 
-    /** Their names; none for all. */
+    /** Names of the stages; empty: all stages. */
     const std::vector<std::string> &
     names() const
     {

@@ -20,8 +20,9 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** A part of the boundary: some of its sides, restricted to a box or to the region with
-   *  a positive formula, if given. Base of all conditions on the boundary. */
+  /** A part of the boundary: selected sides, optionally restricted to a box or
+   *  to the region where a formula is positive. Base of all boundary
+   *  conditions. */
   class BoundaryPart : public dealii::ParameterAcceptor
   {
   public:
@@ -56,45 +57,49 @@ namespace geocone::GEOCONE_DIM
       return where.has_value();
     }
 
-    /** Whether a point of one of the sides belongs to the part. */
+    /** Whether a point on a selected side belongs to the part. */
     bool
     holds_at(const dealii::Point<dim> &x) const;
 
-    /** Whether the formula of 'Where' selects a point. */
+    /** Whether the formula of the parameter 'Where' is positive at a point. */
     bool
     formula_holds(const dealii::Point<dim> &x) const;
 
-    /** Corners of the box around the selected part of some faces; no value if
-     *  it is empty.
-     *  @param faces the vertices of each */
+    /** Corners of the bounding box of the selected part of @p faces; no value
+     *  if no part of them is selected.
+     *  @param faces vertices of each face */
     std::optional<std::array<dealii::Point<dim>, 2>>
     reach(const std::vector<std::vector<dealii::Point<dim>>> &faces) const;
 
-    /** Corners of the Box, enlarged by rounding; no value without a Box. */
+    /** Corners of the parameter 'Box', enlarged by a rounding tolerance; no
+     *  value without a box. */
     std::optional<std::array<dealii::Point<dim>, 2>>
     wide_box() const;
 
-    /** Lower left and upper right corner of the box, if there is one.
+    /** Lower left and upper right corner of the parameter 'Box'; no value
+     *  without a box.
      *  @throws InputError if a formula selects the part */
     std::optional<std::array<dealii::Point<dim>, 2>>
     box_corners() const;
 
-    /** @throws InputError for a side that is not in the list
-     *  @param what the list is, e.g. "sides of the body" */
+    /** Checks the names of the sides.
+     *  @throws InputError for an unknown side
+     *  @param what description of @p known, e.g. "sides of the body" */
     void
     check_sides(const std::map<std::string, dealii::types::boundary_id> &known,
                 const std::string &what) const;
 
-    /** @throws InputError if no node is selected. @param n_nodes of all
-     *  ranks */
+    /** Checks that the part contains nodes.
+     *  @param n_nodes number of selected nodes over all ranks
+     *  @throws InputError if no node is selected */
     void
     check_selection(const unsigned int n_nodes) const;
 
-    /** Full name of one of its parameters, for messages. */
+    /** Full name of a parameter of the condition, for messages. */
     std::string
     parameter(const std::string &entry) const;
 
-    /** Selected part of the boundary as text, for messages. */
+    /** Description of the selected part of the boundary, for messages. */
     std::string
     part() const;
 
@@ -110,8 +115,9 @@ namespace geocone::GEOCONE_DIM
     std::optional<Expression>       where;
   };
 
-  /** A condition on a part of the boundary, with components. Base of prescribed
-   *  velocities and tractions. */
+  /** A vector-valued boundary condition with Cartesian, normal and tangential
+   *  components: a prescribed velocity, a traction or the velocity of an
+   *  incoming wave. */
   class BoundaryCondition : public BoundaryPart
   {
   public:
@@ -119,8 +125,8 @@ namespace geocone::GEOCONE_DIM
      * @param name name of this condition
      * @param list section of the list, e.g. "Boundary conditions"
      * @param quantity "Velocity", "Traction" or "Incoming velocity"
-     * @param unit for the documentation
-     * @param folder to which names of records are relative
+     * @param unit unit of the quantity, for the documentation
+     * @param folder to which file names of time histories are relative
      */
     BoundaryCondition(const std::string &name,
                       const std::string &list,
@@ -132,8 +138,9 @@ namespace geocone::GEOCONE_DIM
     void
     prepare();
 
-    /** Formula of a Cartesian, the normal (dim) or the tangential component,
-     *  for messages. */
+    /** Formula of a component as text, for messages.
+     *  @param component Cartesian (< dim), normal (dim) or tangential (dim +
+     *  1) */
     const std::string &
     formula(const unsigned int component) const
     {
@@ -146,42 +153,46 @@ namespace geocone::GEOCONE_DIM
     /** Imposition method of a prescribed velocity. */
     Choice<const Imposition *> imposition = imposition_choice();
 
-    /** Number of parts for `segments`. */
+    /** Number of segments of the side, for the imposition method `segments`. */
     unsigned int n_segments = 2;
 
-    /** Shortening of the side for `segments`, in cell sizes. */
+    /** Reduction of the length of the side for the imposition method
+     *  `segments`, in cell sizes. */
     double shortening = 0.;
 
-    /** Parts of the body or the mesh whose velocity is prescribed. */
+    /** Entities with a prescribed velocity: nodes of the mesh, particles or a
+     *  side of the body. */
     Imposition::On
     holds() const
     {
       return imposition.get()->on;
     }
 
-    /** Whether it prescribes a traction. */
+    /** Whether the condition prescribes a traction. */
     bool
     is_traction() const
     {
       return quantity == "Traction";
     }
 
-    /** Whether it controls particles or a side of the body instead of nodes. */
+    /** Whether the condition prescribes the velocity of particles or of a side
+     *  of the body instead of nodes. */
     bool
     moves() const
     {
       return holds() != Imposition::On::nodes;
     }
 
-    /** Value of each component as a function of position and time, if given. */
+    /** Cartesian components as functions of position and time; no value: not
+     *  prescribed. */
     std::array<std::optional<Expression>, dim> components;
 
-    /** The same along the outward normal n of the side and, for tractions,
-     *  along its tangent (-n_y, n_x), with the body to its left. */
+    /** Components along the outward normal n of the side and, for tractions,
+     *  along the tangent (-n_y, n_x), which has the body on its left. */
     std::optional<Expression> normal, tangential;
 
-    /** Value of a component, or of the normal one (dim), at a position and a
-     *  time. @pre the component is given */
+    /** Value of a Cartesian component (< dim) or of the normal component (dim)
+     *  at a position and a time. @pre the component is given */
     double
     value(const unsigned int        component,
           const dealii::Point<dim> &x,
@@ -190,14 +201,15 @@ namespace geocone::GEOCONE_DIM
       return (component < dim ? components[component] : normal)->value(x, t);
     }
 
-    /** Vector of the normal and the tangential component at time t, for the
-     *  outward normal n. */
+    /** Vector with the prescribed normal and tangential components at time t,
+     *  for the outward normal n. */
     dealii::Tensor<1, dim>
     vector_on_side(const dealii::Point<dim>     &x,
                    const dealii::Tensor<1, dim> &n,
                    const double                  t) const;
 
-    /** @throws InputError for a normal velocity, where none is possible.
+    /** Rejects a prescribed normal velocity, for methods that do not support
+     *  it. @throws InputError
      *  @param allowed,remedy texts of the error */
     void
     refuse_normal(const std::string &allowed, const std::string &remedy) const;
@@ -224,16 +236,17 @@ namespace geocone::GEOCONE_DIM
                        const std::string   &unset,
                        const std::string   &documentation);
 
-    /** @param all names of the stages
-     *  @throws InputError if a condition acts in another one */
+    /** Checks the stages in which conditions act.
+     *  @param all names of all stages
+     *  @throws InputError for an unknown stage */
     void
     check_stages(const std::vector<std::string> &all) const;
 
-    /** @throws InputError for a condition that does not act in all stages */
+    /** Rejects conditions that act in some stages only. @throws InputError */
     void
     refuse_stages(const std::string &what, const std::string &remedy) const;
 
-    /** Which of the conditions act in a stage. */
+    /** For each condition, whether it acts in a stage. */
     std::vector<bool>
     acting_in(const std::string &stage) const;
   };

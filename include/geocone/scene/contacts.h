@@ -16,17 +16,19 @@
 namespace geocone
 {
   /**
-   * Frictional contact between two bodies, each of one or several materials:
-   * their meshes are not connected, and their particles move nodes of their
-   * own. In contact, the force of the other body on the nodes of the first and
-   * the relative velocity satisfy the Signorini and Coulomb laws.
+   * Frictional contact between two bodies, each of one or several materials.
+   * The bodies share no nodes: their meshes are not connected, or their
+   * particles have separate nodal velocities. The contact force on nodes of the
+   * first body and the relative velocity satisfy the Signorini and Coulomb
+   * laws.
    */
   class BodyPair : public dealii::ParameterAcceptor
   {
   public:
     explicit BodyPair(const std::string &name);
 
-    /** @param materials names of all materials. @throws InputError */
+    /** Assigns materials to the two bodies. @param materials names of all
+     *  materials @throws InputError */
     void
     prepare(const std::vector<std::string> &materials);
 
@@ -40,7 +42,8 @@ namespace geocone
     const std::string name;
     InterfaceLaw      law;
 
-    /** Materials of the first body and of the other, by number. */
+    /** For each material, whether it belongs to the first or to the second
+     *  body. */
     std::vector<bool> is_first, is_other;
 
   private:
@@ -56,12 +59,13 @@ namespace geocone
     void
     prepare(const std::vector<std::string> &materials);
 
-    /** Whether two materials belong to different bodies in contact. */
+    /** Whether two materials belong to different bodies with a contact. */
     bool
     are_apart(const unsigned int a, const unsigned int b) const;
 
-    /** Body of a material, counted from 0: materials that are in the same body
-     *  in all contacts belong together. Without contacts there is one body. */
+    /** Index of the body of a material, from 0. Materials that are on the same
+     *  side of all contacts form one body; without contacts there is one
+     *  body. */
     unsigned int
     body_of(const unsigned int material) const
     {
@@ -83,8 +87,8 @@ namespace geocone
 
   private:
     std::vector<std::string>  materials;
-    std::vector<unsigned int> body;       ///< by material
-    unsigned int              number = 1; ///< of bodies
+    std::vector<unsigned int> body;       ///< index of each material's body
+    unsigned int              number = 1; ///< number of bodies
   };
 } // namespace geocone
 

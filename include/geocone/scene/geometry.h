@@ -24,28 +24,30 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Vertices of a polygon in order; in three dimensions, where boxes are the
-   *  only predefined bodies, the lowest and the highest corner of a box. */
+  /** Vertices of a polygon in order; in three dimensions the lowest and the
+   *  highest corner of a box, the only predefined shape. */
   using Polygon = std::vector<dealii::Point<dim>>;
 
   Polygon
   outline_of_box(const dealii::Point<dim> &lower,
                  const dealii::Point<dim> &upper);
 
-  /** Names of the sides of a box, by direction and end, the lower one first. */
+  /** Names of the sides of a box, by axis and end (lower, upper). */
   constexpr const char *side_of_box[3][2] = {
     {"left", "right"}, {"bottom", "top"}, {"back", "front"}};
 
-  /** Number of each side: those at the smallest and largest x are called left
-   *  and right, y bottom and top, z back and front. */
+  /** Boundary id of each side of a box: left and right are the sides at the
+   *  smallest and largest x, bottom and top at the smallest and largest y, back
+   *  and front at the smallest and largest z. */
   std::map<std::string, dealii::types::boundary_id>
   sides_of_box();
 
   /**
-   * Range resolved by double precision with a margin for the solution:
-   * coordinates up to 1e12 m, whose squares and products are far from overflow,
-   * and lengths of at least 1e-12 m and 1e-9 of the coordinates. Coordinates
-   * have a relative rounding error of 1e-16, and thus cells one of 1e-7.
+   * Limits of coordinates and lengths that double precision resolves with a
+   * margin for the solution: coordinates up to 1e12 m, whose squares and
+   * products are far from overflow, and lengths of at least 1e-12 m and 1e-9 of
+   * the coordinates. The rounding error of coordinates is 1e-16 of their
+   * magnitude, and thus at most 1e-7 of a cell size.
    */
   constexpr double largest_coordinate     = 1e12;
   constexpr double smallest_size          = 1e-12;
@@ -56,8 +58,9 @@ namespace geocone::GEOCONE_DIM
   resolved_length(const std::vector<dealii::Point<dim>> &points);
 
   /**
-   * @throws InputError if coordinates are not finite or too large, or if the
-   * extent of the points along x or y is not resolved by their coordinates
+   * Checks the coordinates of points. @throws InputError if they are not finite
+   * or too large, or if the extent of the points along x or y is not resolved
+   * by their coordinates
    */
   void
   check_coordinates(const std::vector<dealii::Point<dim>> &points,
@@ -80,8 +83,8 @@ namespace geocone::GEOCONE_DIM
                       const dealii::Point<dim> &b);
 
   /**
-   * @throws InputError if the polygon has fewer than three vertices, repeated
-   * vertices, no area, or sides that cross or touch
+   * Checks the vertices of a polygon. @throws InputError if it has fewer than
+   * three vertices, repeated vertices, no area, or sides that cross or touch
    */
   void
   check_polygon(const Polygon &polygon, const std::string &parameter);
@@ -122,7 +125,7 @@ namespace geocone::GEOCONE_DIM
       file
     };
 
-    /** Symmetry represented by the plane of the scene. */
+    /** Symmetry of a plane scene: plane strain or axisymmetry. */
     enum class Symmetry
     {
       plane_strain, ///< a body of unit thickness that does not move along z
@@ -143,8 +146,8 @@ namespace geocone::GEOCONE_DIM
       return symmetry == Symmetry::axisymmetric;
     }
 
-    /** Factor of areas and lengths of the plane at x: 1 (m per metre of
-     *  thickness), or 2 pi r (m). */
+    /** Factor from areas and lengths in the plane to volumes and areas, at x: 1
+     *  in plane strain (per metre of thickness), 2 pi r in axisymmetry (m). */
     static double
     measure(const Symmetry symmetry, const dealii::Point<dim> &x)
     {
@@ -152,19 +155,20 @@ namespace geocone::GEOCONE_DIM
     }
 
     /** Side length of the square or cube of a material point at x (m).
-     *  @param volume of it, in axisymmetry of its ring */
+     *  @param volume of the point; in axisymmetry of the ring it represents */
     double
     size_of_point(const dealii::Point<dim> &x, const double volume) const
     {
       return length_of(volume / measure(symmetry, x));
     }
 
-    /** A unit, e.g. "N/m" or "load (N/m)" or "energy_J_per_m", without "per
-     *  metre of thickness" in axisymmetry. */
+    /** Unit of a quantity, e.g. "N/m" or "load (N/m)" or "energy_J_per_m",
+     *  without "per metre of thickness" in axisymmetry. */
     std::string
     unit(const std::string &in_plane_strain) const;
 
-    /** @throws InputError in axisymmetry @param who does not support it
+    /** Rejects axisymmetry. @throws InputError @param who feature that does not
+     *  support it
      *  @param remedy e.g. "set ..." */
     void
     refuse_axis(const std::string &who, const std::string &remedy) const;
@@ -193,11 +197,11 @@ namespace geocone::GEOCONE_DIM
     /** Name of the .msh file or the geo script. */
     std::string file;
 
-    /** Whether the file can be a script, to be run by gmsh. */
+    /** Whether the command line allows gmsh to run a script. */
     bool may_run_script = false;
 
-    /** Whether the file is a script, whose cells are unknown until it has
-     *  run. */
+    /** Whether the file is a gmsh script, whose mesh does not exist before gmsh
+     *  has run. */
     bool
     is_script() const;
 
@@ -205,34 +209,37 @@ namespace geocone::GEOCONE_DIM
     std::array<dealii::Point<dim>, 2>
     side_ends(const dealii::types::boundary_id side) const;
 
-    /** Whether the body is the part of the shape with a positive formula. */
+    /** Whether the body is the part of the shape where a formula is
+     *  positive. */
     bool
     is_part_by_formula() const
     {
       return where.has_value();
     }
 
-    /** Whether x lies in the body; true for a file, whose cells are the
-     *  body. */
+    /** Whether x lies in the body; always true for a file, because the mesh
+     *  defines the body. */
     bool
     contains(const dealii::Point<dim> &x) const;
 
-    /** Lower left and upper right corner of the body; not for a file. */
+    /** Lower left and upper right corner of the bounding box of the body. @pre
+     *  the body is not from a file */
     std::pair<dealii::Point<dim>, dealii::Point<dim>>
     bounding_box() const;
 
     /** Length (m) below which distances are treated as zero: 1e-9 of the body's
-     *  size, but at least the resolution of its coordinates; not for a file. */
+     *  size, but at least the resolution of its coordinates. @pre the body is
+     *  not from a file */
     double
     rounding() const;
 
-    /** Area or volume of the body (m^2, m^3), for a formula by sampling; not
-     *  for a file. */
+    /** Area or volume of the body (m^2, m^3); by sampling if a formula
+     *  restricts the body. @pre the body is not from a file */
     double
     area() const;
 
-    /** @throws InputError if a formula selects the body @param who does not
-     *  support it
+    /** Rejects a body restricted by a formula. @throws InputError @param who
+     *  feature that does not support it
      *  @param remedy e.g. "set ..." */
     void
     refuse_where(const std::string &who, const std::string &remedy) const;
@@ -241,7 +248,8 @@ namespace geocone::GEOCONE_DIM
     void
     check_discs();
 
-    /** Area of the lattice points in the body. */
+    /** Area or volume of the body from sampling points on a lattice (m^2,
+     *  m^3). */
     double
     area_of_samples() const;
 

@@ -11,31 +11,33 @@
 namespace geocone
 {
   /**
-   * An imposition method for prescribed velocities: the controlled parts, and
-   * for particles the row sum_p w_p v(x_p) = sum_p w_p q(x_p), with a
-   * multiplier, to which each belongs. FEM supports nodes only. A new method is
-   * a line in impositions().
+   * Imposition method of prescribed velocities: the controlled entities and,
+   * for particles, constraints sum_p w_p v(x_p) = sum_p w_p q(x_p), each with a
+   * multiplier. FEM supports nodes only. A new method is a line in
+   * impositions().
    */
   struct Imposition
   {
     enum class On
     {
-      nodes,     ///< grid functions on sides of the background mesh
-      particles, ///< those of the first row under a side of the body
-      side       ///< a side of the body, moving as prescribed
+      nodes,     ///< nodes on sides of the background mesh
+      particles, ///< first row of particles below a side of the body
+      side       ///< a side of the body, which moves as prescribed
     };
 
     /** A particle controlled by a condition. */
     struct Held
     {
       unsigned int id;
-      unsigned int cell; ///< number of its cell
-      /** Weight among the controlled particles of its cell, and of the
-       *  condition: one over their number, in axisymmetry by circumferences. */
+      unsigned int cell; ///< index of the cell that contains it
+      /** Weight of the particle among the controlled particles of the cell and
+       *  of the condition: one over their number, in axisymmetry proportional
+       *  to the circumference. */
       double of_cell, of_all;
     };
 
-    /** Row and weight of a particle. */
+    /** Index of the constraint that contains a particle, and weight of the
+     *  particle in it. */
     struct Share
     {
       unsigned int row;
@@ -44,11 +46,11 @@ namespace geocone
 
     const char *word;
     On          on;
-    Share (*share)(const Held &); ///< of controlled particles
+    Share (*share)(const Held &); ///< constraint of a particle
     bool single;                  ///< each particle has the prescribed velocity
-    /** Whether rows prescribe the velocity of particles at the end of the step,
-     *  v_p + N (v - v^L), instead of that of the grid, N v (equations (66) to
-     *  (69) of Guillet et al. 2025). */
+    /** Whether constraints prescribe the velocity of particles at the end of
+     *  the step, v_p + N (v - v^L), instead of the grid velocity N v (equations
+     *  (66) to (69) of Guillet et al. 2025). */
     bool through_flip = false;
   };
 

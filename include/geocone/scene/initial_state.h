@@ -33,12 +33,12 @@ namespace geocone::GEOCONE_DIM
     dealii::Tensor<1, dim>
     at(const dealii::Point<dim> &x) const;
 
-    /** Velocity gradient dv_i/dx_j at a point with a square of this size (m):
-     *  central differences, exact for linear velocities (1/s). */
+    /** Initial velocity gradient dv_i/dx_j (1/s) by central differences over
+     *  the size of a material point (m); exact for linear velocities. */
     dealii::Tensor<2, dim>
     gradient(const dealii::Point<dim> &x, const double size) const;
 
-    /** Whether it is not identically zero. */
+    /** Whether the initial velocity is not identically zero. */
     bool
     is_given() const;
 
@@ -52,9 +52,9 @@ namespace geocone::GEOCONE_DIM
    *   s_yy = -(surcharge + integral of rho |g| from y to the surface - u),
    *   s_xx = K0 s_yy, s_xy = 0,
    * with the densities of the materials above, and with u the difference of the
-   * hydrostatic pressure between y and the surface. K0 is a number, or that of
-   * each material (ConstitutiveLaw::earth_pressure_at_rest()). Materials that a
-   * stage adds have neither stress nor weight.
+   * hydrostatic pressure between y and the surface. K0 is given, or computed by
+   * the law of each material (ConstitutiveLaw::earth_pressure_at_rest()).
+   * Materials that a stage adds have neither stress nor weight initially.
    */
   class InitialStress : public dealii::ParameterAcceptor
   {
@@ -76,21 +76,21 @@ namespace geocone::GEOCONE_DIM
        const Regions            &regions) const;
 
     /** Out-of-plane stress (Pa): equal to s_xx, unless given by a formula.
-     *  Plane laws only store it. */
+     *  Plane-strain laws store s_zz, but do not depend on it. */
     double
     zz_at(const dealii::Point<dim> &x,
           const unsigned int        material,
           const Mandel             &in_plane) const;
 
   private:
-    /** Reads K0. @throws InputError */
+    /** Reads the parameter K0. @throws InputError */
     void
     prepare_k0();
 
     void
     check_level_ground(const Geometry &geometry) const;
 
-    /** @throws InputError if the water is not level */
+    /** Checks that the water table is level. @throws InputError */
     void
     check_level_water() const;
 
@@ -107,26 +107,27 @@ namespace geocone::GEOCONE_DIM
                               {"given", Type::given},
                               {"geostatic", Type::geostatic}}};
 
-    /** Source of the initial stress of a material. */
+    /** Type of the initial stress of a material: zero, given or geostatic. */
     Type
     type_of(const unsigned int material) const
     {
       return stage_of[material] < 0 ? type.get() : of_added.get();
     }
 
-    /** Whether stages add soil, with a stress of this type. */
+    /** Whether stages add soil with a stress of this type. */
     bool
     adds(const Type one) const;
 
-    /** @throws InputError if a column of soil has no weight of its own */
+    /** Checks gravity and regions for a geostatic state. @throws InputError if
+     *  the weight of a column of soil is not defined */
     void
     check_geostatic(const std::string &parameter,
                     const std::string &word,
                     const Gravity     &gravity,
                     const Regions     &regions) const;
 
-    /** Vertical effective stress of a column above x (Pa): of the initial soil,
-     *  or of the soil added with a material. */
+    /** Vertical effective stress at x due to the column of soil above (Pa).
+     *  @param stage whose added soil is the column; -1: the initial soil */
     double
     vertical_stress(const dealii::Point<dim> &x,
                     const int                 stage,
@@ -135,17 +136,18 @@ namespace geocone::GEOCONE_DIM
 
     std::array<std::string, n_mandel> texts;
     std::array<Expression, n_mandel>  components;
-    std::string                       text_zz; ///< of plane scenes
+    std::string                       text_zz; ///< formula of s_zz (plane)
     Expression                        component_zz;
     std::string                       k0_text = "0.5";
-    std::optional<double>             k0; ///< or that of each material
+    std::optional<double>             k0; ///< no value: K0 of each material
     double                            surface   = 0.;
     double                            surcharge = 0.;
     double                            g         = 0.;
     const Water                      *water = nullptr; ///< null without water
-    /** Stage that adds each material, counted from 0, or -1. */
+    /** Index of the stage that adds each material, from 0; -1: initially
+     *  present. */
     std::vector<int> stage_of;
-    double           top = 0.; ///< of the body (m)
+    double           top = 0.; ///< y of the top of the body (m)
   };
 } // namespace geocone::GEOCONE_DIM
 

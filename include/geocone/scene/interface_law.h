@@ -13,11 +13,12 @@ namespace geocone
   struct InterfaceLaw
   {
     double friction    = 0.; ///< mu of Coulomb's law
-    double adhesion    = 0.; ///< shear strength without pressure (Pa)
+    double adhesion    = 0.; ///< shear strength at zero pressure (Pa)
     double tension     = 0.; ///< tensile strength (Pa)
     double restitution = 0.; ///< e of Newton's law of impact
 
-    /** Whether the tensile strength exceeds that of any soil. */
+    /** Whether the tensile strength is so large (1 GPa) that the interface
+     *  never opens. */
     bool
     never_parts() const
     {
@@ -29,12 +30,14 @@ namespace geocone
     void
     declare(dealii::ParameterAcceptor &section);
 
-    /** @throws InputError for inadmissible values */
+    /** Checks the values. @throws InputError for inadmissible values */
     void
     check(const dealii::ParameterAcceptor &section) const;
 
-    /** Check for particles. @param section with a slash @throws InputError for
-     *  strengths per area */
+    /** Rejects adhesion and tensile strength for particles, which have no
+     *  contact area.
+     *  @param section name of the section with a slash
+     *  @throws InputError */
     void
     check_without_area(const std::string &section) const;
   };

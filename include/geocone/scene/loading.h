@@ -30,16 +30,17 @@ namespace geocone::GEOCONE_DIM
     void
     prepare();
 
-    /** Sizes of its steps in order (s); they sum up to the duration. */
+    /** Sizes of the time steps in order (s); their sum is the duration. */
     std::vector<double>
     step_sizes() const;
 
-    /** Number of steps, in closed form; within a few of step_sizes(). */
+    /** Approximate number of time steps, in closed form; differs from the
+     *  number of step_sizes() by a few steps. */
     double
     expected_steps() const;
 
-    /** @name @throws InputError for parameters of explicit MPM only, or of the
-     *  other methods only */
+    /** @name Checks against parameters that the method does not support;
+     *  @throws InputError */
     /** @{ */
     void
     check_implicit() const;
@@ -52,15 +53,16 @@ namespace geocone::GEOCONE_DIM
     unsigned int      output_every       = 0;
     bool              reset_displacement = false;
 
-    /** Divisor of c and tan(phi) at the end, linear in time from its previous
-     *  value; 0: unchanged. */
+    /** Strength reduction factor, the divisor of c and tan(phi), at the end of
+     *  the stage; 0: unchanged. It varies linearly in time from its previous
+     *  value. */
     double strength_factor = 0.;
 
-    /** Whether the first step that does not converge is the intended end of the
-     *  run. */
+    /** Whether the run terminates as intended at the first step that does not
+     *  converge, i.e. at failure. */
     bool until_failure = false;
 
-    /** Whether steps of implicit runs require static equilibrium, as in
+    /** Whether time steps of implicit runs require static equilibrium, as in
      *  strength reduction until failure. */
     bool
     seeks_equilibrium() const
@@ -68,14 +70,14 @@ namespace geocone::GEOCONE_DIM
       return strength_factor > 0. && until_failure;
     }
 
-    /** Reason why a step is not in equilibrium, see accelerating_share();
-     *  empty: it is. */
+    /** Reason why a time step is not in static equilibrium, see
+     *  accelerating_share(); empty: in equilibrium. */
     std::string
     no_equilibrium(const double accelerating_share) const;
 
-    /** @name Load stepping: tractions by their names, and "weight", multiplied
-     *  by an unknown load factor, with a given mean velocity that is
-     *  work-conjugate to them (m/s) */
+    /** @name Load stepping: loads (names of tractions, "weight") multiplied by
+     *  an unknown load factor, and their prescribed work-conjugate mean
+     *  velocity (m/s) */
     /** @{ */
     std::vector<std::string> raised_loads;
     double                   raising_velocity = 0.;
@@ -88,32 +90,34 @@ namespace geocone::GEOCONE_DIM
     raises(const std::string &load) const;
     /** @} */
 
-    /** Piezometric line at the end (x, y); pressures change to it linearly in
-     *  time; empty: unchanged. */
+    /** Piezometric line (x, y) at the end of the stage; empty: unchanged. Pore
+     *  pressures vary linearly in time during the stage. */
     std::vector<dealii::Point<2>> water_table;
 
-    /** Levels of open water at the end, by name of the seepage boundary (m), and number
-     *  of steps of the transient flow; 0: steady flow. */
+    /** Levels of open water at the end of the stage, by name of the seepage
+     *  boundary (m), and number of time steps of transient flow; 0: steady
+     *  flow. */
     std::map<std::string, double> water_levels;
     unsigned int                  flow_steps = 0;
 
-    /** @name Changes of the body at the beginning */
+    /** @name Changes of the body at the beginning of the stage */
     /** @{ */
 
-    /** Polygon or box that is excavated, restricted to where a formula is
-     *  positive, and the time (s) over which its forces are ramped down. */
+    /** Excavated polygon or box, restricted to the region where a formula is
+     *  positive, and duration (s) over which the forces of the excavated soil
+     *  are ramped down. */
     std::vector<dealii::Point<dim>> removed_polygon;
     double                          removal_duration = 0.;
 
-    /** Materials that are added, and the time (s) over which their weight is
-     *  ramped up. */
+    /** Added materials, and duration (s) over which their weight is ramped
+     *  up. */
     std::vector<std::string> added_materials;
     double                   addition_duration = 0.;
 
     /** Replaced materials and their replacements, by name. */
     std::map<std::string, std::string> changed_materials;
 
-    /** Whether the stage removes material, and whether it does so at x. */
+    /** Whether the stage excavates material: anywhere, or at x. */
     bool
     removes() const
     {
@@ -122,7 +126,7 @@ namespace geocone::GEOCONE_DIM
     bool
     removes(const dealii::Point<dim> &x) const;
 
-    /** Whether material is removed, added or replaced. */
+    /** Whether the stage removes, adds or replaces material. */
     bool
     changes_body() const
     {
@@ -130,7 +134,8 @@ namespace geocone::GEOCONE_DIM
              !changed_materials.empty();
     }
 
-    /** Message about the amount removed. @param what e.g. "points"
+    /** Message on the number of excavated cells or points. @param what name of
+     *  the counted entities, e.g. "points"
      *  @throws StepFailure if it removes nothing or everything */
     std::string
     removal_text(const unsigned long n_removed,
@@ -147,20 +152,20 @@ namespace geocone::GEOCONE_DIM
     /** Whether velocities are set to zero at each peak of the kinetic energy. */
     bool kinetic_damping = false;
 
-    /** Limits of equilibrium at the end: largest unbalanced force over weight,
-     *  and kinetic energy over stress work; 0: not tested. */
+    /** Equilibrium tolerances at the end of the stage: unbalanced force over
+     *  weight, and kinetic energy over stress work; 0: not tested. */
     double largest_unbalanced_force = 0.;
     double largest_kinetic_energy   = 0.;
 
-    /** Resets at the beginning: zero velocity; history computed anew from the
-     *  stress. */
+    /** Resets at the beginning of the stage: velocities to zero; history
+     *  variables to initial values for the current stress. */
     bool reset_velocity = false;
     bool reset_history  = false;
     /** @} */
 
   private:
-    /** Checks removed and added parts, and reads the formula. @throws
-     *  InputError */
+    /** Checks the excavated and added regions, and parses the formula.
+     *  @throws InputError */
     void
     prepare_changes();
 
@@ -172,35 +177,37 @@ namespace geocone::GEOCONE_DIM
     std::optional<Expression> removed_where;
   };
 
-  /** The stages of "Loading/Stages", one after another from t = 0. */
+  /** The loading programme: consecutive stages of "Loading/Stages", from t =
+   *  0. */
   class LoadingProgramme : public NamedList<Stage>
   {
   public:
     explicit LoadingProgramme(const ParameterFile &file);
 
-    /** @param materials,tractions their names */
+    /** Checks all stages. @param materials,tractions names of all materials and
+     *  tractions */
     void
     prepare(const std::vector<std::string> &materials,
             const std::vector<std::string> &tractions);
 
-    /** Stage at a time. */
+    /** Stage at time t. */
     const Stage &
     stage_at(const double t) const;
 
-    /** Whether a stage uses load stepping. */
+    /** Whether any stage uses load stepping. */
     bool
     raises_loads() const;
 
-    /** Whether a stage reduces the strength. */
+    /** Whether any stage reduces the strength. */
     bool
     reduces_strength() const;
 
-    /** Whether the body changes at the beginning of a stage. */
+    /** Whether any stage removes, adds or replaces material. */
     bool
     changes_body() const;
 
-    /** Stage that adds a material, counted from 0; -1 if it is present
-     *  initially. */
+    /** Index of the stage that adds a material, from 0; -1: initially
+     *  present. */
     int
     stage_that_adds(const std::string &material) const;
 
@@ -211,11 +218,11 @@ namespace geocone::GEOCONE_DIM
       return stage_that_adds(material) >= 0;
     }
 
-    /** Whether another material becomes this one in a stage. */
+    /** Whether any stage replaces another material by this material. */
     bool
     makes(const std::string &material) const;
 
-    /** Divisor of c and tan(phi) at time t. */
+    /** Strength reduction factor at time t, the divisor of c and tan(phi). */
     double
     strength_factor(const double t) const;
 
@@ -223,12 +230,13 @@ namespace geocone::GEOCONE_DIM
     double
     factor_before(const std::string &stage) const;
 
-    /** Duration of all stages (s). */
+    /** Total duration of all stages (s). */
     double
     duration() const;
   };
 
-  /** Gravity g(t), applied at once or ramped up linearly over a duration. */
+  /** Gravitational acceleration g(t): constant, or ramped up linearly over a
+   *  duration. */
   class Gravity : public dealii::ParameterAcceptor
   {
   public:

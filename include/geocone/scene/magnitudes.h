@@ -13,14 +13,14 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** One line with the size of the body and the strength of each material, also
-   *  relative to gamma H, the weight of a column of its height, which reveals
-   *  wrong units. */
+  /** One line of text, which reveals wrong units: size of the body and strength
+   *  of each material, also relative to gamma H, i.e. unit weight times height
+   *  of the body. */
   std::string
   text_of_magnitudes(const Scene &scene, const dealii::BoundingBox<dim> &body);
 
-  /** Warnings about sizes, densities, stiffnesses and strengths outside the
-   *  range of soils, most often because of a wrong unit. */
+  /** Warnings about dimensions, densities, stiffnesses and strengths outside
+   *  the usual range of soils, most often because of a wrong unit. */
   std::vector<std::string>
   warn_of_magnitudes(const Scene &scene, const dealii::BoundingBox<dim> &body);
 } // namespace geocone::GEOCONE_DIM

@@ -18,8 +18,8 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Exact bearing capacity factor of a weightless half-plane under a strip
-   * footing (Prandtl 1920, Reissner 1924; paper eq 77):
+   * Exact bearing capacity factors Nq and Nc of a weightless half-plane under a
+   * strip footing (Prandtl 1920, Reissner 1924; paper eq 77):
    *   Nq = exp(pi tan(phi)) tan^2(pi/4 + phi/2),  Nc = (Nq - 1)/tan(phi),
    * and Nc = 2 + pi for phi = 0.
    * @param phi friction angle (degrees)
@@ -30,9 +30,9 @@ namespace geocone::GEOCONE_DIM
   bearing_capacity_factor_c(const double phi);
 
   /**
-   * Observed quantities of a run: the reactions of some boundary conditions,
-   * the first of which is the load of the load-displacement curve, and the
-   * reference value for its limit.
+   * Observed quantities of a run: reactions of selected supports, the first of
+   * which is the load of the load-displacement curve, and a reference value of
+   * the limit load.
    */
   class Observation : public dealii::ParameterAcceptor
   {
@@ -45,8 +45,8 @@ namespace geocone::GEOCONE_DIM
             const Gravity                  &gravity,
             const bool                      raises_loads);
 
-    /** Whether there is a load-displacement curve: of the first condition or,
-     *  without conditions, of load stepping. */
+    /** Whether a load-displacement curve exists: of the first observed support
+     *  or, if none is observed, of load stepping. */
     bool
     has_load() const
     {
@@ -57,34 +57,36 @@ namespace geocone::GEOCONE_DIM
     /** Indices of the observed conditions and obstacles in Scene::supports(). */
     std::vector<unsigned int> conditions;
 
-    /** 0 for x, 1 for y, 2 for z. */
+    /** Component of the reaction that is the load: 0 for x, 1 for y, 2 for
+     *  z. */
     unsigned int component = 1;
 
-    /** Load = factor x reaction, e.g. -2 for a downward load on a half; or
-     *  |factor| x load factor, for load stepping. */
+    /** Factor from the reaction to the load, e.g. -2 for a downward load on
+     *  half of a symmetric body; for load stepping, load = |factor| x load
+     *  factor. */
     double factor = -1.;
 
     /** Positions whose displacement is reported. */
     std::vector<dealii::Point<dim>> points;
 
     /** Reference point of the moments of the reactions; no value: the centre of
-     *  the initial bounding box of each condition. */
+     *  the initial bounding box of each support. */
     std::optional<dealii::Point<dim>>
     moment_centre() const
     {
       return centre.empty() ? std::nullopt : std::make_optional(centre[0]);
     }
 
-    /** Reference load (N/m). */
+    /** Reference value of the limit load (N/m). */
     std::optional<double> reference;
     std::string           reference_name;
 
-    /** Largest relative drift of the load over a plateau. */
+    /** Tolerance for the relative drift of the load over a plateau (-). */
     double plateau_tolerance = 0.01;
 
   private:
-    /** Sets the reference to Prandtl's load. @throws InputError if there is
-     *  none */
+    /** Sets the reference value to Prandtl's limit load. @throws InputError if
+     *  the material does not have one */
     void
     take_prandtl(const Materials &materials, const Gravity &gravity);
 

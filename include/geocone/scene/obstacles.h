@@ -24,36 +24,35 @@ namespace geocone::GEOCONE_DIM
 {
   class Obstacle;
 
-  /** Neighbouring obstacles, which cover parts of the boundary of an obstacle:
-   *  adjacent convex obstacles have one common surface, without their shared
-   *  sides. */
+  /** Neighbours of an obstacle, which cover parts of its boundary: adjacent
+   *  convex obstacles form one surface without the shared sides. */
   class Neighbours
   {
   public:
     /**
      * @param list all obstacles
-     * @param own the obstacle whose neighbours these are
-     * @param moved displacements of all since the start; empty: zero
-     * @param margin distance up to which boundaries touch (m)
+     * @param own index of the obstacle with these neighbours
+     * @param moved displacements of all obstacles since the start; empty: zero
+     * @param margin distance below which boundaries are adjacent (m)
      */
     Neighbours(const std::vector<std::unique_ptr<Obstacle>> &list,
                const unsigned int                            own,
                const std::vector<RigidMotion>               &moved,
                const double                                  margin);
 
-    /** Whether there are any. */
+    /** Whether the obstacle has neighbours. */
     bool
     exist() const
     {
       return list.size() > 1;
     }
 
-    /** Whether a point is inside one of them. */
+    /** Whether a point lies inside a neighbour. */
     bool
     cover(const dealii::Point<dim> &place) const;
 
-    /** Whether one of them contains a vertex, and is nearer to x than the
-     *  vertex. */
+    /** Whether a neighbour continues the surface beyond a vertex: it contains
+     *  the vertex and is nearer to x than the vertex. */
     bool
     go_on_from(const dealii::Point<dim> &vertex,
                const dealii::Point<dim> &x) const;
@@ -74,32 +73,35 @@ namespace geocone::GEOCONE_DIM
    * a disc or a convex polygon, in three dimensions a half-space, a ball, a
    * cylinder or a convex polyhedron, at rest, driven or free. In contact the
    * force r of the obstacle on the body and the relative velocity u satisfy the
-   * Signorini and Coulomb laws (see Contact). Each of its motions, of its
-   * centre along the coordinates and about it, is driven by a formula or free;
-   * a free one obeys
+   * Signorini and Coulomb laws (see Contact). Each component of motion, i.e. a
+   * translation of the centre or a rotation about it, is driven by a formula or
+   * free; a free component obeys
    *   M dV/dt = F + M g - sum r,  J dw/dt = T - sum (x - X) x r,
-   * in three dimensions with one J for all axes, that of a ball or a cube.
+   * in three dimensions with the same J about all axes, as for a ball or a
+   * cube.
    */
   class Obstacle : public dealii::ParameterAcceptor
   {
   public:
     explicit Obstacle(const std::string &name);
 
-    /** Checks its parameters. @throws InputError */
+    /** Checks the parameters of the obstacle. @throws InputError */
     void
     prepare();
 
-    /** Position of a point relative to it: infinite distance if covered. */
+    /** Distance and normal of the nearest boundary point; infinite distance if
+     *  neighbours cover that point. */
     using Nearest = ObstacleShape::Nearest;
 
     /**
-     * Distance and normal at a point. The distance is a convex function of the
-     * point, bounded below by its tangent along the normal.
+     * Distance from the obstacle to a point, and normal. The distance is a
+     * convex function of the position, bounded below by its linearisation along
+     * the normal.
      * @param x a point (m)
      * @param moved displacement of the obstacle since the start
      * @param approach direction of its motion relative to x: at an edge, the
      * approaching side is chosen
-     * @param beside others that cover parts of its boundary; none: it is alone
+     * @param beside neighbours that cover parts of the boundary; null: none
      */
     Nearest
     nearest(const dealii::Point<dim>     &x,
@@ -108,11 +110,11 @@ namespace geocone::GEOCONE_DIM
             const Neighbours             *beside = nullptr) const;
 
     /**
-     * The same for a point of a body with small sliding: its distance along the
-     * normal at its initial position (m), in the frame of the obstacle.
+     * Distance and normal for small sliding: distance of a point along the
+     * normal at its initial position, in the frame of the obstacle (m).
      * @param start initial position of the point
      * @param step largest relative displacement in a step (m)
-     * @param beside others, at their initial positions
+     * @param beside neighbours at their initial positions; null: none
      */
     Nearest
     nearest_to_start(const dealii::Point<dim>     &start,
@@ -122,9 +124,9 @@ namespace geocone::GEOCONE_DIM
                      const Neighbours             *beside = nullptr) const;
 
     /**
-     * Lower bound of the distance to another obstacle, negative if they overlap
-     * (m); infinite for two half-planes. Convex shapes are separated by one of
-     * their sides or, in three dimensions, by a plane along an edge of each.
+     * Lower bound of the distance to another obstacle (m), negative if the two
+     * overlap; infinite for two half-planes. Convex shapes are separated by one
+     * of their sides or, in three dimensions, by a plane along an edge of each.
      * @param moved,its_moved displacements of both since the start
      */
     double
@@ -132,11 +134,12 @@ namespace geocone::GEOCONE_DIM
                 const RigidMotion &moved,
                 const RigidMotion &its_moved) const;
 
-    /** Velocity at time t if driven, otherwise 0. */
+    /** Prescribed velocity at time t; zero for free components. */
     RigidMotion
     velocity(const double t) const;
 
-    /** Whether a motion is free, numbered as in RigidMotion. */
+    /** Whether component k of the motion is free, numbered as in
+     *  RigidMotion. */
     bool
     is_free(const unsigned int k) const
     {
@@ -148,58 +151,60 @@ namespace geocone::GEOCONE_DIM
       return std::find(free.begin(), free.end(), true) != free.end();
     }
 
-    /** Mass (kg/m) or moment of inertia (kg m) of a motion; in three dimensions
-     *  kg, kg m^2. */
+    /** Mass (kg/m) or moment of inertia (kg m) for component k of the motion;
+     *  in three dimensions kg, kg m^2. */
     double
     inertia(const unsigned int k) const
     {
       return k < dim ? mass : moment_of_inertia;
     }
 
-    /** The given forces at time t, without weight. */
+    /** Prescribed forces and moments at time t, without weight. */
     RigidMotion
     load(const double t) const;
 
-    /** Small sliding: whether nodes retain their initial projection onto its
-     *  boundary, for slip that is small compared with its size. */
+    /** Whether sliding is small: nodes retain their initial projection onto the
+     *  boundary, because slip is small compared with the obstacle. */
     bool
     slides_little() const
     {
       return sliding == Sliding::small;
     }
 
-    /** Greatest width, infinite for a half-plane (m). */
+    /** Greatest width of the obstacle (m); infinite for a half-plane. */
     double
     width() const
     {
       return body->width();
     }
 
-    /** ObstacleShape::triangles() after a motion. */
+    /** Triangles for visualisation (ObstacleShape::triangles()) after a
+     *  motion. */
     std::vector<ObstacleShape::Triangle>
     triangles(const RigidMotion        &moved,
               const dealii::Point<dim> &body_of_soil,
               const double              size) const;
 
-    /** Point moving with it, the reference of moments: the mean of a polygon's
-     *  vertices, at the start. */
+    /** Initial position of the centre, the reference point of moments; for a
+     *  polygon the mean of its vertices. */
     dealii::Point<dim>
     centre() const
     {
       return body->centre();
     }
 
-    /** @throws InputError if it moves other than along y, the axis of
-     *  axisymmetric scenes */
+    /** Checks an obstacle of an axisymmetric scene. @throws InputError if it
+     *  moves other than along the axis y */
     void
     check_round() const;
 
-    /** Full name of one of its parameters, for messages. */
+    /** Full name of a parameter of the obstacle, for messages. */
     std::string
     parameter(const std::string &entry) const;
 
-    /** @throws InputError because it overlaps with the body at the start.
-     *  @param how deep, and with what */
+    /** Rejects an obstacle that overlaps with the body at the start.
+     *  @throws InputError
+     *  @param how depth and position of the overlap, for the message */
     [[noreturn]] void
     refuse_overlap(const std::string &how) const;
 
@@ -207,7 +212,8 @@ namespace geocone::GEOCONE_DIM
     InterfaceLaw      law;
 
   private:
-    /** @name A point in its own frame, and its present position */
+    /** @name Coordinates of a point in the frame of the obstacle, and its
+     *  current position */
     /** @{ */
     dealii::Point<dim>
     own_place(const dealii::Point<dim> &x, const RigidMotion &moved) const;
@@ -215,7 +221,7 @@ namespace geocone::GEOCONE_DIM
     moved_place(const dealii::Point<dim> &x, const RigidMotion &moved) const;
     /** @} */
 
-    /** Extent in a direction after a motion (m). */
+    /** Extent of the obstacle in a direction, max n.x, after a motion (m). */
     double
     reach(const dealii::Tensor<1, dim> &n, const RigidMotion &moved) const;
 
@@ -230,7 +236,8 @@ namespace geocone::GEOCONE_DIM
     static Choice<Shape>::Words
     shape_words();
 
-    /** Declares the driving motions, and the forces and masses of free ones. */
+    /** Declares the parameters of driven motions (velocities) and of free
+     *  motions (forces, mass, moment of inertia). */
     void
     declare_motions();
 
@@ -267,16 +274,18 @@ namespace geocone::GEOCONE_DIM
   public:
     explicit Obstacles(const ParameterFile &file);
 
-    /** The neighbours of each obstacle; for obstacles with small sliding at the
-     *  start.
-     *  @param moved since the start @param margin see Neighbours */
+    /** Neighbours of each obstacle; for obstacles with small sliding, at their
+     *  initial positions.
+     *  @param moved displacements since the start @param margin see
+     *  Neighbours */
     std::vector<Neighbours>
     neighbours(const std::vector<RigidMotion> &moved,
                const double                    margin) const;
 
-    /** Names of two overlapping obstacles, one of which is free, as contact
-     *  between obstacles is not computed; empty: none. @param moved since the
-     *  start @param margin tolerated overlap (m) */
+    /** Names of two overlapping obstacles of which one is free; empty: none.
+     *  Contact between obstacles is not computed.
+     *  @param moved displacements since the start
+     *  @param margin tolerance for overlap (m) */
     std::string
     overlap_of_free(const std::vector<RigidMotion> &moved,
                     const double                    margin) const;

@@ -15,22 +15,22 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Materials by region of the domain: for each material a polygon, the part
-   * below a line, or a physical surface of a .msh file.
+   * Assignment of materials to regions of the body: for each material a
+   * polygon, the part below a line, or a physical surface of a .msh file.
    */
   class Regions
   {
   public:
-    /** @param materials their names */
+    /** @param materials names of all materials */
     explicit Regions(const std::vector<std::string> &materials);
 
-    /** @param may_be_empty by material: replacements of other materials need no
-     *  region */
+    /** @param may_be_empty whether the region of each material may be empty:
+     *  replacements of other materials need no region */
     void
     prepare(const Geometry          &geometry,
             const std::vector<bool> &may_be_empty = {});
 
-    /** Whether the region of a material can be empty. */
+    /** Whether the region of a material may be empty. */
     bool
     may_be_empty(const unsigned int material) const
     {
@@ -38,32 +38,35 @@ namespace geocone::GEOCONE_DIM
              (material < empty_ones.size() && empty_ones[material]);
     }
 
-    /** The polygons, for mesh generators. */
+    /** Polygons of all materials, for mesh generators. */
     std::vector<Polygon>
     polygons() const;
 
-    /** Polygon of a material; empty if it has none. */
+    /** Polygon of a material; empty for materials without a polygon. */
     const Polygon &
     polygon_of(const unsigned int material) const
     {
       return regions[material]->outline;
     }
 
-    /** Whether a material is identified by a physical surface. */
+    /** Whether any material is identified by a physical surface. */
     bool
     have_groups() const;
 
-    /** @throws InputError if a file has no physical surface of a material
-     *  @param groups numbers and names (possibly empty) of the file */
+    /** Checks the physical surfaces of a file. @throws InputError if the
+     *  surface of a material is missing
+     *  @param groups numbers and names (possibly empty) of the physical
+     *  surfaces */
     void
     check_groups(const std::map<int, std::string> &groups) const;
 
-    /** The material at x, outside of all physical surfaces. */
+    /** Index of the material at x, for cells outside of all physical
+     *  surfaces. */
     unsigned int
     material_at(const dealii::Point<dim> &x) const;
 
-    /** Material at x in a cell of a physical surface.
-     *  @param name empty: unnamed */
+    /** Index of the material at x in a cell of a physical surface.
+     *  @param group,name number and name of the surface; empty: unnamed */
     unsigned int
     material_at(const dealii::Point<dim> &x,
                 const int                 group,
@@ -77,8 +80,8 @@ namespace geocone::GEOCONE_DIM
       return regions[material]->points == Points::fixed;
     }
 
-    /** @throws InputError if the points of a material are fixed. @param method
-     *  that moves all */
+    /** Rejects materials with fixed points. @throws InputError
+     *  @param method name of the method, which moves all points */
     void
     refuse_fixed(const std::string &method) const;
 

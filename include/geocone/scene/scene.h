@@ -31,12 +31,12 @@ namespace geocone::GEOCONE_DIM
     void
     prepare();
 
-    /** Names of all supports, which can be observed: conditions with prescribed
-     *  velocities, then obstacles and contacts. */
+    /** Names of all supports, whose reactions can be observed: boundary
+     *  conditions with prescribed velocities, then obstacles and contacts. */
     std::vector<std::string>
     supports() const;
 
-    /** Whether contact is possible. */
+    /** Whether the scene contains obstacles or contacts between bodies. */
     bool
     has_contact() const
     {
@@ -56,8 +56,8 @@ namespace geocone::GEOCONE_DIM
     double
     density(const unsigned int material, const dealii::Point<dim> &x) const;
 
-    /** @throws InputError if contact is possible. @param what does not support
-     *  it */
+    /** Rejects obstacles and contacts. @throws InputError @param what feature
+     *  that does not support contact */
     void
     refuse_contact(const std::string &what, const std::string &remedy) const
     {
@@ -65,8 +65,8 @@ namespace geocone::GEOCONE_DIM
       contacts.refuse(what, remedy);
     }
 
-    /** Warning for a time history that ends before the loading does and then
-     *  keeps a non-zero value, or empty. */
+    /** Warning about a time history that ends before the loading programme with
+     *  a non-zero value, which then remains constant; empty: none. */
     std::string
     warn_of_records() const;
 

@@ -15,8 +15,8 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Part of the boundary of a body with seepage that is exposed to open water,
-   *  air or rain, or a drain in the body. */
+  /** A boundary of the seepage problem: a part of the boundary exposed to open
+   *  water, air or rain, or a drain in the body. */
   class SeepageBoundary : public BoundaryPart
   {
   public:
@@ -25,13 +25,14 @@ namespace geocone::GEOCONE_DIM
     void
     prepare();
 
-    /** Height y of the level of open water (m); none: air. */
+    /** Level y of open water (m); no value: air. */
     std::optional<double> level;
 
-    /** Rain (m/s) per horizontal area, an upper limit of infiltration. */
+    /** Rainfall rate (m/s) per horizontal area, an upper limit of
+     *  infiltration. */
     double rain = 0.;
 
-    /** Line of a drain in the body, or empty (m). */
+    /** Polyline of a drain in the body (m); empty: no drain. */
     std::vector<dealii::Point<dim>> drain;
 
     /** Whether x lies on the drain, within rounding. */
@@ -42,14 +43,15 @@ namespace geocone::GEOCONE_DIM
     std::string level_text = "none";
   };
 
-  /** Boundaries of a body with seepage that are exposed to water or air, named
-   *  in "Seepage/Names"; all others are impervious. */
+  /** The boundaries of the seepage problem, named in "Seepage/Names"; all other
+   *  parts of the boundary are impervious. */
   class Seepage : public NamedList<SeepageBoundary>
   {
   public:
     explicit Seepage(const ParameterFile &file);
 
-    /** @throws InputError for invalid parameters, and geometries without a mesh */
+    /** Checks the parameters. @throws InputError for invalid parameters, and
+     *  for geometries without a mesh */
     void
     prepare(const Geometry &geometry);
 
@@ -59,31 +61,33 @@ namespace geocone::GEOCONE_DIM
       return !list.empty();
     }
 
-    /** Levels of all boundaries, in the order of the list (m; none: air). */
+    /** Water levels of all boundaries, in the order of the list (m; no value:
+     *  air). */
     using Levels = std::vector<std::optional<double>>;
 
-    /** A flow to be solved: a steady one, or a step of a transient one. */
+    /** A flow problem: steady flow, or a time step of transient flow. */
     struct Step
     {
-      Levels levels;        ///< at its end
-      double duration = 0.; ///< (s); 0: steady
-      double time     = 0.; ///< at its end (s)
+      Levels levels;        ///< at the end of the step
+      double duration = 0.; ///< size of the step (s); 0: steady flow
+      double time     = 0.; ///< at the end of the step (s)
     };
 
-    /** The initial levels. */
+    /** Initial water levels. */
     Levels
     levels() const;
 
-    /** Flows of a stage that begins at a time with the levels @p before; none
-     *  if the stage does not change the levels. @throws InputError for unknown
-     *  names */
+    /** Flow problems of a stage that begins at the time @p begin (s) with the
+     *  water levels @p before; empty if the stage does not change the levels.
+     *  @throws InputError for unknown names */
     std::vector<Step>
     steps(const Stage &stage, const double begin, const Levels &before) const;
 
-    /** Number of triangles of the finest mesh. */
+    /** Target number of triangles of the finest mesh. */
     unsigned int n_cells = 5000;
 
-    /** Time of the loading whose pressures are the initial ones (s): that of bounds. */
+    /** Time in the loading programme at which limit analysis takes the pore
+     *  pressures of the flow (s). */
     double time = 0.;
   };
 } // namespace geocone::GEOCONE_DIM

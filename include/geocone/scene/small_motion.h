@@ -13,17 +13,18 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Lists of the vertices of faces. */
+  /** Vertices of each face in a list of faces. */
   using VerticesOfFaces = std::vector<std::vector<dealii::Point<dim>>>;
 
   /**
    * Time in which a loaded part of the boundary moves by a thousandth of its
-   * length (s): the minimum over all parts at their greatest speed, or 0 if
-   * there are none. The length is that of the part selected by the condition,
-   * doubled if it ends in a plane of symmetry; for an obstacle, its width or
-   * that of the body.
-   * @param mesh its box, which is that of a body from a file
-   * @param faces_of vertices of the faces on a condition's sides, of all ranks
+   * length at its greatest speed (s): minimum over all parts, 0 without loaded
+   * parts. For a boundary condition the length is the extent of the selected
+   * part, doubled if it ends in a plane of symmetry; for an obstacle, the width
+   * of the obstacle or of the body.
+   * @param mesh bounding box of the mesh, also of the body if it is from a file
+   * @param faces_of vertices of the faces on the sides of a condition, gathered
+   * from all ranks
    */
   double
   time_of_small_motion(

@@ -18,10 +18,11 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** An anchor, a strut, a geogrid or a plate. The first three are straight
-   *  bars along a polyline, tied to the body at its points; a plate is tied to
-   *  it along the polyline, and bends. Forces and stiffness are per metre of
-   *  thickness, tension positive. */
+  /** A structural element: anchor, strut, geogrid or plate. Anchors, struts and
+   *  geogrids are straight bars along a polyline, tied to the body at its
+   *  vertices; a plate is tied to the body along the polyline and has bending
+   *  stiffness. Forces and stiffness are per metre of thickness, tension
+   *  positive. */
   class Structure : public dealii::ParameterAcceptor
   {
   public:
@@ -54,7 +55,8 @@ namespace geocone::GEOCONE_DIM
       return "Structures/" + name + "/" + entry;
     }
 
-    /** Names of its bars in results; a plate has none, but results of its own. */
+    /** Names of the bars in results; empty for a plate, which has separate
+     *  results. */
     std::vector<std::string>
     names_of_bars() const;
 
@@ -64,14 +66,15 @@ namespace geocone::GEOCONE_DIM
       return type == Type::plate;
     }
 
-    /** Whether the polyline of a plate ends where it begins. */
+    /** Whether the polyline of a plate is closed. */
     bool
     is_closed() const
     {
       return is_plate() && points.front() == points.back();
     }
 
-    /** Whether the rotation of an end of a plate is prevented. */
+    /** Whether the rotation of the first or the last end of a plate is
+     *  fixed. */
     bool
     is_clamped(const bool at_last) const
     {
@@ -79,37 +82,37 @@ namespace geocone::GEOCONE_DIM
              clamped == (at_last ? Ends::last : Ends::first);
     }
 
-    /** Word of its type. */
+    /** Type of the structure as a word, e.g. "anchor". */
     std::string
     kind() const
     {
       return type.word();
     }
 
-    /** Axial force of a trial force: the projection on [-N_c, N_t]. */
+    /** Axial force from a trial force (N/m): projection onto [-N_c, N_t]. */
     double
     admissible(const double trial) const
     {
       return std::clamp(trial, -compressive, tensile);
     }
 
-    /** Bending moment of a trial one: the projection on [-M_p, M_p]. */
+    /** Bending moment from a trial moment (N): projection onto [-M_p, M_p]. */
     double
     admissible_moment(const double trial) const
     {
       return std::clamp(trial, -capacity, capacity);
     }
 
-    /** Whether one end of an anchor or strut may lie outside of the body, where
-     *  it is fixed. */
+    /** Whether one end may lie outside of the body as a fixed point (anchors
+     *  and struts). */
     bool
     may_be_fixed() const
     {
       return type == Type::anchor || type == Type::strut;
     }
 
-    /** Whether it consists of several bars, each of which couples neighbouring
-     *  cells only. */
+    /** Whether the structure is a chain of bars, each of which couples
+     *  neighbouring cells only. */
     bool
     is_chain() const
     {
@@ -123,8 +126,8 @@ namespace geocone::GEOCONE_DIM
     double                          pre_stress = 0.; ///< initial N (N/m)
     double                          bending    = 0.; ///< EI (N m)
 
-    /** Largest distance between points at which a plate is tied to the body;
-     *  infinite: where it crosses the sides of cells (m). */
+    /** Largest distance between the tie points of a plate (m); infinite: ties
+     *  only where the plate crosses cell faces. */
     double spacing = 0.;
 
   private:
@@ -146,7 +149,7 @@ namespace geocone::GEOCONE_DIM
     prepare_plate();
   };
 
-  /** The structures of "Structures/Names". */
+  /** The structures of a scene, named in the list "Structures/Names". */
   class Structures : public NamedList<Structure>
   {
   public:
@@ -164,7 +167,7 @@ namespace geocone::GEOCONE_DIM
     std::vector<const Structure *>
     plates() const;
 
-    /** A name as a part of a key of summary.json, without blanks. */
+    /** Converts a name to a part of a key of summary.json, without blanks. */
     static std::string
     key_of(std::string name);
   };

@@ -22,11 +22,11 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Pore water at rest below a piezometric line y = Y(x), uniform along z in
+   * Pore water: at rest below a piezometric line y = Y(x), uniform along z in
    * three dimensions, with the pressure
    *   u = gamma_w max(0, Y(x) - y),
-   * or with pressures of a flow (Seepage), or given by a file
-   * (PressureGrid). Stresses are effective, s' = s + u 1 (tension positive), so that
+   * or with the pressures of seepage (Seepage) or of a file (PressureGrid).
+   * Effective stresses s' = s + u 1 (tension positive) satisfy
    *   div s' + rho g - grad u = 0,
    * where rho is the density of the soil including its water. Where the line
    * lies above the ground, free water loads the surface with u: there, as on
@@ -57,34 +57,34 @@ namespace geocone::GEOCONE_DIM
     bool
     is_level() const;
 
-    /** Whether the seepage force varies within cells of any mesh, as is the
-     *  case for pressures from a file or a flow. */
+    /** Whether the seepage force varies within the cells of any mesh: pressures
+     *  from a file or from seepage. */
     bool
     varies_in_cells() const
     {
       return grid.has_value() || seepage.acts();
     }
 
-    /** Boundaries of the body between which water flows. */
+    /** Boundaries of the seepage problem. */
     Seepage seepage;
 
-    /** Whether some of the flows are transient. */
+    /** Whether any flow problem is transient. */
     bool
     flows_in_time() const;
 
-    /** Flows to be solved, in order: the initial one, then those of stages. */
+    /** Flow problems in order: the initial flow, then the flows of stages. */
     std::vector<Seepage::Step>
     flow_steps() const;
 
-    /** Pore pressures of a flow, and its free surface. */
+    /** Solution of a flow problem: pore pressures and free surface. */
     struct Flow
     {
       TriangleField                                  pressure; ///< (Pa)
       std::vector<std::array<dealii::Point<dim>, 2>> surface;  ///< segments
     };
 
-    /** Sets the results of flow_steps(), whose pressures at a time are the initial
-     *  ones. */
+    /** Stores the solutions of flow_steps().
+     *  @param time at which the pressures are the initial pore pressures (s) */
     void
     set_flows(std::vector<Flow> of_steps, const double time = 0.)
     {
@@ -105,8 +105,8 @@ namespace geocone::GEOCONE_DIM
       return unit_weight;
     }
 
-    /** Reads the lines and levels of stages. @throws InputError if there are no
-     *  initial ones, or some are invalid */
+    /** Reads the piezometric lines and water levels of stages.
+     *  @throws InputError if initial ones are missing, or for invalid values */
     void
     prepare_stages(const LoadingProgramme &loading);
 
@@ -114,37 +114,39 @@ namespace geocone::GEOCONE_DIM
     double
     pressure(const dealii::Point<dim> &x) const;
 
-    /** Seepage force -grad u (N/m^3) of one of the lines or flows: the initial
-     *  one, then those of stages. */
+    /** Seepage force -grad u (N/m^3) of one piezometric line or flow.
+     *  @param line index: 0 initially, then in the order of stages */
     dealii::Tensor<1, dim>
     force(const dealii::Point<dim> &x, const std::size_t line = 0) const;
 
-    /** Weight of each line or flow in the pressures at time t; they sum up to 1. */
+    /** Interpolation weight of each piezometric line or flow in the pore
+     *  pressures at time t; the weights sum to 1. */
     std::vector<double>
     parts(const double t) const;
 
     /**
-     * Lines of the plane across which the force jumps, where u has a kink: the
-     * water table, and vertical lines below its corners; none for pressures
-     * that vary in cells.
+     * Line segments across which the seepage force is discontinuous: the water
+     * table, and vertical lines below its vertices; empty for pressures from a
+     * file or from seepage.
      * @param lower,upper corners of a box around the body
      */
     std::vector<std::array<dealii::Point<dim>, 2>>
     lines(const dealii::Point<dim> &lower,
           const dealii::Point<dim> &upper) const;
 
-    /** @throws InputError if there is water. @param what does not support it */
+    /** Rejects pore water. @throws InputError @param what feature that does not
+     *  support it */
     void
     refuse(const std::string &what, const std::string &remedy) const;
 
   private:
     using Table = std::vector<dealii::Point<2>>; ///< x, y
 
-    /** @throws InputError unless x increases */
+    /** Checks a piezometric line. @throws InputError unless x increases */
     static void
     check(const Table &table, const std::string &parameter);
 
-    /** Y and its slope. */
+    /** Level Y (m) and slope dY/dx of a piezometric line at x. */
     static std::array<double, 2>
     level(const Table &table, const double x);
 
@@ -154,12 +156,12 @@ namespace geocone::GEOCONE_DIM
               const dealii::Point<dim>                       &upper,
               std::vector<std::array<dealii::Point<dim>, 2>> &all) const;
 
-    const std::string           folder; ///< to which the file is relative
+    const std::string           folder; ///< to which file names are relative
     std::string                 file;
     std::optional<PressureGrid> grid;
     Table                       table;
     std::vector<Flow>           all_flows;
-    std::vector<double>         initial_parts; ///< weights of flows
+    std::vector<double>         initial_parts; ///< parts() of the initial time
 
     /** Piezometric line at the end of a stage, or a flow during it. */
     struct Later
