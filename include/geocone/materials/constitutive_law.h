@@ -20,21 +20,21 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Interface of all constitutive laws: a density and the explicit update of
-   * points (advance()). Laws with a closed-form return map, which implicit
-   * methods can also use, derive from Material; laws with an integrator of
-   * their own derive from this class. Each law is one unit in this folder with
-   * its own parameters, and one line in material_library.cc.
+   * Interface of all constitutive laws: mass density and explicit stress update
+   * (advance()). Laws with a closed-form return map, which implicit methods can
+   * also use, derive from Material; laws with their own stress integration
+   * derive from this class. Each law is one unit in this folder with its own
+   * parameters, and one line in material_library.cc.
    */
   class ConstitutiveLaw : public dealii::ParameterAcceptor
   {
   public:
-    /** A full stress tensor, tension positive (Pa): xx, yy, zz, xy, and in
-     *  three dimensions yz, zx. */
+    /** Full stress tensor, tension positive (Pa): xx, yy, zz, xy, and in three
+     *  dimensions yz, zx. */
     using Stress = std::array<double, n_spatial>;
 
-    /** Stress components in the order of tensor_component, in the plane without
-     *  zz (Pa). */
+    /** Stress components in the order of tensor_component (Pa); in plane scenes
+     *  without zz. */
     using Components = std::array<double, n_mandel>;
 
     /** @param section e.g. "Materials/soil" */
@@ -44,14 +44,14 @@ namespace geocone::GEOCONE_DIM
     virtual void
     prepare();
 
-    /** Mass density rho above the water (kg/m^3). */
+    /** Mass density rho above the water table (kg/m^3). */
     double
     density() const
     {
       return rho;
     }
 
-    /** Mass density below the water (kg/m^3). */
+    /** Saturated mass density, below the water table (kg/m^3). */
     double
     saturated_density() const
     {
@@ -59,19 +59,19 @@ namespace geocone::GEOCONE_DIM
     }
 
     /** Computes the densities from given unit weights. @param g (m/s^2)
-     *  @throws InputError for given unit weights and zero gravity */
+     *  @throws InputError for unit weights with zero gravity */
     void
     set_gravity(const double g);
 
     /** Bulk modulus K_w/n (Pa) of the pore fluid of undrained soil: the excess
-     *  pressure of a point increases by dp = -K_w/n tr(de). 0: drained. */
+     *  pore pressure increases by dp = -K_w/n tr(de). 0: drained. */
     double
     fluid_modulus() const
     {
       return pore_fluid;
     }
 
-    /** Energy stored by the pore fluid at an excess pressure, per volume
+    /** Elastic energy density of the pore fluid at an excess pore pressure
      *  (J/m^3). */
     double
     fluid_energy(const double pressure) const
@@ -83,13 +83,14 @@ namespace geocone::GEOCONE_DIM
     dealii::SymmetricTensor<2, 2>
     permeability() const;
 
-    /** Volume of water per volume of soil that drains as the free surface falls (-).
+    /** Drainable porosity (-): volume of water drained per volume of soil as
+     *  the free surface falls.
      *  @throws InputError if it is not given */
     double
     drainable_porosity() const;
 
-    /** Ratio of horizontal to vertical effective stress given in the file, or
-     *  0. */
+    /** Earth pressure coefficient at rest K0 given in the parameter file (-);
+     *  0: not given. */
     double
     given_k0() const
     {
@@ -97,9 +98,9 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * K0 (-), the ratio of horizontal to vertical effective stress in level
-     * ground without lateral strain, admissible at any depth. One is an
-     * isotropic state.
+     * Earth pressure coefficient at rest K0 of the law (-), the ratio of
+     * horizontal to vertical effective stress in level ground without lateral
+     * strain; admissible at any depth. K0 = 1 is an isotropic stress state.
      */
     virtual double
     earth_pressure_at_rest() const
@@ -107,15 +108,16 @@ namespace geocone::GEOCONE_DIM
       return 1.;
     }
 
-    /** Strength parameters for Prandtl's load in plane strain, of laws that
-     *  have one. */
+    /** Strength parameters for Prandtl's limit load in plane strain; no value
+     *  for laws without such parameters. */
     virtual std::optional<FrictionalStrength>
     plane_strain_strength() const
     {
       return std::nullopt;
     }
 
-    /** Enables out-of-plane strain. @return whether the law supports it */
+    /** Enables out-of-plane strain, for axisymmetry. @return whether the law
+     *  supports it */
     virtual bool
     set_axisymmetric()
     {
@@ -126,22 +128,23 @@ namespace geocone::GEOCONE_DIM
     /** @{ */
 
     /**
-     * One step of all points of a block: rotates stress and tensorial history
-     * by the spin increment exactly, then adds the response to the strain
-     * increment sym(dt grad v).
+     * One explicit step of all points of a block: rotates stress and tensorial
+     * history by the spin increment exactly, then adds the response to the
+     * strain increment sym(dt grad v).
      */
     virtual void
     advance(const PointBlock &block, LawCounts &counts) const = 0;
 
-    /** Number of history variables of a point; only the law interprets them. */
+    /** Number of history variables per point; their meaning is internal to the
+     *  law. */
     virtual unsigned int
     n_history() const = 0;
 
     /**
-     * Initial history of a point with a given stress, by the parameters of the
-     * law.
-     * @param size in which strain localises: cell size over polynomial degree
-     * (m), for softening laws; 0: a single point with uniform strain
+     * Initialises the history variables of a point with a given stress from the
+     * parameters of the law.
+     * @param size length over which strain localises (m), for softening laws:
+     * cell size over polynomial degree; 0: a single point with uniform strain
      * @param[out] history n_history() values
      * @return a note on values that had to be changed, or empty
      * @throws InputError if the stress is not admissible
@@ -177,24 +180,24 @@ namespace geocone::GEOCONE_DIM
     virtual double
     stress_zz(const Components &stress, const double *history) const = 0;
 
-    /** Full stress tensor of a point. */
+    /** Full stress tensor of a point (Pa). */
     Stress
     whole(const Components &stress, const double *history) const;
 
-    /** Modulus M of the elastic pressure wave, c = sqrt(M/rho) (Pa). */
+    /** Elastic P-wave modulus M (Pa), with the wave speed c = sqrt(M/rho). */
     virtual double
     wave_modulus(const Stress &stress, const double *history) const = 0;
 
-    /** An output quantity of the state besides the stress components. */
+    /** An output quantity of a law besides the stress components. */
     struct Shown
     {
-      std::string name;  ///< of a field, e.g. "stress_zz"
-      std::string title; ///< of a column, with its unit, e.g. "stress zz (Pa)"
+      std::string name;  ///< field name, e.g. "stress_zz"
+      std::string title; ///< column title with unit, e.g. "stress zz (Pa)"
     };
     virtual std::vector<Shown>
     shown() const = 0;
 
-    /** Sections of the yield surfaces of a state, the outermost first; empty
+    /** Sections of the yield surfaces at a given state, outermost first; empty
      *  for laws that do not provide them. */
     virtual std::vector<YieldCurve>
     yield_curves(const Components & /*stress*/,
@@ -204,7 +207,7 @@ namespace geocone::GEOCONE_DIM
       return {};
     }
 
-    /** Values in the order of shown(). */
+    /** Computes the output quantities in the order of shown(). */
     virtual void
     show(const Components &stress,
          const double     *history,
@@ -217,7 +220,7 @@ namespace geocone::GEOCONE_DIM
     std::string
     parameter(const std::string &name = "") const;
 
-    /** @throws InputError for an inadmissible constant */
+    /** Checks a constant of the law. @throws InputError unless @p holds */
     void
     require(const bool         holds,
             const char        *name,
@@ -230,18 +233,19 @@ namespace geocone::GEOCONE_DIM
     double unit_weight = 0., saturated_unit_weight = 0.;
     double pore_fluid = 0., k0 = 0.;
 
-    std::vector<double> conductivities; ///< principal ones (m/s)
+    std::vector<double> conductivities;          ///< principal values (m/s)
     double              conductivity_angle = 0.; ///< (degrees)
     double              drainable          = 0.;
   };
 
-  /** One output quantity of a law, or NaN if it has none of this name. */
+  /** Evaluates the output quantity of a given name; NaN for laws without this
+   *  quantity. */
   class ShownValue
   {
   public:
     ShownValue(const ConstitutiveLaw &law, const std::string &name);
 
-    /** The value, see ConstitutiveLaw::show(). */
+    /** Value of the output quantity, see ConstitutiveLaw::show(). */
     double
     operator()(const ConstitutiveLaw::Components &stress,
                const double                      *history);

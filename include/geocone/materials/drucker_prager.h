@@ -11,16 +11,18 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Circular cone in three-dimensional stress space (Drucker and Prager 1952),
+   * Drucker-Prager law (Drucker and Prager 1952), a circular cone in
+   * three-dimensional stress space,
    *   sqrt(J_2) + alpha I_1 <= kappa,  I_1 = tr s,
-   * with the flow rule of the cone for the dilatancy angle. In components along
+   * with the flow rule of the cone of the dilatancy angle. In components along
    * and across the axis n = -(1, 1, 0, 1)/sqrt3 it is the FlowCone
    *   |s_t| <= a s_n + k,   a = sqrt6 alpha,  k = sqrt2 kappa,
    * with D = diag(3 lambda + 2G, 2G, 2G, 2G): return map, change of variable
-   * and natural map are those of the plane cone with one more component.
+   * and natural map are those of MohrCoulomb's in-plane cone with more
+   * components.
    *
-   * Its size is matched to the Mohr-Coulomb pyramid (s = sin, t = tan of the
-   * angle):
+   * The size of the cone is matched to the Mohr-Coulomb pyramid (s = sin, t =
+   * tan of the angle):
    *   outer (compression edges)        alpha = 2 s/(sqrt3 (3 - s)),
    *                                    kappa = 6 c cos/(sqrt3 (3 - s))
    *   inner (extension edges)          alpha = 2 s/(sqrt3 (3 + s)),
@@ -50,7 +52,8 @@ namespace geocone::GEOCONE_DIM
       return cone.b > 0.;
     }
 
-    /** Cone in three dimensions; in the plane s_zz is part of the law. */
+    /** Exact cone in three dimensions; no value in plane scenes, where the law
+     *  also determines s_zz. */
     std::optional<FlowCone>
     flow_cone(const double *history) const override
     {
@@ -89,7 +92,7 @@ namespace geocone::GEOCONE_DIM
                          const SpatialMandel &stress,
                          const OwnStrength   &own) const override;
 
-    /** Component s_n along the axis of the cone. */
+    /** Stress component s_n along the axis of the cone (Pa). */
     double
     normal_stress(const SpatialMandel &stress) const override
     {
@@ -113,7 +116,7 @@ namespace geocone::GEOCONE_DIM
                             {"outer", Match::outer},
                             {"inner", Match::inner}}};
 
-    /** Cone of a step, with delayed friction. */
+    /** Cone of a step, with the delayed part of the normal stress. */
     FlowCone
     cone_of(const OwnStrength &own) const
     {

@@ -12,16 +12,16 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Friction with memory, a regularised law: the strength of a soil follows the
-   * normal stress with the relaxation time tau (doc/theory/friction_memory.md).
-   * A history variable p obeys dp/dt = (s_n - p)/tau, and an implicit step h
-   * has
+   * Friction with memory, a regularised law: the normal stress in the strength
+   * is delayed with the relaxation time tau (doc/theory/friction_memory.md). A
+   * history variable p obeys dp/dt = (s_n - p)/tau, and an implicit step h has
    *   p = lambda p_n + (1 - lambda) s_n,   lambda = tau/(h + tau).
    */
   class FrictionMemory
   {
   public:
-    /** @param text default: "automatic", or a time */
+    /** @param text default value of the parameter: "automatic", or a time
+     *  (s) */
     explicit FrictionMemory(const std::string &text = "automatic")
       : text(text)
     {}
@@ -29,17 +29,18 @@ namespace geocone::GEOCONE_DIM
     /** Name of the parameter. */
     static constexpr const char *entry = "Friction memory";
 
-    /** Declares the parameter. */
+    /** Declares the parameter 'Friction memory'. */
     void
     declare(dealii::ParameterAcceptor &section);
 
-    /** Reads the time. @param section that declared it
+    /** Reads the relaxation time. @param section section of the parameter
      *  @param is_useful whether friction exceeds dilatancy
      *  @throws InputError */
     void
     prepare(const dealii::ParameterAcceptor &section, const bool is_useful);
 
-    /** Sets the time chosen by the scene, if the parameter is "automatic". */
+    /** Sets the relaxation time chosen by the scene if the parameter is
+     *  "automatic". */
     void
     set_automatic(const double time)
     {
@@ -47,21 +48,22 @@ namespace geocone::GEOCONE_DIM
         tau = time;
     }
 
-    /** tau (s); 0: the exact law. */
+    /** Relaxation time tau (s); 0: the exact law. */
     double
     time() const
     {
       return tau;
     }
 
-    /** Weight lambda of the past in a step h (s). */
+    /** Weight lambda of p_n in a step h (s). */
     double
     remembered(const double h) const
     {
       return tau > 0. ? tau / (h + tau) : 0.;
     }
 
-    /** p at the end of a step. @param s_n at its end */
+    /** Delayed normal stress p at the end of a step h (s). @param s_n normal
+     *  stress at the end of the step (Pa) */
     double
     next(const double p, const double s_n, const double h) const
     {
@@ -69,8 +71,8 @@ namespace geocone::GEOCONE_DIM
       return part * p + (1. - part) * s_n;
     }
 
-    /** Whether "automatic" activates the memory. @param non_associativity
-     *  (a - b)/a
+    /** Whether "automatic" activates friction with memory, i.e. the exact law
+     *  is hard to solve. @param non_associativity (a - b)/a
      *  @param aperture_left sin(phi) - sin(theta) */
     static bool
     is_hard(const double non_associativity, const double aperture_left);

@@ -142,9 +142,9 @@ namespace geocone::GEOCONE_DIM
       this->memory.declare(*this);
     }
 
-    /** Constructor of laws with phi = theta = 0, which do not declare the
+    /** Constructor for laws with phi = theta = 0, which do not declare these
      *  angles.
-     *  @param cohesion documentation of their parameter */
+     *  @param cohesion documentation of the parameter 'Cohesion' */
     Frictional(const std::string &section, const std::string &cohesion)
       : Remembering(section)
       , given(FrictionalStrength::without_friction())
@@ -170,8 +170,8 @@ namespace geocone::GEOCONE_DIM
                                                     : 0.;
     }
 
-    /** Index of the increase in the history, for a cohesion that varies in
-     *  space. */
+    /** Index of the cohesion increase among the history variables. @pre the
+     *  cohesion varies in space */
     unsigned int
     place_of_growth() const
     {

@@ -11,17 +11,19 @@
 
 namespace geocone
 {
-  /** Cohesion, friction and dilatancy of a law. */
+  /** Strength parameters of a law: cohesion, friction, dilatancy and tensile
+   *  strength. */
   struct FrictionalStrength
   {
     double c     = 2000.; ///< cohesion (Pa)
     double phi   = 25.;   ///< friction angle (degrees)
     double theta = 25.;   ///< dilatancy angle (degrees)
 
-    /** Largest principal stress of the plane (Pa). */
+    /** Tensile strength: upper limit of the in-plane principal stresses
+     *  (Pa). */
     double tension = std::numeric_limits<double>::infinity();
 
-    double gradient = 0.; ///< of the cohesion with depth (Pa/m)
+    double gradient = 0.; ///< increase of cohesion with depth (Pa/m)
     double level    = 0.; ///< y at which the cohesion is c (m)
 
     /** Increase of the cohesion at y above c (Pa). */
@@ -31,7 +33,7 @@ namespace geocone
       return gradient * (level - y);
     }
 
-    /** Strength of clay: phi = theta = 0. */
+    /** Undrained strength of clay: phi = theta = 0. */
     static FrictionalStrength
     without_friction()
     {
@@ -40,7 +42,8 @@ namespace geocone
       return clay;
     }
 
-    /** Declares the three parameters in the section of a law. */
+    /** Declares cohesion, friction angle and dilatancy angle in the section of
+     *  a law. */
     void
     declare(dealii::ParameterAcceptor &law);
 
@@ -57,14 +60,14 @@ namespace geocone
     void
     declare_tension(dealii::ParameterAcceptor &law);
 
-    /** Reads the tensile strength from its text.
+    /** Parses the tensile strength.
      *  @throws InputError @param section of the law */
     void
     prepare(const std::string &section);
 
-    /** Strength with c and tan(phi) divided by F. theta equals phi for
-     *  associated flow; otherwise it is unchanged but at most phi. F = 1
-     *  returns the given values exactly. */
+    /** Reduced strength, with c and tan(phi) divided by F. For associated flow
+     *  theta remains equal to phi; otherwise theta is unchanged but limited to
+     *  the reduced phi. F = 1 returns the given values exactly. */
     FrictionalStrength
     reduced(const double F) const;
 

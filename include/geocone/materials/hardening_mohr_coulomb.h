@@ -10,17 +10,17 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * MohrCoulomb with parameters that depend on the plastic shear strain kappa,
-   * the integral of |e_1 - e_2| = sqrt2 |z_t| over the plastic strain
-   * increments in the plane (-), a history variable:
+   * MohrCoulomb with hardening or softening: strength parameters depend on the
+   * plastic shear strain kappa, the integral of |e_1 - e_2| = sqrt2 |z_t| over
+   * the plastic strain increments in the plane (-), a history variable:
    *   c(kappa), phi(kappa), theta(kappa),
-   * either c = c_0 + H kappa, with a closed-form return map (in cone axes
-   * k = k_n + h |z_t| with h = 2 H cos(phi)), or one StrainCurve each, where a
-   * step is one scalar equation (return_map_varying()). The apex of the cone
-   * moves with them; plastic opening at the apex does not change them. The
-   * energy stored by hardening counts as dissipated.
+   * either c = c_0 + H kappa, with a closed-form return map (in cone axes k =
+   * k_n + h |z_t| with h = 2 H cos(phi)), or one StrainCurve per parameter,
+   * with one scalar equation per step (return_map_varying()). The apex of the
+   * cone moves with the parameters; plastic opening at the apex does not change
+   * them. The energy stored by hardening counts as dissipation.
    *
-   * Softening has no internal length: it localises in one row of cells.
+   * Softening without an internal length localises in one row of cells.
    * Softening curves therefore refer to a shear band of the thickness L,
    * Softening length, and a point in a cell of the size l has
    *   d kappa = sqrt2 |dz_t| l/L,
@@ -80,12 +80,13 @@ namespace geocone::GEOCONE_DIM
     std::optional<FlowCone>
     exact_end_cone(const double *history_n, const double slip) const override;
 
-    /** The maximum over the curves. */
+    /** Maximum of (a - b)/a over the curves, see Material. */
     double
     non_associativity() const override;
 
-    /** False at the apex of a cone, which depends on shear but not on opening,
-     *  and for softening, where the tangent is not positive definite. */
+    /** Whether the tangent is symmetric: false if the cone varies, because its
+     *  apex depends on shear but not on opening, and for softening, where the
+     *  tangent is not positive definite. */
     bool
     has_symmetric_tangent() const override;
 
@@ -100,14 +101,14 @@ namespace geocone::GEOCONE_DIM
     add_to_history(const double slip, double *history) const override;
 
   private:
-    /** Index of kappa in the history; l/L is the next. */
+    /** Index of kappa among the history variables; l/L follows. */
     unsigned int
     plastic_shear() const
     {
       return MohrCoulomb::n_history();
     }
 
-    /** kappa at the end of a step. */
+    /** Plastic shear strain kappa at the end of a step (-). */
     double
     sheared(const double *history_n, const double slip) const
     {
@@ -121,11 +122,13 @@ namespace geocone::GEOCONE_DIM
     double
     cohesion_at(const double kappa) const;
 
-    /** @throws InputError if a strength on the curves is not admissible */
+    /** Checks the strength on the curves. @throws InputError if it is not
+     *  admissible */
     void
     check_curves() const;
 
-    /** Strains at which the parameters are checked: all given ones. */
+    /** Plastic shear strains at which the parameters are checked: all points of
+     *  the curves (-). */
     std::vector<double>
     places() const;
 

@@ -15,8 +15,8 @@ namespace geocone::GEOCONE_DIM
   public:
     using WithStiffnessFormula::WithStiffnessFormula;
 
-    /** A plane law unless axisymmetric: s_zz follows from the plane
-     *  stresses. */
+    /** Whether the law is three-dimensional: in axisymmetry only; in plane
+     *  strain s_zz follows from the in-plane stresses. */
     bool
     is_spatial() const override
     {
@@ -35,7 +35,8 @@ namespace geocone::GEOCONE_DIM
     void
     update(const Increment &increment, const Response &response) const override;
 
-    /** Update by the kernel of the cones, with a cone that is never reached. */
+    /** Explicit update by the cone kernel, with a cone that no stress
+     *  reaches. */
     void
     advance(const PointBlock &block, LawCounts &counts) const override;
 

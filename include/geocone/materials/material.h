@@ -16,29 +16,27 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Step data that the law depends on, besides the state of its points at
-   *  t_n. */
+  /** Data of a time step in a material update, besides the state at t_n. */
   struct StepLaw
   {
     double size = 0.; ///< h (s)
 
     /**
-     * Part of the normal stress in the strength that a solver takes from t_n: 0
-     * is the exact law, 1 makes friction explicit
+     * Weight of the normal stress at t_n in the strength, a solver setting
+     * (lagged friction): 0 is the exact law, 1 explicit friction
      * (doc/theory/friction_memory.md). Laws without friction ignore it.
      */
     double friction_lag = 0.;
   };
 
-  /** Input of a material update for a batch of points; equal indices belong to
-   *  the same point. */
+  /** Input of a material update for a batch of points, as arrays by point. */
   struct Increment
   {
     dealii::ArrayView<const Mandel> strain;   ///< strain increments of the step
     dealii::ArrayView<const Mandel> stress_n; ///< stress at t_n (Pa)
 
-    /** History at t_n: n_history numbers for each point, the first
-     *  ConstitutiveLaw::n_history() of which belong to the law. */
+    /** History variables at t_n: n_history values for each point, of which the
+     *  law uses the first ConstitutiveLaw::n_history(). */
     const double *history_n = nullptr;
     unsigned int  n_history = 0;
 
@@ -56,14 +54,14 @@ namespace geocone::GEOCONE_DIM
     double zz;    ///< ds_zz/de_zz
   };
 
-  /** Result of a material update. An empty `tangent`, a null history and null
-   *  out-of-plane quantities are not computed. */
+  /** Output of a material update. Optional quantities (empty `tangent`, null
+   *  pointers) are not computed. */
   struct Response
   {
     dealii::ArrayView<Mandel>       stress;  ///< stress at t_{n+1} (Pa)
     dealii::ArrayView<Mode>         mode;    ///< elastic, cone or apex
     dealii::ArrayView<MandelMatrix> tangent; ///< ds/de, generalised (Pa)
-    double *history = nullptr; ///< in: a copy of history_n; out: at t_{n+1}
+    double *history = nullptr; ///< in: copy of history_n; out: at t_{n+1}
 
     /** @name Spatial laws */
     /** @{ */
@@ -73,13 +71,14 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * A constitutive law with a return map, for all methods: a pure function of a
-   * batch of strain increments and states at t_n, with isotropic elasticity,
-   * which is linear by default (elasticity_at()). In plane scenes the
+   * A constitutive law with a return map, for all methods: the state at t_{n+1}
+   * is a function of strain increments and the state at t_n. Elasticity is
+   * isotropic, and linear by default (elasticity_at()). In plane scenes the
    * out-of-plane stress is
    *   s_zz = nu (s_xx + s_yy) + d,
-   * where d (Pa) is the first history variable, followed by those of hardening
-   * laws. It is constant for plastic flow in the plane; spatial laws change it.
+   * where d (Pa) is the first history variable, followed by the history
+   * variables of hardening laws. d is constant for plastic flow in the plane;
+   * it evolves in spatial laws.
    *
    * Parameters of the base: density (kg/m^3), Young modulus (Pa) if it is
    * constant, Poisson ratio.
@@ -99,15 +98,16 @@ namespace geocone::GEOCONE_DIM
     update(const Increment &increment, const Response &response) const = 0;
 
     /**
-     * Jaky's 1 - a = 1 - sin(phi) for cone laws, an admissible state: the cone
-     * sustains K0 >= (1 - a)/(1 + a) - 2 c cos(phi)/((1 + a) |s_yy|), Rankine's
-     * active pressure. Otherwise nu/(1 - nu), uniaxial strain.
+     * K0 for cone laws by Jaky's formula, 1 - a = 1 - sin(phi), an admissible
+     * state: the cone sustains K0 >= (1 - a)/(1 + a) - 2 c cos(phi)/((1 + a)
+     * |s_yy|), Rankine's active pressure. Otherwise nu/(1 - nu), uniaxial
+     * strain.
      */
     double
     earth_pressure_at_rest() const override;
 
-    /** An explicit step: by the cone kernel for cone laws, otherwise by
-     *  update() of the rotated stress. */
+    /** Explicit step by the cone kernel for cone laws, otherwise by update()
+     *  from the rotated stress. */
     void
     advance(const PointBlock &block, LawCounts &counts) const override;
 
@@ -145,7 +145,7 @@ namespace geocone::GEOCONE_DIM
         values[0] = stress_zz(stress, history);
     }
 
-    /** Whether steps change the history. */
+    /** Whether the law has history variables that evolve during a step. */
     bool
     has_history() const
     {
@@ -166,8 +166,8 @@ namespace geocone::GEOCONE_DIM
       return is_spatial();
     }
 
-    /** Full stress (s_xx, s_yy, s_xy, s_zz) in the plane. @param history of the
-     *  point */
+    /** Full stress of a plane scene in the order xx, yy, xy, zz (Pa).
+     *  @param history of the point */
     SpatialMandel
     whole_stress(const Mandel &stress, const double *history) const;
 
@@ -183,7 +183,8 @@ namespace geocone::GEOCONE_DIM
     virtual std::optional<double>
     overstress(const Mandel &stress, const double *history) const;
 
-    /** Whether flow_cone() changes during steps. */
+    /** Whether flow_cone() evolves with plastic strain (hardening or
+     *  softening). */
     virtual bool
     hardens() const
     {
@@ -191,8 +192,8 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * Cone of a cone law at t_n, by which solutions are checked independently
-     * of update(); no value for other laws.
+     * Strength and flow cone at t_n, for checks of solutions independent of
+     * update(); no value for laws other than cone laws.
      * @param history of the point; null is allowed for laws without hardening
      */
     virtual std::optional<FlowCone>
@@ -201,17 +202,17 @@ namespace geocone::GEOCONE_DIM
       return std::nullopt;
     }
 
-    /** Line |s_t| <= a s_n + k of flow_cone() with s_n = sqrt2 p,
-     *  |s_t| = q/sqrt2. */
+    /** Yield curve of flow_cone() in a section plane: the line |s_t| = a s_n +
+     *  k with s_n = sqrt2 p, |s_t| = q/sqrt2. */
     std::vector<YieldCurve>
     yield_curves(const Components   &stress,
                  const double       *history,
                  const SectionPlane &plane) const override;
 
     /**
-     * Cone that a step solves for: flow_cone() with the delayed part of the
-     * normal stress (FlowCone::delayed()).
-     * @param stress_n,history_n of the point at t_n
+     * Cone of the implicit equations of a step: flow_cone() with the delayed
+     * part of the normal stress (FlowCone::delayed()).
+     * @param stress_n,history_n state of the point at t_n
      */
     virtual std::optional<FlowCone>
     step_cone(const Mandel  &stress_n,
@@ -219,8 +220,8 @@ namespace geocone::GEOCONE_DIM
               const StepLaw &step) const;
 
     /**
-     * step_cone() and flow_cone() at the end of a step with the plastic shear
-     * |z_t| = slip, without further hardening.
+     * Cones at the end of a step with the plastic shear |z_t| = slip:
+     * end_cone() of step_cone(), exact_end_cone() of flow_cone().
      */
     virtual std::optional<FlowCone>
     end_cone(const Mandel  &stress_n,
@@ -230,26 +231,28 @@ namespace geocone::GEOCONE_DIM
     virtual std::optional<FlowCone>
     exact_end_cone(const double *history_n, const double slip) const;
 
-    /** Check of the flow law at the end of a step, independent of update(); by
-     *  flow_cone() for cone laws, no value for laws without a change of
-     *  variable. */
+    /** Check of yield condition and flow rule at the end of a step, independent
+     *  of update(): by flow_cone() for cone laws; no value for laws without de
+     *  Saxce's change of variable. */
     virtual std::optional<FlowCheck>
     check_flow(const PointStep &point, const StepLaw &step) const;
 
-    /** @name The law as a root of its natural map, see NaturalMap */
+    /** @name Formulation of the law as a root of its natural map, see
+     *  NaturalMap */
     /** @{ */
-    /** Whether the law has a natural map in this dimension; spatial laws change
-     *  s_zz, which is not an unknown of plane scenes. */
+    /** Whether the law has a natural map in this dimension; not for spatial
+     *  laws in plane scenes, where s_zz is not an unknown. */
     virtual bool
     has_natural_map() const
     {
       return !is_spatial();
     }
 
-    /** Projection of s - rho Psi(z) for laws that are not cones. */
+    /** Projection of s - rho Psi(z) onto the admissible stresses, for laws that
+     *  are not cones. */
     struct Projection
     {
-      Mode         mode;      ///< region
+      Mode         mode;      ///< region of the projection
       Mandel       stress;    ///< P_C (Pa)
       MandelMatrix slope;     ///< J of P_C
       MandelMatrix psi_slope; ///< Psi'
@@ -266,7 +269,8 @@ namespace geocone::GEOCONE_DIM
     }
     /** @} */
 
-    /** overstress() of spatial laws. @param history of the point */
+    /** Violation of the yield condition of spatial laws, see overstress() (Pa).
+     *  @param history of the point */
     virtual std::optional<double>
     yield_function(const SpatialMandel & /*stress*/,
                    const double * /*history*/) const
@@ -274,8 +278,8 @@ namespace geocone::GEOCONE_DIM
       return std::nullopt;
     }
 
-    /** Work per volume (J/m^3) of plastic strain at a stress, in excess of that
-     *  at the strength without memory, for spatial laws; can be negative.
+    /** Excess of the plastic work density over the dissipation by the strength
+     *  without memory, for spatial laws (J/m^3); can be negative.
      *  @param history of the point */
     virtual double
     power_beyond_strength(const SpatialMandel & /*plastic_strain*/,
@@ -292,36 +296,36 @@ namespace geocone::GEOCONE_DIM
       return 0.;
     }
 
-    /** Sets the scene's tau if the file has "automatic" and the exact law would
-     *  be hard to solve. */
+    /** Sets the relaxation time tau (s) chosen by the scene, if the parameter
+     *  is "automatic" and the exact law is hard to solve. */
     virtual void
     set_friction_memory(const double /*tau*/)
     {}
 
-    /** Cone of a point that has not yielded. */
+    /** Cone before any hardening; no value for laws other than cone laws. */
     std::optional<FlowCone>
     initial_cone() const;
 
-    /** Admissible stress nearest to a stress (Pa), which is returned unchanged
-     *  by laws without a cone. @param history of the point */
+    /** Nearest admissible stress (Pa); the given stress for laws without a
+     *  cone. @param history of the point */
     Mandel
     nearest_admissible(const Mandel &stress, const double *history) const;
 
-    /** Divides c and tan(phi) of the file by F, and limits theta to the reduced
-     *  phi.
-     *  @throws InputError for laws without such a strength */
+    /** Strength reduction: divides c and tan(phi) of the parameter file by F,
+     *  and limits theta to the reduced phi.
+     *  @throws InputError for laws without cohesion and friction */
     virtual void
     reduce_strength(const double F);
 
-    /** Whether the search for a factor of safety reduces the strength of this
-     *  material. */
+    /** Whether strength reduction applies to this material. */
     bool
     is_reduced() const
     {
       return reduced;
     }
 
-    /** Increase of the k of flow_cone() with depth: slope (level - y). */
+    /** Increase of the strength k of flow_cone() with depth: slope (level -
+     *  y). */
     struct Growth
     {
       double slope = 0.; ///< (Pa/m)
@@ -348,14 +352,14 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * Largest (a - b)/a for which the line search alone converged on most
-     * meshes; theta >= phi/2 corresponds to (nearly) 1/2.
+     * Threshold of (a - b)/a up to which Newton's method with line search
+     * converged on most meshes; theta >= phi/2 corresponds to (nearly) 1/2.
      */
     static constexpr double hard_flow = 0.51;
 
     /**
-     * (a - b)/a between 0 (associated) and 1 (no dilatancy), with a and b of
-     * the cone before any hardening.
+     * Degree of non-associativity (a - b)/a of the cone before any hardening,
+     * from 0 (associated) to 1 (no dilatancy).
      */
     virtual double
     non_associativity() const;
@@ -385,19 +389,19 @@ namespace geocone::GEOCONE_DIM
 
     /** @name Laws with a stiffness that depends on stress or position */
     /** @{ */
-    /** Elastic energy of a stress, per volume (J/m^3). @param history of the
+    /** Elastic energy density at a stress (J/m^3). @param history of the
      *  point */
     virtual double
     elastic_energy(const Mandel &stress, const double *history) const;
 
-    /** Elasticity at a stress. @param history of the point */
+    /** Elastic stiffness at a stress. @param history of the point */
     virtual Elasticity
     elasticity_at(const Mandel & /*stress*/, const double * /*history*/) const
     {
       return elastic;
     }
 
-    /** Whether elasticity_at() is always elasticity(). */
+    /** Whether the elastic stiffness is the same at all stresses. */
     virtual bool
     has_constant_stiffness() const
     {
@@ -409,8 +413,8 @@ namespace geocone::GEOCONE_DIM
     /** Source of the stiffness of a law. */
     enum class Stiffness
     {
-      constant, ///< parameters
-      of_state  ///< elasticity_at(), with Poisson's ratio
+      constant, ///< by parameters
+      of_state  ///< by elasticity_at(), with constant Poisson's ratio
     };
     Material(const std::string &section, const Stiffness stiffness);
 
@@ -429,7 +433,8 @@ namespace geocone::GEOCONE_DIM
     }
 
     /** Cone that contains the stress at the end of a step: flow_cone(), except
-     *  for laws whose strength follows the stress. */
+     *  for friction with memory, where it includes the delayed normal
+     *  stress. */
     virtual std::optional<FlowCone>
     strength(const double *history) const
     {

@@ -15,12 +15,12 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Creates the law of a section. */
+  /** Function that creates the law of a section, e.g. "Materials/soil". */
   using MakeLaw =
     std::unique_ptr<ConstitutiveLaw> (*)(const std::string &section);
 
-  /** Adds a law of another program, built on this library (doc/tutorials/soil.md), to
-   *  those that make_material() knows. */
+  /** Registers a law of another program, built on this library
+   *  (doc/tutorials/soil.md), for make_material(). */
   void
   add_law(const std::string &type, const MakeLaw make);
 
@@ -32,14 +32,14 @@ namespace geocone::GEOCONE_DIM
   std::unique_ptr<ConstitutiveLaw>
   make_material(const std::string &type, const std::string &section);
 
-  /** Names known to make_material(). */
+  /** Names of all registered laws. */
   std::vector<std::string>
   material_types();
 
   /**
    * Parameters of all laws with the names of these laws, so that a file can
-   * keep parameters of laws other than the selected one. To be called before
-   * anything is declared.
+   * contain parameters of laws other than the selected law. To be called before
+   * any parameter is declared.
    */
   ParameterFile::OfOthers
   parameters_of_laws();
@@ -61,11 +61,13 @@ namespace geocone::GEOCONE_DIM
     void
     set_axisymmetric();
 
-    /** See ConstitutiveLaw::set_gravity(). */
+    /** Computes the densities from unit weights, see
+     *  ConstitutiveLaw::set_gravity(). */
     void
     set_gravity(const double g);
 
-    /** Properties of the laws, after prepare() and later changes. */
+    /** Properties of the laws, up to date after prepare() and later changes of
+     *  parameters. */
     const LawTraits &
     traits() const
     {
@@ -76,8 +78,8 @@ namespace geocone::GEOCONE_DIM
     std::vector<std::string>
     warnings() const;
 
-    /** @throws InputError for undrained soil. @param what does not support
-     *  it */
+    /** Rejects undrained soil. @throws InputError @param what feature that does
+     *  not support it */
     void
     refuse_undrained(const std::string &what, const std::string &remedy) const;
 
@@ -87,7 +89,8 @@ namespace geocone::GEOCONE_DIM
       return list.size();
     }
 
-    /** @name Access to a material as any law, or as a law in closed form */
+    /** @name Access to a material as a ConstitutiveLaw, or as a law with a
+     *  closed-form return map */
     /** @{ */
     const ConstitutiveLaw &
     law(const unsigned int i) const
@@ -103,7 +106,8 @@ namespace geocone::GEOCONE_DIM
     /** @} */
 
     /**
-     * @throws InputError if a law is not in closed form, which the method
+     * Checks that all laws have a closed-form return map, which @p method
+     * needs. @throws InputError
      * @p method needs
      */
     void
@@ -115,21 +119,23 @@ namespace geocone::GEOCONE_DIM
       return names()[i];
     }
 
-    /** Sets tau (s) of the laws for which it is automatic. */
+    /** Sets the relaxation time tau (s) of laws with automatic friction
+     *  memory. */
     void
     set_friction_memory(const double tau);
 
-    /** See Material::reduce_strength(). */
+    /** Reduces the strength of all materials by the factor F, see
+     *  Material::reduce_strength(). */
     void
     reduce_strength(const double F);
 
-    /** Section of the materials as text, with the values chosen by the
-     *  scene. */
+    /** Parameter section of the materials as text, with the values chosen by
+     *  the scene. */
     std::string
     as_parameters() const;
 
-    /** Largest number of history variables of a law, plus one for the excess
-     *  pore pressure if there is undrained soil. */
+    /** Number of history variables stored per point: maximum over all laws,
+     *  plus the excess pore pressure for undrained soil. */
     unsigned int
     n_history() const;
 
@@ -138,7 +144,7 @@ namespace geocone::GEOCONE_DIM
     shown_names() const;
 
   private:
-    /** Present traits of the laws. */
+    /** Properties of the laws from their current parameters. */
     LawTraits
     gather() const;
 
@@ -146,7 +152,7 @@ namespace geocone::GEOCONE_DIM
 
     LawTraits                     found;
     std::vector<std::string>      types;
-    std::vector<const Material *> in_closed_form; ///< or null
+    std::vector<const Material *> in_closed_form; ///< null for other laws
   };
 } // namespace geocone::GEOCONE_DIM
 

@@ -13,18 +13,18 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Modified Cam-Clay (Roscoe and Burland 1968), a law with a cap, for all
-   * methods. With P = p + a and Pc = pc + a, p the mean pressure and a the
-   * attraction, the yield surface, with associated flow, is the ellipse
+   * Modified Cam-Clay (Roscoe and Burland 1968), for all methods. With P = p +
+   * a and Pc = pc + a, p the mean pressure and a the attraction, the yield
+   * surface, with associated flow, is the ellipse
    *   f = q^2/M^2 + P (P - Pc) = 0,  q = sqrt(3/2) |dev s|,
    * elasticity has the bulk modulus K = P/kappa and a constant Poisson ratio,
-   * and Pc increases with the compressive plastic volume strain w: dPc = Pc
+   * and Pc increases with the compressive plastic volumetric strain w: dPc = Pc
    * dw/(lambda - kappa). kappa and lambda are slopes of ln v over ln p, so that
    *   P = P_n exp(de/kappa),  Pc = Pc_n exp(dw/(lambda - kappa))
    * are exact for any elastic volume strain de and any dw. Shear is integrated
    * with the secant modulus of the step, G = g (P - P_n)/de (Borja 1991), which
    * is exact for a fixed direction of the elastic strain. The flow direction is
-   * that at the end of the step (backward Euler); isotropic compression is
+   * evaluated at the end of the step (backward Euler); isotropic compression is
    * exact in one step.
    *
    * On the yield surface P = Pc cos^2(phi/2) and q = M Pc sin(phi)/2. An angle
@@ -34,11 +34,11 @@ namespace geocone::GEOCONE_DIM
    * exact for this root. It is not symmetric, because the shear modulus depends
    * on the pressure.
    *
-   * Soil in tension keeps P = 1 Pa, however far it opens, and a yield surface
-   * that contains its stress (mode apex); when it closes, it carries load at
-   * once.
+   * Soil in tension retains P = 1 Pa at any opening strain, and a yield surface
+   * that contains its stress (mode apex); it carries load as soon as the strain
+   * reverses.
    *
-   * The history is Material's and pc (Pa).
+   * The history variables are those of Material, then pc (Pa).
    */
   class ModifiedCamClay : public SpatialLaw
   {
@@ -48,7 +48,8 @@ namespace geocone::GEOCONE_DIM
     void
     prepare() override;
 
-    /** Jaky's 1 - sin(phi), sin(phi) = 3 M/(6 + M) in triaxial compression. */
+    /** K0 by Jaky's formula 1 - sin(phi), with sin(phi) = 3 M/(6 + M) for
+     *  triaxial compression. */
     double
     earth_pressure_at_rest() const override
     {
@@ -85,7 +86,8 @@ namespace geocone::GEOCONE_DIM
     std::optional<double>
     overstress(const Mandel &stress, const double *history) const override;
 
-    /** @throws InputError always: M and pc are not cohesion and friction */
+    /** Rejects strength reduction. @throws InputError always: M and pc are not
+     *  cohesion and friction angle */
     void
     reduce_strength(const double F) override;
 
@@ -100,13 +102,13 @@ namespace geocone::GEOCONE_DIM
                    const SpatialMandel &to,
                    const double        *history) const override;
 
-    /** kappa (p - a ln(1 + p/a)) + q^2/(6G), the energy stored by isotropic
-     *  compression and by shear at constant pressure. An exact stored energy
-     *  does not exist for constant nu. */
+    /** Elastic energy density kappa (p - a ln(1 + p/a)) + q^2/(6G) of isotropic
+     *  compression, then shear at constant pressure (J/m^3). An exact elastic
+     *  energy does not exist for constant nu. */
     double
     elastic_energy(const Mandel &stress, const double *history) const override;
 
-    /** @name Yield surface: M (-), a and pc (Pa) */
+    /** @name Parameters of the yield surface: M (-), a and pc (Pa) */
     /** @{ */
     double
     critical_slope() const
@@ -145,10 +147,11 @@ namespace geocone::GEOCONE_DIM
             SpatialMandelMatrix *tangent) const override;
 
   private:
-    /** State of a step for an angle phi on its yield surface. */
+    /** State at the end of a step for an angle phi on the yield surface. */
     struct Trial;
 
-    /** Elastic law from P_n over a volume strain x, compression positive. */
+    /** Elastic response from P_n to a volumetric strain increment x,
+     *  compression positive. */
     struct Elastic
     {
       double P;     ///< P_n exp(x/kappa) (Pa)
@@ -172,7 +175,7 @@ namespace geocone::GEOCONE_DIM
       return a - trace(stress) / 3.;
     }
 
-    /** Size Pc of the yield surface through a stress, P + q^2/(M^2 P) (Pa). */
+    /** Size Pc = P + q^2/(M^2 P) of the yield surface through a stress (Pa). */
     double
     size_through(const SpatialMandel &stress) const;
 
@@ -182,7 +185,7 @@ namespace geocone::GEOCONE_DIM
       return SpatialLaw::n_history();
     }
 
-    /** Lower limit of P: 1 Pa. */
+    /** Lower limit of P: 1 Pa, in scaled units of stress. */
     static double
     lowest()
     {

@@ -45,11 +45,12 @@ namespace geocone::GEOCONE_DIM
     void
     update(const Increment &increment, const Response &response) const override;
 
-    /** The exact cone, without memory. */
+    /** Exact cone, without friction memory. */
     std::optional<FlowCone>
     flow_cone(const double *history) const override;
 
-    /** The natural map projects onto the cone alone. */
+    /** Whether the law has a natural map: only without tensile cut-off, because
+     *  the map projects onto the cone alone. */
     bool
     has_natural_map() const override
     {
@@ -110,7 +111,7 @@ namespace geocone::GEOCONE_DIM
     }
 
   protected:
-    /** Whether the plastic shear of a step changes its cone by end_cone(),
+    /** Whether the cone of a step varies with its plastic shear by end_cone(),
      *  other than by linear hardening. */
     virtual bool
     varies() const
@@ -124,12 +125,13 @@ namespace geocone::GEOCONE_DIM
     add_to_history(const double /*slip*/, double * /*history*/) const
     {}
 
-    /** Cone of given parameters (Pa, degrees). */
+    /** Cone from cohesion (Pa), friction angle and dilatancy angle
+     *  (degrees). */
     static FlowCone
     cone_of(const double cohesion, const double phi, const double theta);
 
-    /** Cone with the delayed part of a step (step_cone()). @param exact
-     *  flow_cone() */
+    /** Cone with the delayed normal stress of a step, see step_cone().
+     *  @param exact cone without memory */
     FlowCone
     with_memory(const FlowCone &exact,
                 const Mandel   &stress_n,

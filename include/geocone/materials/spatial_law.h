@@ -12,11 +12,11 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * A three-dimensional law, i.e. one of the full stress tensor ("spatial"),
-   * for plane strain, axisymmetric and three-dimensional scenes: four or six
-   * components. In plane strain the plastic strain along z is balanced by
-   * elastic strain, so that s_zz follows from the flow rule and affects the
-   * result.
+   * A three-dimensional ("spatial") law, which depends on the full stress
+   * tensor, for plane strain, axisymmetric and three-dimensional scenes: four
+   * or six stress components. In plane strain the plastic strain along z is
+   * balanced by elastic strain, so that s_zz follows from the flow rule and
+   * affects the result.
    */
   class SpatialLaw : public Material
   {
@@ -37,9 +37,9 @@ namespace geocone::GEOCONE_DIM
 
   protected:
     /**
-     * Stress s at t_{n+1}.
+     * Computes the stress s at t_{n+1}.
      * @param history_n of the point
-     * @param[out] history the variables after Material's, or null
+     * @param[out] history history variables after those of Material, or null
      * @param[out] tangent ds/de, or null
      */
     virtual Mode
@@ -67,12 +67,12 @@ namespace geocone::GEOCONE_DIM
     }
 
   protected:
-    /** Strength variables of a point: the increase of its cohesion, and the
-     *  weight lambda of the delayed normal stress p in the strength; the
-     *  remaining weight is that of the normal stress at the end of the step. */
+    /** Strength variables of a point in a step: increase of the cohesion, and
+     *  weight lambda of the delayed normal stress p in the strength; the normal
+     *  stress at the end of the step has the weight 1 - lambda. */
     struct OwnStrength
     {
-      double cohesion = 0.; ///< increase above that of the law (Pa)
+      double cohesion = 0.; ///< increase above the law's cohesion (Pa)
       double part     = 0.; ///< lambda
       double normal = 0.; ///< p (Pa), as FrictionalSpatialLaw::normal_stress()
     };
@@ -85,15 +85,15 @@ namespace geocone::GEOCONE_DIM
       return {};
     }
 
-    /** Updates the history of a point after a step. */
+    /** Updates the history variables of a point after a step. */
     virtual void
     remember(const SpatialMandel & /*stress*/,
              const StepLaw & /*step*/,
              double * /*history*/) const
     {}
 
-    /** Stress s at t_{n+1} from the trial stress s_n + D e. @param[out] tangent
-     *  ds/de, or null */
+    /** Return map: stress s at t_{n+1} from the trial stress s_n + D e.
+     *  @param[out] tangent ds/de, or null */
     virtual Mode
     return_to_strength(const SpatialMandel &trial,
                        const OwnStrength   &own,
@@ -137,7 +137,7 @@ namespace geocone::GEOCONE_DIM
       set_strength(F);
     }
 
-    /** Jaky's 1 - sin(phi). */
+    /** K0 by Jaky's formula 1 - sin(phi). */
     double
     earth_pressure_at_rest() const override;
 
@@ -145,11 +145,13 @@ namespace geocone::GEOCONE_DIM
     check_flow(const PointStep &point, const StepLaw &step) const override;
 
   protected:
-    /** Normal stress in the strength (Pa), compression positive. */
+    /** Normal stress on which the strength depends (Pa), compression
+     *  positive. */
     virtual double
     normal_stress(const SpatialMandel &stress) const = 0;
 
-    /** check_flow() for a given plastic strain increment. */
+    /** Check of yield condition and flow rule (check_flow()) for a given
+     *  plastic strain increment. */
     virtual FlowCheck
     check_plastic_strain(const SpatialMandel &plastic_strain,
                          const SpatialMandel &stress,
@@ -167,7 +169,7 @@ namespace geocone::GEOCONE_DIM
 
     using Frictional::Frictional;
 
-    /** Sets the strength of the file, reduced by the factor F. */
+    /** Sets the strength: parameters of the file, reduced by the factor F. */
     virtual void
     set_strength(const double F) = 0;
 

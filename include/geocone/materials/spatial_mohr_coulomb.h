@@ -20,14 +20,14 @@ namespace geocone::GEOCONE_DIM
    * in-plane pair in plane strain; this law also yields on edges of the pyramid
    * where s_zz is the largest or the smallest stress.
    *
-   * Return map in principal stresses: to the plane f_13; if the order of the
-   * stresses is violated, to the edge f_13 = f_12 = 0 (s_2 = s_3) or
-   * f_13 = f_23 = 0 (s_1 = s_2); if it is still violated, to the apex s_i = c
+   * Return map in principal stresses: onto the plane f_13 = 0; if this violates
+   * the order of the stresses, to the edge f_13 = f_12 = 0 (s_2 = s_3) or f_13
+   * = f_23 = 0 (s_1 = s_2); if the order is still violated, to the apex s_i = c
    * cot(phi) (de Souza Neto, Peric and Owen 2008, section 8.2). All three are
    * linear in the trial stress, and so are their derivatives; the principal
    * directions are those of the trial stress. Friction with memory
-   * (FrictionMemory) leads to another pyramid with the same flow: a part of
-   * s_1 + s_3, times sin(phi) - sin(theta), is replaced by -2 p.
+   * (FrictionMemory) leads to another pyramid with the same flow: a part of s_1
+   * + s_3, times sin(phi) - sin(theta), is replaced by -2 p.
    */
   class SpatialMohrCoulomb : public FrictionalSpatialLaw
   {
@@ -42,7 +42,7 @@ namespace geocone::GEOCONE_DIM
       return given;
     }
 
-    /** (sin(phi) - sin(theta))/sin(phi) */
+    /** Degree of non-associativity (sin(phi) - sin(theta))/sin(phi). */
     double
     non_associativity() const override;
     bool
@@ -51,7 +51,7 @@ namespace geocone::GEOCONE_DIM
       return sin_theta > 0.;
     }
 
-    /** Update by the kernel for several points at once. */
+    /** Explicit update by the kernel that processes several points at once. */
     void
     advance(const PointBlock &block, LawCounts &counts) const override;
 
@@ -92,7 +92,8 @@ namespace geocone::GEOCONE_DIM
                          const SpatialMandel &stress,
                          const OwnStrength   &own) const override;
 
-    /** -(s_1 + s_3)/2, the in-plane normal stress of the two. */
+    /** Normal stress -(s_1 + s_3)/2 in the plane of the major and minor
+     *  principal stresses (Pa). */
     double
     normal_stress(const SpatialMandel &stress) const override;
 
@@ -106,8 +107,8 @@ namespace geocone::GEOCONE_DIM
     using Principal       = Eigen::Vector3d;
     using PrincipalMatrix = Eigen::Matrix3d;
 
-    /** Yield functions f_ij = s_i - s_j + (s_i + s_j) sine - size, and the apex
-     *  stress. */
+    /** Mohr-Coulomb pyramid with the yield functions f_ij = s_i - s_j + (s_i +
+     *  s_j) sine - size. */
     struct Pyramid
     {
       double sine, size; ///< 2 c cos(phi) (Pa)
@@ -119,7 +120,7 @@ namespace geocone::GEOCONE_DIM
                          : std::numeric_limits<double>::infinity();
       }
 
-      /** The largest f_ij, for ordered stresses (Pa). */
+      /** Largest yield function f_13, for ordered principal stresses (Pa). */
       double
       yield_function(const Principal &s) const
       {
@@ -127,10 +128,10 @@ namespace geocone::GEOCONE_DIM
       }
 
       /**
-       * Whether a stress is within the largest circular cone in the pyramid.
-       * This needs no principal stresses: f_13 <= 2 sqrt(J_2
-       * (1 + sine^2/3)) + 2 p sine - size over all Lode angles, with
-       * p = tr(s)/3 and J_2 = |dev s|^2/2.
+       * Whether a stress lies in the largest circular cone inside the pyramid,
+       * a test without principal stresses: f_13 <= 2 sqrt(J_2 (1 + sine^2/3)) +
+       * 2 p sine - size over all Lode angles, with p = tr(s)/3 and J_2 = |dev
+       * s|^2/2.
        */
       bool
       holds_cone(const SpatialMandel &stress) const
@@ -149,13 +150,13 @@ namespace geocone::GEOCONE_DIM
       return {exact.sine, exact.size + size_per_cohesion * cohesion};
     }
 
-    /** Pyramid with delayed friction: a part of the normal stress in the
-     *  strength is that of the past, as in FlowCone::delayed(). */
+    /** Pyramid of a step with friction memory: part of the normal stress in the
+     *  strength is the delayed normal stress, as in FlowCone::delayed(). */
     Pyramid
     delayed(const OwnStrength &own) const;
 
-    /** A vector in principal directions, and the sums of its positive and
-     *  negative values. */
+    /** Vector y of de Saxce's change of variable as a tensor, and the sums of
+     *  its positive and negative principal values. */
     struct Normal
     {
       SpatialMandel whole;
@@ -163,11 +164,12 @@ namespace geocone::GEOCONE_DIM
     };
 
     /**
-     * Maps the flow of the pyramid for theta to the normals of that for phi by
+     * De Saxce's change of variable for the pyramid: maps flow directions of
+     * the pyramid for theta to normals of the pyramid for phi by
      *   y_i = e_i (1 + sin(phi))/(1 + sin(theta))   if e_i > 0,
      *   y_i = e_i (1 - sin(phi))/(1 - sin(theta))   if e_i < 0,
-     * for the principal values e_i of the plastic strain increment, in its own
-     * axes (doc/theory/laws.md): de Saxce's change of variable for the pyramid.
+     * for the principal values e_i of the plastic strain increment, in its
+     * principal axes (doc/theory/laws.md).
      * @param[out] slope dy/de, or null
      */
     Normal
@@ -175,7 +177,7 @@ namespace geocone::GEOCONE_DIM
               const Pyramid       &pyramid,
               SpatialMandelMatrix *slope) const;
 
-    /** Solves the one-point problem. @param flow sine of the dilatancy angle
+    /** Return map of one point. @param flow sine of the dilatancy angle
      *  @param[out] tangent ds/de, or null */
     static Mode
     return_to(const Elasticity    &elastic,
@@ -185,8 +187,8 @@ namespace geocone::GEOCONE_DIM
               SpatialMandel       &stress,
               SpatialMandelMatrix *tangent);
 
-    /** Projection onto a pyramid: its associated return map with the stiffness
-     *  1. */
+    /** Projection onto a pyramid: the associated return map with unit
+     *  stiffness. */
     static Mode
     project(const Pyramid       &pyramid,
             const SpatialMandel &x,
@@ -197,7 +199,7 @@ namespace geocone::GEOCONE_DIM
         Elasticity(1., 0.), pyramid, pyramid.sine, x, projected, slope);
     }
 
-    /** return_to() for ordered principal stresses.
+    /** Return map for ordered principal stresses, see return_to().
      *  @param flow sine of the dilatancy angle
      *  @param[out] tangent ds/de of principal values */
     static Mode

@@ -11,8 +11,8 @@
 namespace geocone
 {
   /**
-   * Variation of a parameter with plastic strain from its initial value y_0, as
-   * text:
+   * Variation of a strength parameter with plastic strain from its initial
+   * value y_0, parsed from a text:
    *   constant                    y_0,
    *   g_1: y_1, g_2: y_2, ...     linear from (0, y_0) to (g_1, y_1) and so on,
    *                               and constant beyond the last,
@@ -21,7 +21,7 @@ namespace geocone
   class StrainCurve
   {
   public:
-    /** @throws InputError naming the parameter */
+    /** Parses the text. @throws InputError with the name of the parameter */
     void
     read(const std::string &parameter,
          const std::string &text,
@@ -36,16 +36,16 @@ namespace geocone
       return points.size() == 1;
     }
 
-    /** Smallest and largest value. */
+    /** Smallest and largest value of the curve. */
     std::pair<double, double>
     range() const;
 
-    /** Smallest derivative, negative for decreasing curves. */
+    /** Minimum of the derivative, negative for decreasing curves. */
     double
     least_slope() const;
 
-    /** Strains at which the curve changes; for an exponential curve, some
-     *  samples. */
+    /** Plastic strains of the points of the curve; for an exponential curve,
+     *  sampling points. */
     std::vector<double>
     places() const;
 

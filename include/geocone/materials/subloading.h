@@ -21,8 +21,8 @@ namespace geocone::GEOCONE_DIM
    *
    * History of a point, components without Mandel factors: stress_zz, in the
    * plane only; the similarity centre a (xx, yy, zz, xy, in three dimensions
-   * also yz, zx), tension positive; beta likewise; the size pcb; the structure
-   * ratio Rb.
+   * also yz, zx), tension positive; the rotation beta in the same components;
+   * the size pcb; the structure ratio Rb.
    */
   class Subloading : public ConstitutiveLaw
   {
@@ -56,7 +56,7 @@ namespace geocone::GEOCONE_DIM
     double
     wave_modulus(const Stress &stress, const double *history) const override;
 
-    /** Jaky's 1 - sin(phi), with sin(phi) = 3 Mc/(6 + Mc). */
+    /** K0 by Jaky's formula 1 - sin(phi), with sin(phi) = 3 Mc/(6 + Mc). */
     double
     earth_pressure_at_rest() const override
     {
@@ -82,7 +82,8 @@ namespace geocone::GEOCONE_DIM
                  const double       *history,
                  const SectionPlane &plane) const override;
 
-    /** @name One point with n = 4 or 6 components, compression positive */
+    /** @name Model and state of one point with n = 4 or 6 stress components,
+     *  compression positive */
     /** @{ */
     template <int n>
     const SubloadingModel<n> &
@@ -95,17 +96,17 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * Initial state of a stress (Pa) by the parameters: a = chi sigma, beta,
-     * Rb, and pcb as given or by the overconsolidation ratio.
+     * Initial state for a stress (Pa) from the parameters: a = chi sigma, beta,
+     * Rb, and pcb as given or from the overconsolidation ratio.
      * @return a note on values that had to be changed, or empty
-     * @throws InputError if there is no such state
+     * @throws InputError if no such state exists
      */
     template <int n>
     std::string
     initial_state(const typename SubloadingModel<n>::Vector &stress,
                   SubloadingState<n>                        &state) const;
 
-    /** State of a point. @param stress tension positive */
+    /** State of a point in the model. @param stress tension positive */
     SubloadingState<n_spatial>
     state(const Components &stress, const double *history) const;
     /** @} */
@@ -116,7 +117,7 @@ namespace geocone::GEOCONE_DIM
     void
     check_initial() const;
 
-    /** Pressure by which beta is multiplied. */
+    /** Pressure that multiplies the rotation beta. */
     enum class Rotation
     {
       p,

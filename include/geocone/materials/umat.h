@@ -13,39 +13,40 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * User-defined law for small strains: a function in a shared object with the
-   * UMAT interface of Abaqus/Standard. It has four components xx, yy, zz, xy in
-   * plane strain and around an axis, and six, xx, yy, zz, xy, xz, yz, in three
-   * dimensions; tension is positive, and shear strains are doubled.
+   * User-defined law for small strains: a function in a shared library with the
+   * UMAT interface of Abaqus/Standard. Stress has four components xx, yy, zz,
+   * xy in plane strain and axisymmetry, and six, xx, yy, zz, xy, xz, yz, in
+   * three dimensions; tension is positive, and shear strains are engineering
+   * strains.
    *
-   * Young's modulus and Poisson's ratio are those of small elastic strains:
-   * they determine the initial guess of a step, the speed of waves, energies
-   * and the plastic strain shown, not the stress.
+   * Young's modulus and Poisson's ratio are used for the initial guess of a
+   * step, wave speeds, energies and the output of plastic strain, not for the
+   * stress.
    *
-   * The history is Material's, the state variables, the total strain
-   * (components in the order of Mandel vectors), half of the axial vector of
-   * the spin increment (explicit steps only), the time (s) and the size of the
-   * cell (m). A function that asks for a smaller step (PNEWDT < 1) makes the
-   * stress NaN, by which the step fails.
+   * The history variables are those of Material, the state variables, the total
+   * strain (components in the order of Mandel vectors), half of the axial
+   * vector of the spin increment (explicit steps only), the time (s) and the
+   * size of the cell (m). If the function requests a smaller step (PNEWDT < 1),
+   * the stress is set to NaN, and the step fails.
    */
   class Umat : public SpatialLaw
   {
   public:
     explicit Umat(const std::string &section);
 
-    /** Sets the folder to which the name of the library is relative. */
+    /** Sets the folder to which the file name of the library is relative. */
     void
     set_folder(const std::string &folder)
     {
       folder_of_parameters = folder;
     }
 
-    /** Loads the library. @throws InputError if the command line does not allow
-     *  it */
+    /** Loads the shared library. @throws InputError if the command line does
+     *  not allow it */
     void
     prepare() override;
 
-    /** Rotates the total strain with the stress. */
+    /** Explicit update, which rotates the total strain with the stress. */
     void
     advance(const PointBlock &block, LawCounts &counts) const override;
 
@@ -88,8 +89,8 @@ namespace geocone::GEOCONE_DIM
       return false;
     }
 
-    /** @throws InputError always: the constants are known to the function
-     *  only */
+    /** Rejects strength reduction. @throws InputError always: only the function
+     *  interprets the constants */
     void
     reduce_strength(const double F) override;
 

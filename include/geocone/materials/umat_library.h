@@ -9,8 +9,9 @@
 
 namespace geocone
 {
-  /** The subroutine UMAT of Abaqus/Standard as gfortran calls it: all arguments
-   *  by reference, and the length of CMNAME at the end. */
+  /** Signature of the subroutine UMAT of Abaqus/Standard as compiled by
+   *  gfortran: all arguments by reference, and the length of CMNAME at the
+   *  end. */
   using UmatFunction = void (*)(double       *stress,
                                 double       *statev,
                                 double       *ddsdde,
@@ -50,21 +51,21 @@ namespace geocone
                                 const int    *kinc,
                                 std::size_t   length_of_cmname);
 
-  /** Option of the command line without which no library is loaded. */
+  /** Command-line option that allows shared libraries to be loaded. */
   constexpr const char *option_for_libraries = "--load-library";
 
-  /** Whether the command line of this process allows libraries, which can
-   *  execute any code, to be loaded. */
+  /** Whether the command line allows shared libraries to be loaded, which can
+   *  execute any code; false by default. */
   bool &
   may_load_libraries();
 
   /**
    * Loads a shared object, which remains loaded until the process ends, and
    * finds a function in it.
-   * @param path of the file
-   * @param function its name, or in Fortran the name without the underscore
+   * @param path of the shared library
+   * @param function name of the function; in Fortran without the underscore
    * @param parameters section of the parameters, for messages
-   * @throws InputError if it cannot be loaded or has no such function
+   * @throws InputError if the library cannot be loaded or lacks the function
    */
   UmatFunction
   load_umat(const std::string &path,

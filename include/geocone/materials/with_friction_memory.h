@@ -13,9 +13,9 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * A law with optional friction with memory, i.e. its strength follows the
-   * normal stress with a delay: the delayed stress p (Pa) is then the history
-   * variable after those of the base class.
+   * A law with optional friction with memory: the strength depends on a delayed
+   * normal stress p (Pa), stored as the history variable after those of the
+   * base class.
    * @tparam Base Material, or a class derived from it
    */
   template <typename Base>
@@ -71,26 +71,27 @@ namespace geocone::GEOCONE_DIM
   protected:
     using Base::Base;
 
-    /** Limit of p at constant stress (Pa). */
+    /** Steady-state value of p at a constant stress (Pa). */
     virtual double
     remembered_stress(const Stress &stress) const = 0;
 
-    /** Index of p in the history, if there is a memory. */
+    /** Index of p among the history variables. @pre the relaxation time is
+     *  positive */
     unsigned int
     place_of_memory() const
     {
       return Base::n_history();
     }
 
-    /** Weight of the past in the normal stress of a step, and that stress of
-     *  the past (Pa). */
+    /** Delayed part of the normal stress in a step: its weight (-), and the
+     *  past normal stress (Pa). */
     struct Past
     {
       double part, stress;
     };
 
-    /** Past of a step. A solver's lag increases its weight, also without a
-     *  memory.
+    /** Delayed part of the normal stress in a step; lagged friction of a solver
+     *  increases its weight, also without friction memory.
      *  @param s_n normal stress at the beginning of the step (Pa) */
     Past
     past_of(const StepLaw &step,
