@@ -17,18 +17,19 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Flow through the body of a scene: steady on meshes that are refined at the free
-   *  surface and where the velocity changes, transient on one mesh. */
+  /** Seepage through the body of a scene: steady flow on meshes refined at the
+   *  free surface and where the velocity varies, transient flow on one mesh. */
   class FlowOnMesh
   {
   public:
-    /** Makes the first mesh. Collective.
-     *  @throws InputError for materials without a permeability, or a porosity where it
-     *  is needed, and for levels of any step that are not above their sides */
+    /** Creates the first mesh. Collective.
+     *  @throws InputError for materials without a permeability or, in transient
+     *  flow, a drainable porosity, and for water levels that are not above the
+     *  lowest point of their boundary */
     FlowOnMesh(const Scene &scene, const MPI_Comm comm);
 
-    /** Solves a steady flow on all meshes, or a step of a transient flow on the present
-     *  one. Collective.
+    /** Solves steady flow on successively refined meshes, or a time step of
+     *  transient flow on the current mesh. Collective.
      *  @param after_mesh called after each mesh
      *  @throws RunError, Stopped */
     void
@@ -36,23 +37,23 @@ namespace geocone::GEOCONE_DIM
       const Seepage::Step         &step,
       const std::function<void()> &after_mesh = []() {});
 
-    /** Solves a steady flow on the first mesh only. @throws RunError */
+    /** Solves steady flow on the first mesh only. @throws RunError */
     void
     solve_on_first_mesh(const Seepage::Levels &levels);
 
-    /** Whether there is a flow on the present mesh. */
+    /** Whether the flow on the current mesh has been solved. */
     bool
     is_solved() const
     {
       return solution.s.size() == mesh.vertices.size();
     }
 
-    /** Drainable water in the body (m^2; m^3 in axisymmetry). @pre drainable porosities
-     *  are given */
+    /** Volume of drainable water stored in the body (m^2; m^3 in axisymmetry).
+     *  @pre drainable porosities are given */
     double
     stored() const;
 
-    /** Pore pressures and free surface. */
+    /** Pore pressures and free surface of the solved flow. */
     Water::Flow
     result() const;
 
@@ -72,18 +73,18 @@ namespace geocone::GEOCONE_DIM
     std::vector<dealii::Tensor<1, dim>>
     velocities() const;
 
-    /** Flow into the body through each boundary of the list (m^2/s; m^3/s in
-     *  axisymmetry). */
+    /** Flow rate into the body through each boundary of the list (m^2/s; m^3/s
+     *  in axisymmetry). */
     std::vector<double>
     inflows() const;
 
-    /** Flow through the body: the sum of all inflows, or of all outflows if it is larger
-     *  (m^2/s). */
+    /** Discharge through the body: larger of total inflow and total outflow
+     *  (m^2/s; m^3/s in axisymmetry). */
     double
     discharge() const;
 
-    /** Relative change of the discharge from the previous mesh; none on the
-     *  first mesh, and in transient flow. */
+    /** Relative change of the discharge from the previous mesh; no value on the
+     *  first mesh and for transient flow. */
     std::optional<double>
     change() const;
 
@@ -91,12 +92,12 @@ namespace geocone::GEOCONE_DIM
     bool
     flows() const;
 
-    /** Defect of the mass balance: net inflow through all boundaries minus the
-     *  rate of storage, over the discharge. */
+    /** Error of the water balance: net inflow through all boundaries minus rate
+     *  of storage, over the discharge (-). */
     double
     imbalance() const;
 
-    /** The discharge with its change, for the log. */
+    /** Discharge and its relative change as text, for the log. */
     std::string
     text() const;
 
@@ -104,20 +105,22 @@ namespace geocone::GEOCONE_DIM
     unsigned int
     n_levels() const;
 
-    /** Adopts a mesh, and finds its boundaries and the volumes of its
-     *  vertices. */
+    /** Sets the current mesh, and computes its seepage boundaries and the
+     *  drainable volumes of its vertices. */
     void
     take(const Triangles &next);
 
-    /** Mesh of triangles with these sizes. Collective. */
+    /** Generates a mesh of triangles with given cell sizes. Collective. */
     Triangles
     mesh_with(const CellSizes &sizes) const;
 
-    /** Edges of the mesh at a boundary or a drain. @throws InputError if there are none */
+    /** Indices of the mesh edges on a seepage boundary or a drain.
+     *  @throws InputError if there are none */
     std::vector<unsigned int>
     edges_of(const SeepageBoundary &boundary) const;
 
-    /** @throws InputError for a level that is not above the lowest point of its side */
+    /** Checks water levels. @throws InputError for a level that is not above
+     *  the lowest point of its boundary */
     void
     check(const Seepage::Levels &levels) const;
 
@@ -132,35 +135,37 @@ namespace geocone::GEOCONE_DIM
     std::vector<double>
     hydrostatic(const Seepage::Levels &levels) const;
 
-    /** Refines the mesh to twice as many triangles. Collective. */
+    /** Refines the mesh adaptively to twice as many triangles, and solves
+     *  steady flow. Collective. */
     void
     refine(const Seepage::Levels &levels);
 
-    /** Solves a step of a transient flow. */
+    /** Solves a time step of transient flow. */
     void
     advance(const Seepage::Step &step);
 
-    /** Contribution of each cell to the error: jumps of the normal velocity. */
+    /** Error indicator of each cell: jumps of the normal velocity across its
+     *  edges. */
     std::vector<double>
     jumps() const;
 
-    /** chi of each vertex, not restricted to [0, 1]. */
+    /** Relative permeability chi of each vertex, not limited to [0, 1]. */
     std::vector<double>
     saturation() const;
 
     const Scene                               &scene;
     const MPI_Comm                             comm;
-    const bool                                 is_transient; ///< now or later
+    const bool                                 is_transient; ///< any step
     std::vector<dealii::SymmetricTensor<2, 2>> permeability;
     Triangles                                  first_mesh;
 
-    /** @name The present mesh */
+    /** @name The current mesh */
     /** @{ */
     Triangles           mesh;
-    std::vector<double> measure;     ///< factor of the area of each cell
-    std::vector<int>    boundary_of; ///< of each vertex, or -1
+    std::vector<double> measure;     ///< area factor by cell
+    std::vector<int>    boundary_of; ///< by vertex; -1: none
     std::vector<int>    boundary_of_edge;
-    std::vector<double> drainable; ///< volume of each vertex (m^2)
+    std::vector<double> drainable; ///< drainable volume by vertex (m^2)
     /** @} */
 
     FlowSolution          solution;
@@ -168,10 +173,11 @@ namespace geocone::GEOCONE_DIM
     double                rate_of_storage = 0.; ///< (m^2/s)
   };
 
-  /** Solves all flows of a scene, and passes their pressures to its water.
-   *  Collective.
-   *  @param dry_run whether only the first flow is solved, on a coarse mesh
-   *  @param time whose pressures are the initial ones (s) */
+  /** Solves all flow problems of a scene, and passes the pore pressures to
+   *  Scene::water. Collective.
+   *  @param dry_run whether to solve only the first flow problem, on a coarse
+   *  mesh
+   *  @param time at which the pressures are the initial pore pressures (s) */
   void
   let_water_flow(Scene         &scene,
                  const MPI_Comm comm,

@@ -12,8 +12,8 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Conditions of a flow at the vertices of a mesh; elsewhere the boundary is
-   *  impervious. */
+  /** Boundary conditions of a flow problem at the vertices of a mesh; the
+   *  remaining boundary is impervious. */
   struct FlowConditions
   {
     enum class Kind : char
@@ -23,17 +23,17 @@ namespace geocone::GEOCONE_DIM
       seepage_face ///< open to the air: psi = 0 where water leaves
     };
     std::vector<Kind>   kind;
-    std::vector<double> head; ///< psi, where it is prescribed (m)
-    std::vector<double> rain; ///< supply to a vertex (m^2/s)
+    std::vector<double> head; ///< psi, where prescribed (m)
+    std::vector<double> rain; ///< rainfall supplied to a vertex (m^2/s)
 
-    /** @name Of a step of a transient flow; empty: steady */
+    /** @name Data of a time step of transient flow; empty: steady flow */
     /** @{ */
     std::vector<double> storage; ///< drainable volume over the step (m^2/s)
     std::vector<double> saturation_before;
     /** @} */
   };
 
-  /** Steady flow on a mesh, by vertices. */
+  /** Solution of a flow problem, by vertices of the mesh. */
   struct FlowSolution
   {
     /** Pressure head psi = u/gamma_w >= 0 (m). */
@@ -42,17 +42,18 @@ namespace geocone::GEOCONE_DIM
     /** Relative permeability chi in [0, 1]: 1 where psi > 0. */
     std::vector<double> saturation;
 
-    /** Flow through the boundary into the body, rain included (m^2/s, in axisymmetry
-     *  m^3/s). */
+    /** Flow rate into the body through the boundary, including rain (m^2/s, in
+     *  axisymmetry m^3/s). */
     std::vector<double> inflow;
 
-    /** Variable of the normal map: psi, or the outflow over its scale at a seepage face,
-     *  where positive; chi - 1 where negative. */
+    /** Variable s of the normal map. Positive: psi, or at seepage faces the
+     *  scaled outflow; negative: chi - 1. */
     std::vector<double> s;
 
     unsigned int iterations = 0;
 
-    /** Largest imbalance of a vertex over the flow through its edges. */
+    /** Largest relative error of the water balance of a vertex: imbalance over
+     *  flow through its edges. */
     double error = 0.;
   };
 
@@ -60,19 +61,20 @@ namespace geocone::GEOCONE_DIM
    * Steady flow of water through a porous body with a free surface:
    *   div q = 0, q = -k (grad psi + chi e_y),
    *   psi >= 0, 1 - chi >= 0, psi (1 - chi) = 0,
-   * with the outflow Q >= 0, psi = 0 and (1 - chi) Q = 0 on seepage faces. Linear
-   * triangles for psi; the gravity part of the flow along an edge has the chi of the
-   * vertex from which it comes, so that the flow is monotone and chi stays in [0, 1]
-   * where no off-diagonal entry of the conductance matrix is positive. In a step of a
-   * transient flow div q = -n d(chi)/dt by backward Euler, with the drainable porosity n.
-   * A normal map,
+   * with the outflow Q >= 0, psi = 0 and (1 - chi) Q = 0 on seepage faces. psi
+   * is linear in triangles; the gravity part of the flow along an edge uses the
+   * upstream chi, so that the scheme is monotone and chi is in [0, 1] where no
+   * off-diagonal entry of the conductance matrix is positive. In a time step of
+   * transient flow div q = -n d(chi)/dt by backward Euler, with the drainable
+   * porosity n. A normal map,
    *   psi = max(s, 0), chi = 1 + min(s, 0)
-   * (at seepage faces Q = max(s, 0)), makes it one system of piecewise linear equations,
-   * solved by the nonsmooth Newton method with a line search.
-   * See doc/theory/seepage.md.
+   * (at seepage faces Q = max(s, 0)), leads to a system of piecewise linear
+   * equations, solved by the nonsmooth Newton method with a line search. See
+   * doc/theory/seepage.md.
    * @param permeability hydraulic conductivity of each material (m/s)
-   * @param measure factor of the area at a centre: 1, or 2 pi r
-   * @param start FlowSolution::s to start from
+   * @param measure area factor at the centre of each cell: 1, in axisymmetry 2
+   * pi r
+   * @param start initial guess of FlowSolution::s
    * @throws RunError if Newton's method does not converge
    */
   FlowSolution
@@ -82,7 +84,7 @@ namespace geocone::GEOCONE_DIM
              const FlowConditions                             &conditions,
              std::vector<double>                               start);
 
-  /** Flow velocity q (Darcy) of a cell (m/s). */
+  /** Darcy velocity q in a cell (m/s). */
   dealii::Tensor<1, dim>
   darcy_velocity(const Triangles                                  &triangles,
                  const std::vector<dealii::SymmetricTensor<2, 2>> &permeability,
