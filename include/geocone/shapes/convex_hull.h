@@ -13,17 +13,17 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Corners of the convex hull of points in the plane of the first two
+  /** Vertices of the convex hull of points in the plane of the first two
    *  coordinates, counterclockwise; fewer than three if the points are
    *  collinear (Andrew 1979). */
   std::vector<dealii::Point<dim>>
   convex_hull(std::vector<dealii::Point<dim>> points);
 
   /**
-   * Unit vector along the shortest connection from the convex hull of some
-   * points to that of others: the normal of the separating plane with the
-   * greatest margin (Gilbert, Johnson and Keerthi 1988). Zero if the hulls
-   * intersect or there are no points.
+   * Unit vector along the shortest connection between the convex hulls of two
+   * sets of points: normal of the separating plane with the largest margin
+   * (Gilbert, Johnson and Keerthi 1988). Zero if the hulls intersect or a set
+   * is empty.
    */
   dealii::Tensor<1, dim>
   way_between(const std::vector<dealii::Point<dim>> &from,

@@ -10,7 +10,7 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Normal to the right of the edge from a to b, with the length of the edge:
+  /** Normal on the right of the edge from a to b, scaled by the edge length;
    *  outward if the body is on the left. */
   inline dealii::Tensor<1, dim>
   edge_normal(const dealii::Point<dim> &a, const dealii::Point<dim> &b)

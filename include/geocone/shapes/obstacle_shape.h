@@ -14,7 +14,7 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Convex shape of an obstacle, in its own frame. */
+  /** Convex shape of an obstacle, in the frame of the obstacle. */
   class ObstacleShape
   {
   public:
@@ -23,23 +23,25 @@ namespace geocone::GEOCONE_DIM
 
     virtual ~ObstacleShape() = default;
 
-    /** Nearest point of the boundary. */
+    /** Signed distance and normal at the nearest point of the boundary. */
     struct Nearest
     {
-      double distance; ///< negative inside (m); infinite if all is covered
+      double distance; ///< (m), negative inside; infinite if all covered
       Vector normal;   ///< outward, unit length
-      bool   is_edge = false; ///< where flat sides end
+      bool   is_edge = false; ///< nearest point on an edge or vertex
     };
 
     /** Other obstacles that cover parts of the boundary. */
     struct Cover
     {
-      /** Whether a point is in one of them; empty: there are none. */
+      /** Whether a point lies in another obstacle; empty function: no
+       *  others. */
       std::function<bool(const Point &)> covers;
-      double margin = 0.; ///< distance up to which boundaries touch (m)
+      double margin = 0.; ///< tolerance for adjacency (m)
     };
 
-    /** @param approach direction of the motion relative to x: at an edge the
+    /** Signed distance and normal at x.
+     *  @param approach direction of the motion relative to x: at an edge the
      *  approaching side is chosen */
     virtual Nearest
     nearest(const Point  &x,
@@ -54,25 +56,26 @@ namespace geocone::GEOCONE_DIM
     virtual double
     width() const = 0;
 
-    /** Extent in a direction: max n.x (m); can be infinite. */
+    /** Extent in the direction n: max n.x over the shape (m); can be
+     *  infinite. */
     virtual double
     reach(const Vector &n) const = 0;
 
-    /** @name Candidates for the direction that separates two shapes */
+    /** @name Candidates for separating directions of two shapes */
     /** @{ */
-    /** Normals of flat sides. */
+    /** Outward normals of flat sides. */
     virtual std::vector<Vector>
     side_normals() const
     {
       return {};
     }
-    /** Directions of straight edges, in three dimensions. */
+    /** Unit vectors along straight edges, in three dimensions. */
     virtual std::vector<Vector>
     edge_directions() const
     {
       return {};
     }
-    /** Points on edges. */
+    /** Vertices, or points on curved edges. */
     virtual std::vector<Point>
     corners() const
     {
@@ -82,9 +85,9 @@ namespace geocone::GEOCONE_DIM
 
     using Triangle = std::array<Point, 3>;
 
-    /** Triangles for visualisation that fill the shape, in three dimensions
-     *  those of its surface. Of infinite shapes, a part near a body.
-     *  @param body a point in it @param size its width (m) */
+    /** Triangles for visualisation: of the area of the shape, in three
+     *  dimensions of its surface; for infinite shapes, of a part near a body.
+     *  @param body a point in the body @param size width of the body (m) */
     virtual std::vector<Triangle>
     triangles(const Point &body, const double size) const = 0;
   };
@@ -156,7 +159,8 @@ namespace geocone::GEOCONE_DIM
   class Cylinder : public ObstacleShape
   {
   public:
-    /** @param middle of its axis @param axis unit vector along it */
+    /** @param middle midpoint of the axis @param axis unit vector along the
+     *  axis */
     Cylinder(const Point  &middle,
              const Vector &axis,
              const double  radius,
@@ -197,7 +201,7 @@ namespace geocone::GEOCONE_DIM
   public:
     /** @param vertices of a polygon counterclockwise; of a polyhedron in any
      *  order
-     *  @param valid whether all of them are vertices of a convex body */
+     *  @param[out] valid whether all vertices are vertices of a convex body */
     Polytope(const std::vector<Point> &vertices, bool &valid);
 
     Nearest
@@ -223,11 +227,11 @@ namespace geocone::GEOCONE_DIM
     }
 
   private:
-    /** An end of a flat side: an edge; for a polygon a vertex, a = b. */
+    /** An end of a flat side: an edge; for a polygon a vertex (a = b). */
     struct End
     {
       Point  a, b;
-      Vector outward; ///< in the side, normal to the edge
+      Vector outward; ///< in the plane of the side, normal to the edge
 
       Point
       nearest(const Point &x) const;
@@ -244,16 +248,17 @@ namespace geocone::GEOCONE_DIM
     struct Side
     {
       Vector           normal; ///< outward, unit length
-      Point            middle; ///< the mean of its vertices
+      Point            middle; ///< mean of the vertices
       std::vector<End> ends;
 
-      /** Nearest point of the side, and whether it is at one of its ends,
-       *  farther than a tolerance from the projection of x. */
+      /** Nearest point of the side.
+       *  @param[out] is_end whether it is on an end of the side, farther than
+       *  @p tolerance from the projection of x */
       Point
       nearest(const Point &x, const double tolerance, bool &is_end) const;
 
-      /** A point of the side at a given minimum distance from its ends, or its
-       *  midpoint. */
+      /** Point of the side near @p p with the minimum distance @p by from the
+       *  ends, or the midpoint of the side. */
       Point
       inset(const Point &p, const double by) const;
 
@@ -275,8 +280,8 @@ namespace geocone::GEOCONE_DIM
     bool
     make_sides_of_polyhedron();
 
-    /** Adds the side with these vertices, counterclockwise as seen from
-     *  outside. */
+    /** Appends a side. @param around its vertices, counterclockwise as seen
+     *  from outside */
     void
     add_side(const std::vector<Point> &around, const Vector &normal);
 

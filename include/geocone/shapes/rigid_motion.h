@@ -13,9 +13,9 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Displacement, velocity or forces of a rigid body: of its centre along the
-   *  coordinates (m, m/s, N/m), and about it, counterclockwise about the axes
-   *  of n_rotations (rad, rad/s, N); in three dimensions a rotation is a
+  /** Displacement, velocity or loads of a rigid body: translation of the
+   *  centre, or force (m, m/s, N/m), and counterclockwise rotation about the
+   *  centre, or moment (rad, rad/s, N). In three dimensions the rotation is a
    *  rotation vector. */
   struct RigidMotion
   {
@@ -35,7 +35,8 @@ namespace geocone::GEOCONE_DIM
       return k < dim ? centre[k] : rotation[k - dim];
     }
 
-    /** Velocity of a point per unit of component k of the body's: V + w x arm.
+    /** Velocity of a point of the body for a unit component k of the rigid
+     *  motion, by V + w x arm.
      *  @param arm from the centre to the point (m) */
     static dealii::Tensor<1, dim>
     of_point(const unsigned int k, const dealii::Tensor<1, dim> &arm)
@@ -52,7 +53,8 @@ namespace geocone::GEOCONE_DIM
       return v;
     }
 
-    /** Velocity of a point of the body. */
+    /** Velocity of a point of the body. @param arm from the centre to the point
+     *  (m) */
     dealii::Tensor<1, dim>
     at(const dealii::Tensor<1, dim> &arm) const
     {
@@ -62,7 +64,7 @@ namespace geocone::GEOCONE_DIM
       return v;
     }
 
-    /** Rotates a vector of the body, backwards if @p back. */
+    /** Rotates a vector with the body; by the inverse rotation if @p back. */
     dealii::Tensor<1, dim>
     turned(const dealii::Tensor<1, dim> &x, const bool back = false) const
     {
@@ -84,7 +86,8 @@ namespace geocone::GEOCONE_DIM
              (1. - std::cos(angle)) * axis.at(once);
     }
 
-    /** Appends a motion: centres and, in the plane, angles are added. */
+    /** Composes this motion with the following motion @p next: displacements
+     *  and, in the plane, angles are summed. */
     void
     add(const RigidMotion &next)
     {
