@@ -10,11 +10,11 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Projection of a face to a plane. */
+  /** Projection of a face onto a plane. */
   using FlatPart = Outline<dim - 1>;
 
   /** Unit coordinates of a position in a flat outline; positions outside are
-   *  projected to its boundary. */
+   *  moved onto the boundary of the outline. */
   dealii::Point<dim - 1>
   unit_place(const FlatPart &outline, const dealii::Point<dim - 1> &x);
 
@@ -35,14 +35,15 @@ namespace geocone::GEOCONE_DIM
   class FacePlane
   {
   public:
-    /** @param face with its corners counterclockwise, seen from outside of the
-     *  body; in the plane the body is on the left of the line */
+    /** @param face with corners counterclockwise as seen from outside of the
+     *  body; in two dimensions the body is on the left of the line */
     explicit FacePlane(const SidePart &face);
 
     FlatPart
     project(const SidePart &face) const;
 
-    /** Distance of a position in front of the face (m). */
+    /** Signed distance of a position from the plane, positive outside of the
+     *  body (m). */
     double
     ahead(const dealii::Point<dim> &x) const
     {
@@ -57,7 +58,7 @@ namespace geocone::GEOCONE_DIM
 
     dealii::Tensor<1, dim> normal;   ///< outward, of length 1
     double                 size;     ///< length (m), or area (m^2)
-    double                 diameter; ///< largest distance of corners (m)
+    double                 diameter; ///< largest distance between corners (m)
 
   private:
     dealii::Point<dim>     origin; ///< the first corner

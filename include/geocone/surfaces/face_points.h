@@ -20,11 +20,12 @@ namespace geocone::GEOCONE_DIM
     dealii::Point<dim>        position;
     dealii::Tensor<1, dim>    normal; ///< outward from the cell
     double                    weight; ///< JxW times measure() (m, m^2)
-    std::vector<unsigned int> nodes;  ///< local, of the cell
+    std::vector<unsigned int> nodes;  ///< local nodes of the cell
     std::vector<double>       values; ///< N at the point, per node
   };
 
-  /** Gauss points of a face or a part of it, exact for degree 2p + 3. */
+  /** Gauss points on a face or a part of a face, exact for polynomial degree 2p
+   *  + 3. */
   std::vector<FacePoint>
   points_on_face(const BackgroundMesh       &mesh,
                  const Space                &space,
@@ -32,8 +33,8 @@ namespace geocone::GEOCONE_DIM
                  const unsigned int          face,
                  const UnitPart             &part = UnitPart::whole());
 
-  /** Part of a face in the box of a condition, or nothing. The part ends within
-   *  the face. Formulas select whole faces.
+  /** Part of a face selected by a condition, no value if none. A box can select
+   *  a part of a face; formulas select entire faces.
    *  @throws InputError for a part of a face in space that is not along the
    *  axes */
   std::optional<UnitPart>
@@ -70,9 +71,9 @@ namespace geocone::GEOCONE_DIM
     return n_faces;
   }
 
-  /** Rejects a condition without any face. @throws InputError if no rank has a
-   *  face
-   *  @param what consequence for the message. Collective. */
+  /** Rejects a condition that selects no face. @throws InputError if no rank
+   *  has a selected face
+   *  @param what consequence, for the message. Collective. */
   void
   refuse_no_face(const BoundaryCondition &condition,
                  const unsigned int       n_faces,

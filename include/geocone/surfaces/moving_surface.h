@@ -13,21 +13,21 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Boundary segments of a body, or their parts in a box, that move with it.
-   * They consist of facets, lines or triangles, with corners that move with the
-   * velocity of the grid.
+   * Boundary segments of a body, or parts of segments in a box, that move with
+   * the body. The segments consist of facets (lines or triangles) whose corners
+   * move with the grid velocity.
    */
   class MovingSurface
   {
   public:
     /**
-     * @param panels of the body
-     * @param longest edge length of facets into which panels are divided; in
-     * space of a parallelogram, which is halved into two (m)
+     * @param panels boundary segments of the body
+     * @param longest maximum edge length of facets (m); in three dimensions of
+     * parallelograms, each of which is divided into two facets
      */
     MovingSurface(const std::vector<SidePart> &panels, const double longest);
 
-    /** Facets in their current positions. */
+    /** Facets at their current positions. */
     std::vector<SidePart>
     facets() const;
 
@@ -38,8 +38,8 @@ namespace geocone::GEOCONE_DIM
       return parts[facet].size;
     }
 
-    /** Moves the corners over a step h, within the box of a grid.
-     *  Collective. */
+    /** Moves the corners with the grid velocity over a step h (s), limited to
+     *  the box of the mesh. Collective. */
     void
     move(const BackgroundMesh &mesh,
          const Space          &space,
@@ -53,14 +53,14 @@ namespace geocone::GEOCONE_DIM
     }
 
   private:
-    /** A facet. */
+    /** A facet, by indices of its corners. */
     struct Part
     {
       std::array<unsigned int, dim> corners;
-      double                        size; ///< at the start
+      double                        size; ///< initial size (m, m^2)
     };
     std::vector<Part>               parts;
-    std::vector<dealii::Point<dim>> places; ///< of the corners
+    std::vector<dealii::Point<dim>> places; ///< positions of the corners
   };
 } // namespace geocone::GEOCONE_DIM
 

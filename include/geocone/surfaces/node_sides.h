@@ -12,32 +12,33 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Boundary faces of a body at its nodes: for each face the integral of N_i
-   * (m, m^2) and the outward normal. A node at the end of a face in contact
-   * represents half a cell there, regardless of the other faces that meet at
-   * it.
+   * Boundary faces of a body by node: for each face at node i the integral of
+   * N_i (m, m^2) and the outward normal. Tributary areas thus include only
+   * faces in contact: a node at the end of such a face represents half a cell,
+   * regardless of the other faces at the node.
    */
   class NodeSides
   {
   public:
     explicit NodeSides(const Space &space);
 
-    /** Adds a face of the boundary. @param points all of its quadrature
-     *  points */
+    /** Appends a face of the boundary. @param points all quadrature points of
+     *  the face */
     void
     add(const std::vector<FacePoint> &points);
 
-    /** Completes the data: owned nodes receive those of other ranks.
-     *  Collective. */
+    /** Exchanges the faces between ranks, so that owned nodes have the faces of
+     *  all ranks. Collective. */
     void
     exchange();
 
     /**
-     * Integral of N_i over the faces opposite an obstacle: those whose normals
-     * are most nearly opposite to its normal, and others that are almost as
-     * close (two for a corner that stands on its tip).
-     * @param node an owned one
-     * @param normal out of the obstacle
+     * Integral of N_i over the faces at a node that face an obstacle: the face
+     * whose normal is most nearly opposite to the normal of the obstacle, and
+     * faces with almost the same deviation (two faces for a corner that points
+     * at the obstacle).
+     * @param node an owned node
+     * @param normal outward normal of the obstacle
      */
     double
     facing(const unsigned int node, const dealii::Tensor<1, dim> &normal) const;

@@ -13,8 +13,8 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Unit coordinates of a part of a line or quadrilateral: all of it, or the
-   *  range between two corners. */
+  /** Part of a line or quadrilateral: the range of unit coordinates between two
+   *  corners. */
   struct UnitPart
   {
     dealii::Point<dim - 1> lower, upper;
@@ -24,10 +24,10 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * A part of a boundary segment, given by its corners in order around it: a
-   * line, a triangle, or a quadrilateral, on which x is linear in each unit
+   * A part of a boundary segment, given by its corners in order: a line, a
+   * triangle, or a quadrilateral with a map that is linear in each unit
    * coordinate.
-   * @tparam n dim, or dim - 1 for the projection to a plane
+   * @tparam n dim, or dim - 1 for the projection onto a plane
    */
   template <int n>
   struct Outline
@@ -45,7 +45,7 @@ namespace geocone::GEOCONE_DIM
       return corners[0] + x;
     }
 
-    /** Edge from the first corner along a unit coordinate. */
+    /** Edge vector from the first corner along a unit coordinate. */
     dealii::Tensor<1, n>
     edge(const unsigned int k) const
     {
@@ -62,8 +62,9 @@ namespace geocone::GEOCONE_DIM
       return sum;
     }
 
-    /** Simplices of the part: in the plane the line itself, in space the
-     *  triangles that share the first corner of a convex polygon. */
+    /** Decomposition into simplices: in two dimensions the line itself, in
+     *  three dimensions triangles that share the first corner of the convex
+     *  polygon. */
     std::vector<Outline>
     simplices() const
     {
@@ -83,12 +84,13 @@ namespace geocone::GEOCONE_DIM
    *  outside. */
   using SidePart = Outline<dim>;
 
-  /** Outward normal times the length (m) or the area (m^2). */
+  /** Outward normal vector scaled by the length (m) or the area (m^2) of the
+   *  part. */
   dealii::Tensor<1, dim>
   area_of(const SidePart &part);
 
-  /** @name A line, or in space a parallelogram, by its first corner and the
-   *  ends of the adjacent edges */
+  /** @name Conversion between a line (in three dimensions a parallelogram) and
+   *  the first corner with the other ends of the adjacent edges */
   /** @{ */
   SidePart
   spanned_by(const std::array<dealii::Point<dim>, dim> &ends);
@@ -97,11 +99,12 @@ namespace geocone::GEOCONE_DIM
   ends_of(const SidePart &part);
   /** @} */
 
-  /** Part of a line or quadrilateral between unit coordinates. */
+  /** Part of a line or quadrilateral with a given range of unit coordinates. */
   SidePart
   part_of(const SidePart &whole, const UnitPart &part);
 
-  /** Subdivision into n equal parts along each edge. */
+  /** Subdivision of a line or quadrilateral into n equal parts along each
+   *  edge. */
   std::vector<SidePart>
   parts_of(const SidePart &whole, const std::array<unsigned int, dim - 1> &n);
 } // namespace geocone::GEOCONE_DIM

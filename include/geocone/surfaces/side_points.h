@@ -13,8 +13,8 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** A position where shape functions are evaluated: a cell of this rank, N
-   *  there. */
+  /** A quadrature point on a facet, with the shape functions N of the cell that
+   *  contains it. */
   struct BoundaryPoint
   {
     dealii::Point<dim> position;
@@ -24,13 +24,14 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Calls f(number, point) for quadrature points on the part of each facet, a
-   * line or a triangle, inside cells of this rank: Gauss points on the part in
-   * each cell, in the plane exact for the shape functions. Over all ranks their
-   * weights sum to the part of the facet in the mesh. A facet along the
-   * boundary of cells belongs to those on the side of the body; a facet along
-   * the boundary of the mesh belongs to the mesh if the mesh is on that side.
-   * @return fractions of the facets found on this rank
+   * Calls f(index, point) for each quadrature point of facets (lines or
+   * triangles) inside cells of this rank: Gauss points on the part of the facet
+   * in each cell, in two dimensions exact for the shape functions. Over all
+   * ranks the weights of a facet sum to its fraction inside the mesh. A facet
+   * along the boundary of cells belongs to the cells on the side of the body; a
+   * facet along the boundary of the mesh belongs to the mesh if the mesh is on
+   * that side.
+   * @return fraction of each facet on this rank
    */
   std::vector<double>
   for_each_point(
@@ -39,19 +40,20 @@ namespace geocone::GEOCONE_DIM
     const std::vector<SidePart>                                         &facets,
     const std::function<void(const std::size_t, const BoundaryPoint &)> &f);
 
-  /** Quadrature points of a line, a triangle or a parallelogram. */
+  /** Quadrature points on a line, a triangle or a parallelogram. */
   std::vector<BoundaryPoint>
   points_on(const BackgroundMesh &mesh,
             const Space          &space,
             const SidePart       &part);
 
-  /** Longest part of a line from a to b in one cell (m). Collective. */
+  /** Maximum length of the line from a to b inside a single cell (m).
+   *  Collective. */
   double
   longest_part_in_cell(const BackgroundMesh     &mesh,
                        const dealii::Point<dim> &a,
                        const dealii::Point<dim> &b);
 
-  /** Range [from, to] of t in [0, 1] with c + t d >= 0 for all given c and d;
+  /** Range [from, to] of t in [0, 1] where c + t d >= 0 for all pairs (c, d);
    *  empty if to < from. */
   std::pair<double, double>
   part_of_line(const std::vector<std::pair<double, double>> &conditions);

@@ -12,23 +12,24 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Parts of the condition's boundary segments of the body inside its box: in
-   * the plane lines, in space rectangles.
-   * @throws InputError if the body has no such segment or it is outside the box
+   * Boundary segments of the body selected by a condition, clipped to its box:
+   * lines, in three dimensions rectangles.
+   * @throws InputError if the body lacks such a segment, or the segment is
+   * outside of the box
    */
   std::vector<SidePart>
   panels_of_body(const BoundaryCondition &condition, const Geometry &geometry);
 
-  /** Side of a box normal to an axis.
-   *  @param low,high corners of the side, or of a part of it */
+  /** Side of a box normal to an axis, or a part of this side.
+   *  @param low,high opposite corners of the side or part */
   SidePart
   side_across(const unsigned int        axis,
               const bool                is_upper,
               const dealii::Point<dim> &low,
               const dealii::Point<dim> &high);
 
-  /** Longest part of the centre line along an edge in one cell (m).
-   *  Collective. */
+  /** Cell size along an edge of a panel: maximum length of the panel's centre
+   *  line inside a single cell (m). Collective. */
   double
   cell_size_along(const BackgroundMesh &mesh,
                   const SidePart       &panel,
