@@ -17,16 +17,16 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * A scalar function of (x, y, t) given as a formula in muParser's language,
-   * with the constant pi, or, where files are allowed, as a Record "record
-   * FILE.csv".
+   * A scalar function of (x, y, t), given as a formula in muParser's language
+   * with the constant pi, or, where files are allowed, as a time history
+   * "record FILE.csv" (Record).
    */
   class Expression
   {
   public:
     /**
      * @param text the formula
-     * @param parameter name for messages
+     * @param parameter name of the parameter, for messages
      * @param folder to which file names are relative; null: formulas only
      * @throws InputError if the formula cannot be parsed or the file cannot be
      * read
@@ -39,20 +39,20 @@ namespace geocone::GEOCONE_DIM
     double
     value(const dealii::Point<dim> &x, const double t) const;
 
-    /** Whether the expression is the number 0. */
+    /** Whether the expression is the constant 0. */
     bool
     is_zero() const
     {
       return number == 0.;
     }
 
-    /** End of a record (s) whose non-zero last value continues to act;
-     *  otherwise infinite. */
+    /** End of a time history with a non-zero last value, which continues to act
+     *  (s); otherwise infinite. */
     double
     stays_from() const;
 
   private:
-    std::optional<double>                        number; ///< formulas are slow
+    std::optional<double>                        number; ///< if constant
     std::unique_ptr<dealii::FunctionParser<dim>> function;
     std::unique_ptr<Record>                      record;
   };

@@ -23,9 +23,10 @@ namespace geocone::GEOCONE_DIM
   allowed_formula(const FormulaOf variables);
 
   /**
-   * Checks a formula by this grammar before muParser reads it. muParser accepts
-   * more ("x = 3" assigns, "0,5" is a list whose last value counts, rand()
-   * differs from run to run) and prints messages of its own on errors:
+   * Checks a formula before muParser parses it, by the grammar given here.
+   * muParser accepts more ("x = 3" assigns, "0,5" is a list whose last value
+   * counts, rand() differs from run to run) and prints its own error messages.
+   * Grammar:
    *   formula := operand {operator operand} ["?" formula ":" formula]
    *   operand := ["+" | "-"] (number | name |
    *              function "(" formula {"," formula} ")" | "(" formula ")")

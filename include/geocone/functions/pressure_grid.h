@@ -14,16 +14,16 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Pore pressures on a rectangular grid, e.g. from a seepage program, read
-   * from a .csv file with the columns x, y (m) and u (Pa, >= 0): one row for
-   * each grid point, in any order. The pressure is bilinear between the points
-   * and constant beyond the boundary.
+   * Pore pressures on a structured rectangular grid, e.g. from a seepage
+   * program, read from a comma-separated file with the columns x, y (m) and u
+   * (Pa, >= 0): one row for each grid point, in any order. The pressure is
+   * bilinear between the points and constant beyond the boundary.
    */
   class PressureGrid
   {
   public:
     /** @param text,parameter value and name of the parameter, for messages
-     *  @throws InputError naming the faulty line, or what is missing */
+     *  @throws InputError naming the faulty line or the missing data */
     PressureGrid(const std::string &file,
                  const std::string &text,
                  const std::string &parameter);
@@ -32,7 +32,8 @@ namespace geocone::GEOCONE_DIM
     double
     value(const dealii::Point<dim> &x) const;
 
-    /** Gradient (du/dx, du/dy), in three dimensions 0 along z (N/m^3). */
+    /** Pressure gradient (du/dx, du/dy), in three dimensions 0 along z
+     *  (N/m^3). */
     dealii::Tensor<1, dim>
     gradient(const dealii::Point<dim> &x) const;
 
@@ -41,13 +42,13 @@ namespace geocone::GEOCONE_DIM
     covers(const dealii::Point<dim> &lower,
            const dealii::Point<dim> &upper) const;
 
-    /** Coordinates of the corners, for messages. */
+    /** Coordinates of the corners of the grid as text, for messages. */
     std::string
     extent() const;
 
   private:
-    /** Interval of a coordinate, the relative position in it (0 to 1), and its
-     *  length, which is 0 beyond the grid. */
+    /** Grid interval that contains a coordinate: index, relative position in
+     *  the interval (0 to 1), and length (m), 0 outside of the grid. */
     struct At
     {
       std::size_t i;

@@ -10,11 +10,11 @@
 namespace geocone
 {
   /**
-   * A function of time from a .csv file whose first line names two columns: t
-   * (s) and either v, the value, or a, its derivative, both piecewise linear.
-   * In the second case the value is the integral of a from zero (e.g. the
-   * velocity of an accelerogram). Constant before the first and after the last
-   * row.
+   * A time history from a comma-separated file with two columns, named in the
+   * first line: t (s), and either the value v or its time derivative a, both
+   * piecewise linear. For a, the value is the integral of a from zero (e.g. the
+   * velocity from an accelerogram). The value is constant before the first and
+   * after the last row.
    */
   class Record
   {
@@ -39,7 +39,7 @@ namespace geocone
 
   private:
     std::vector<double> times, values;
-    std::vector<double> derivatives; ///< or empty
+    std::vector<double> derivatives; ///< a; empty if v is given
   };
 } // namespace geocone
 

@@ -14,19 +14,21 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Gradients of the barycentric coordinates of a triangle along x and y (1/m).
-   *  @param corners in either orientation */
+  /** Gradients of the barycentric coordinates of a triangle with respect to x
+   *  and y (1/m).
+   *  @param corners of the triangle, in either orientation */
   std::array<dealii::Tensor<1, 2>, 3>
   barycentric_gradients(const std::array<dealii::Point<dim>, 3> &corners);
 
-  /** A continuous field that is linear in each triangle of a mesh of the plane, in three
-   *  dimensions uniform along z, and zero outside of the mesh. */
+  /** A continuous, piecewise linear field on a mesh of triangles, zero outside
+   *  of the mesh; in three dimensions uniform along z. */
   class TriangleField
   {
   public:
     using Cell = std::array<unsigned int, 3>;
 
-    /** @param vertices their coordinates (m) @param values at the vertices */
+    /** @param vertices coordinates of the vertices (m) @param values field
+     *  values at the vertices */
     TriangleField(std::vector<dealii::Point<dim>> vertices,
                   std::vector<Cell>               cells,
                   std::vector<double>             values);
@@ -34,19 +36,20 @@ namespace geocone::GEOCONE_DIM
     double
     value(const dealii::Point<dim> &x) const;
 
-    /** Gradient in the triangle at x (per m). */
+    /** Gradient of the field in the triangle that contains x (per m). */
     dealii::Tensor<1, dim>
     gradient(const dealii::Point<dim> &x) const;
 
   private:
-    /** A triangle, and the barycentric coordinates of a point in it. */
+    /** Index of a triangle, and barycentric coordinates of a point inside
+     *  it. */
     struct At
     {
       unsigned int          cell;
       std::array<double, 3> parts;
     };
 
-    /** The triangle around x; none outside of the mesh. */
+    /** Triangle that contains x; no value outside of the mesh. */
     std::optional<At>
     locate(const dealii::Point<dim> &x) const;
 
@@ -57,7 +60,8 @@ namespace geocone::GEOCONE_DIM
       return barycentric_gradients({{vertices[i], vertices[j], vertices[k]}});
     }
 
-    /** Column and row of the box around x, within the grid of boxes. */
+    /** Column and row of the search box that contains (x, y), limited to the
+     *  grid of boxes. */
     std::array<unsigned int, 2>
     box_at(const double x, const double y) const;
 
@@ -65,7 +69,7 @@ namespace geocone::GEOCONE_DIM
     std::vector<Cell>               cells;
     std::vector<double>             values;
 
-    /** @name Grid of boxes, with the triangles that overlap each */
+    /** @name Grid of search boxes, with the triangles that overlap each box */
     /** @{ */
     std::array<double, 2>       corner{{0., 0.}}, size{{0., 0.}};
     std::array<unsigned int, 2> n_boxes{{1, 1}};
