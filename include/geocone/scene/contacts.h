@@ -32,7 +32,7 @@ namespace geocone
     void
     prepare(const std::vector<std::string> &materials);
 
-    /** Whether one material belongs to the first body and one to the other. */
+    /** Whether two materials are on different sides of the contact. */
     bool
     separates(const unsigned int a, const unsigned int b) const
     {
@@ -80,8 +80,8 @@ namespace geocone
     }
 
     /** Requires a contact for each pair of bodies, in methods in which bodies
-     *  without a contact could penetrate each other. @throws InputError if a
-     *  pair has none */
+     *  without a contact could penetrate each other. @throws InputError for a
+     *  pair without a contact */
     void
     check_all_pairs() const;
 

@@ -68,15 +68,15 @@ namespace geocone::GEOCONE_DIM
             const Water            &water,
             const std::vector<int> &stage_that_adds);
 
-    /** Stress at a point x of a material (Pa). */
+    /** Initial stress at a point x of a material (Pa). */
     Mandel
     at(const dealii::Point<dim> &x,
        const unsigned int        material,
        const Materials          &materials,
        const Regions            &regions) const;
 
-    /** Out-of-plane stress (Pa): equal to s_xx, unless given by a formula.
-     *  Plane-strain laws store s_zz, but do not depend on it. */
+    /** Initial out-of-plane stress s_zz (Pa): equal to s_xx, unless given by a
+     *  formula. Plane-strain laws store s_zz, but do not depend on it. */
     double
     zz_at(const dealii::Point<dim> &x,
           const unsigned int        material,

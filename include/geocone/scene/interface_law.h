@@ -12,10 +12,10 @@ namespace geocone
    *  parameters common to obstacles and contacts. */
   struct InterfaceLaw
   {
-    double friction    = 0.; ///< mu of Coulomb's law
+    double friction    = 0.; ///< friction coefficient mu (-)
     double adhesion    = 0.; ///< shear strength at zero pressure (Pa)
     double tension     = 0.; ///< tensile strength (Pa)
-    double restitution = 0.; ///< e of Newton's law of impact
+    double restitution = 0.; ///< coefficient of restitution e (-)
 
     /** Whether the tensile strength is so large (1 GPa) that the interface
      *  never opens. */

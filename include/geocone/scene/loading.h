@@ -39,7 +39,7 @@ namespace geocone::GEOCONE_DIM
     double
     expected_steps() const;
 
-    /** @name Checks against parameters that the method does not support;
+    /** @name Rejection of parameters that the method does not support;
      *  @throws InputError */
     /** @{ */
     void
@@ -136,7 +136,7 @@ namespace geocone::GEOCONE_DIM
 
     /** Message on the number of excavated cells or points. @param what name of
      *  the counted entities, e.g. "points"
-     *  @throws StepFailure if it removes nothing or everything */
+     *  @throws StepFailure if the stage removes nothing or everything */
     std::string
     removal_text(const unsigned long n_removed,
                  const unsigned long n_all,
@@ -146,7 +146,8 @@ namespace geocone::GEOCONE_DIM
     /** @name For explicit MPM only */
     /** @{ */
 
-    /** Local damping: the part of the unbalanced force that opposes motion. */
+    /** Local damping coefficient (-): fraction of the unbalanced force that
+     *  acts against the velocity. */
     double damping = 0.;
 
     /** Whether velocities are set to zero at each peak of the kinetic energy. */
@@ -226,7 +227,7 @@ namespace geocone::GEOCONE_DIM
     double
     strength_factor(const double t) const;
 
-    /** strength_factor() at the beginning of a stage. */
+    /** Strength reduction factor at the beginning of a stage. */
     double
     factor_before(const std::string &stage) const;
 

@@ -19,7 +19,8 @@ namespace geocone::GEOCONE_DIM
 {
   /**
    * Exact bearing capacity factors Nq and Nc of a weightless half-plane under a
-   * strip footing (Prandtl 1920, Reissner 1924; paper eq 77):
+   * strip footing (Prandtl 1920, Reissner 1924; Guillet et al. 2025, equation
+   * (77)):
    *   Nq = exp(pi tan(phi)) tan^2(pi/4 + phi/2),  Nc = (Nq - 1)/tan(phi),
    * and Nc = 2 + pi for phi = 0.
    * @param phi friction angle (degrees)
@@ -54,7 +55,7 @@ namespace geocone::GEOCONE_DIM
     }
     bool of_raised_loads = false;
 
-    /** Indices of the observed conditions and obstacles in Scene::supports(). */
+    /** Indices of the observed supports in Scene::supports(). */
     std::vector<unsigned int> conditions;
 
     /** Component of the reaction that is the load: 0 for x, 1 for y, 2 for

@@ -24,7 +24,8 @@ namespace geocone::GEOCONE_DIM
     /** @param materials names of all materials */
     explicit Regions(const std::vector<std::string> &materials);
 
-    /** @param may_be_empty whether the region of each material may be empty:
+    /** Checks the regions.
+     *  @param may_be_empty whether the region of each material may be empty:
      *  replacements of other materials need no region */
     void
     prepare(const Geometry          &geometry,
@@ -72,8 +73,8 @@ namespace geocone::GEOCONE_DIM
                 const int                 group,
                 const std::string        &name) const;
 
-    /** Whether the points of a material are fixed, like quadrature points,
-     *  while others move. */
+    /** Whether the points of a material are fixed like quadrature points,
+     *  instead of moving with the material. */
     bool
     are_fixed(const unsigned int material) const
     {

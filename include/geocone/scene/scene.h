@@ -84,7 +84,7 @@ namespace geocone::GEOCONE_DIM
     InitialStress      initial_stress;
     BoundaryConditions dirichlet;
     BoundaryConditions tractions;
-    BoundaryConditions absorbing; ///< with velocities of incoming waves
+    BoundaryConditions absorbing; ///< velocities of incoming waves
     Obstacles          obstacles;
     Contacts           contacts;
     LoadingProgramme   loading;

@@ -44,7 +44,7 @@ namespace geocone::GEOCONE_DIM
 
     explicit Structure(const std::string &name);
 
-    /** @param stages their names */
+    /** Checks the parameters. @param stages names of all stages */
     void
     prepare(const std::vector<std::string> &stages);
 
@@ -144,7 +144,7 @@ namespace geocone::GEOCONE_DIM
     std::string capacity_text = "unlimited", spacing_text = "automatic";
     double      capacity = 0.; ///< M_p (N)
 
-    /** @throws InputError */
+    /** Checks the parameters of a plate. @throws InputError */
     void
     prepare_plate();
   };
@@ -155,11 +155,11 @@ namespace geocone::GEOCONE_DIM
   public:
     explicit Structures(const ParameterFile &file);
 
-    /** @param stages their names */
+    /** Checks the parameters. @param stages names of all stages */
     void
     prepare(const Geometry &geometry, const std::vector<std::string> &stages);
 
-    /** Names of the bars of all structures but plates, in order. */
+    /** Names of the bars of all structures except plates, in order. */
     std::vector<std::string>
     names_of_bars() const;
 

@@ -106,7 +106,8 @@ namespace geocone::GEOCONE_DIM
     }
 
     /** Reads the piezometric lines and water levels of stages.
-     *  @throws InputError if initial ones are missing, or for invalid values */
+     *  @throws InputError if initial lines or levels are missing, or for
+     *  invalid values */
     void
     prepare_stages(const LoadingProgramme &loading);
 
@@ -161,9 +162,10 @@ namespace geocone::GEOCONE_DIM
     std::optional<PressureGrid> grid;
     Table                       table;
     std::vector<Flow>           all_flows;
-    std::vector<double>         initial_parts; ///< parts() of the initial time
+    std::vector<double>         initial_parts; ///< initial parts()
 
-    /** Piezometric line at the end of a stage, or a flow during it. */
+    /** Piezometric line at the end of a stage, or a flow problem during the
+     *  stage. */
     struct Later
     {
       double        begin, end; ///< (s)
