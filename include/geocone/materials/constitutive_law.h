@@ -58,7 +58,8 @@ namespace geocone::GEOCONE_DIM
       return rho_saturated;
     }
 
-    /** Computes the densities from given unit weights. @param g (m/s^2)
+    /** Computes the densities from given unit weights. @param g gravitational
+     *  acceleration (m/s^2)
      *  @throws InputError for unit weights with zero gravity */
     void
     set_gravity(const double g);

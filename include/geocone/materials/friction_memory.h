@@ -55,7 +55,7 @@ namespace geocone::GEOCONE_DIM
       return tau;
     }
 
-    /** Weight lambda of p_n in a step h (s). */
+    /** Weight lambda of the previous delayed stress p_n in a step h (s). */
     double
     remembered(const double h) const
     {
@@ -71,8 +71,8 @@ namespace geocone::GEOCONE_DIM
       return part * p + (1. - part) * s_n;
     }
 
-    /** Whether "automatic" activates friction with memory, i.e. the exact law
-     *  is hard to solve. @param non_associativity (a - b)/a
+    /** Whether the value "automatic" activates friction with memory, because
+     *  the exact law is hard to solve. @param non_associativity (a - b)/a
      *  @param aperture_left sin(phi) - sin(theta) */
     static bool
     is_hard(const double non_associativity, const double aperture_left);

@@ -26,7 +26,7 @@ namespace geocone
     double gradient = 0.; ///< increase of cohesion with depth (Pa/m)
     double level    = 0.; ///< y at which the cohesion is c (m)
 
-    /** Increase of the cohesion at y above c (Pa). */
+    /** Increase of the cohesion above c at the height y (Pa). */
     double
     growth(const double y) const
     {

@@ -80,7 +80,7 @@ namespace geocone::GEOCONE_DIM
     std::optional<FlowCone>
     exact_end_cone(const double *history_n, const double slip) const override;
 
-    /** Maximum of (a - b)/a over the curves, see Material. */
+    /** Maximum degree of non-associativity (a - b)/a over the curves. */
     double
     non_associativity() const override;
 
@@ -135,11 +135,11 @@ namespace geocone::GEOCONE_DIM
     std::string cohesion_text = "constant", friction_text = "constant",
                 dilatancy_text = "constant";
     StrainCurve cohesion_curve, friction_curve, dilatancy_curve;
-    bool        has_curves = false; ///< whether one of them varies
+    bool        has_curves = false; ///< whether any curve varies
     bool        softens    = false;
     double      modulus    = 0.;
     double      slope      = 0.; ///< h = dk/d|z_t| (Pa)
-    double      length     = 0.; ///< L (m)
+    double      length     = 0.; ///< softening length L (m)
   };
 } // namespace geocone::GEOCONE_DIM
 

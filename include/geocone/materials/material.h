@@ -19,7 +19,7 @@ namespace geocone::GEOCONE_DIM
   /** Data of a time step in a material update, besides the state at t_n. */
   struct StepLaw
   {
-    double size = 0.; ///< h (s)
+    double size = 0.; ///< step size h (s)
 
     /**
      * Weight of the normal stress at t_n in the strength, a solver setting
@@ -63,10 +63,10 @@ namespace geocone::GEOCONE_DIM
     dealii::ArrayView<MandelMatrix> tangent; ///< ds/de, generalised (Pa)
     double *history = nullptr; ///< in: copy of history_n; out: at t_{n+1}
 
-    /** @name Spatial laws */
+    /** @name Output of spatial laws in plane scenes */
     /** @{ */
     double            *stress_zz  = nullptr; ///< at t_{n+1} (Pa)
-    OutOfPlaneTangent *tangent_zz = nullptr; ///< with the tangent
+    OutOfPlaneTangent *tangent_zz = nullptr; ///< if the tangent is computed
     /** @} */
   };
 
@@ -178,8 +178,8 @@ namespace geocone::GEOCONE_DIM
                    const SpatialMandel &to,
                    const double        *history) const;
 
-    /** Violation of the yield condition (Pa), negative inside; no value for
-     *  laws without one. @param history of the point */
+    /** Violation of the yield condition (Pa), negative at elastic stresses; no
+     *  value for laws without a yield condition. @param history of the point */
     virtual std::optional<double>
     overstress(const Mandel &stress, const double *history) const;
 
@@ -254,8 +254,8 @@ namespace geocone::GEOCONE_DIM
     {
       Mode         mode;      ///< region of the projection
       Mandel       stress;    ///< P_C (Pa)
-      MandelMatrix slope;     ///< J of P_C
-      MandelMatrix psi_slope; ///< Psi'
+      MandelMatrix slope;     ///< Jacobian of P_C
+      MandelMatrix psi_slope; ///< derivative Psi'
     };
     virtual std::optional<Projection>
     project_natural_map(const Mandel & /*s*/,

@@ -37,9 +37,9 @@ namespace geocone::GEOCONE_DIM
   material_types();
 
   /**
-   * Parameters of all laws with the names of these laws, so that a file can
-   * contain parameters of laws other than the selected law. To be called before
-   * any parameter is declared.
+   * Parameters of all laws, each with the names of the laws that declare it, so
+   * that a file can contain parameters of laws other than the selected law. To
+   * be called before any parameter is declared.
    */
   ParameterFile::OfOthers
   parameters_of_laws();
@@ -57,7 +57,8 @@ namespace geocone::GEOCONE_DIM
     void
     prepare();
 
-    /** Enables axisymmetry. @throws InputError if a law is not spatial */
+    /** Enables axisymmetry. @throws InputError for a law that does not support
+     *  it */
     void
     set_axisymmetric();
 

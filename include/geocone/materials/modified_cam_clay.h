@@ -168,7 +168,7 @@ namespace geocone::GEOCONE_DIM
       return {3. * P / kappa * (1. - 2. * poisson()), poisson()};
     }
 
-    /** P = p + a (Pa). */
+    /** Mean pressure plus attraction, P = p + a, at a stress (Pa). */
     double
     pressure(const SpatialMandel &stress) const
     {
@@ -196,8 +196,8 @@ namespace geocone::GEOCONE_DIM
     double lambda   = 0.08;
     double M        = 1.2;
     double a        = 0.; ///< attraction (Pa)
-    double ratio    = 1.; ///< overconsolidation ratio at the start
-    double given_pc = 0.; ///< (Pa)
+    double ratio    = 1.; ///< initial overconsolidation ratio (-)
+    double given_pc = 0.; ///< initial pc if given (Pa)
     double g_over_k = 0.; ///< G/K (-)
 
     enum class Outside

@@ -73,7 +73,7 @@ namespace geocone::GEOCONE_DIM
     struct OwnStrength
     {
       double cohesion = 0.; ///< increase above the law's cohesion (Pa)
-      double part     = 0.; ///< lambda
+      double part     = 0.; ///< weight lambda (-)
       double normal = 0.; ///< p (Pa), as FrictionalSpatialLaw::normal_stress()
     };
 
@@ -169,7 +169,7 @@ namespace geocone::GEOCONE_DIM
 
     using Frictional::Frictional;
 
-    /** Sets the strength: parameters of the file, reduced by the factor F. */
+    /** Sets the strength parameters of the file, reduced by the factor F. */
     virtual void
     set_strength(const double F) = 0;
 

@@ -111,7 +111,7 @@ namespace geocone::GEOCONE_DIM
      *  s_j) sine - size. */
     struct Pyramid
     {
-      double sine, size; ///< 2 c cos(phi) (Pa)
+      double sine, size; ///< sin(phi) (-), 2 c cos(phi) (Pa)
 
       double
       apex() const

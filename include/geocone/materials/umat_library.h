@@ -60,8 +60,8 @@ namespace geocone
   may_load_libraries();
 
   /**
-   * Loads a shared object, which remains loaded until the process ends, and
-   * finds a function in it.
+   * Returns a function of a shared library, which is loaded and remains loaded
+   * until the process ends.
    * @param path of the shared library
    * @param function name of the function; in Fortran without the underscore
    * @param parameters section of the parameters, for messages
