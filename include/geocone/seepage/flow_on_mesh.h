@@ -155,7 +155,7 @@ namespace geocone::GEOCONE_DIM
 
     const Scene                               &scene;
     const MPI_Comm                             comm;
-    const bool                                 is_transient; ///< any step
+    const bool                                 is_transient; ///< in any step
     std::vector<dealii::SymmetricTensor<2, 2>> permeability;
     Triangles                                  first_mesh;
 

@@ -28,7 +28,7 @@ namespace geocone::GEOCONE_DIM
 
     /** @name Data of a time step of transient flow; empty: steady flow */
     /** @{ */
-    std::vector<double> storage; ///< drainable volume over the step (m^2/s)
+    std::vector<double> storage; ///< drainable volume over step size (m^2/s)
     std::vector<double> saturation_before;
     /** @} */
   };
