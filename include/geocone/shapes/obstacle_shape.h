@@ -26,7 +26,7 @@ namespace geocone::GEOCONE_DIM
     /** Signed distance and normal at the nearest point of the boundary. */
     struct Nearest
     {
-      double distance; ///< (m), negative inside; infinite if all covered
+      double distance; ///< signed (m), negative inside; infinite if covered
       Vector normal;   ///< outward, unit length
       bool   is_edge = false; ///< nearest point on an edge or vertex
     };
@@ -195,7 +195,7 @@ namespace geocone::GEOCONE_DIM
     const double radius, half_height;
   };
 
-  /** A convex polygon, or polyhedron. */
+  /** A convex polygon; in three dimensions a convex polyhedron. */
   class Polytope : public ObstacleShape
   {
   public:
@@ -244,7 +244,7 @@ namespace geocone::GEOCONE_DIM
       }
     };
 
-    /** A flat side. */
+    /** A flat side of the shape. */
     struct Side
     {
       Vector           normal; ///< outward, unit length
@@ -262,8 +262,8 @@ namespace geocone::GEOCONE_DIM
       Point
       inset(const Point &p, const double by) const;
 
-      /** Distance from a covered point of the side to its uncovered part;
-       *  infinite if everything towards its ends is covered. */
+      /** Distance from a covered point of the side to the uncovered part of the
+       *  side (m); infinite if all ends of the side are covered. */
       double
       way_to_bare(const Point &from, const Cover &cover) const;
 
@@ -280,8 +280,8 @@ namespace geocone::GEOCONE_DIM
     bool
     make_sides_of_polyhedron();
 
-    /** Appends a side. @param around its vertices, counterclockwise as seen
-     *  from outside */
+    /** Appends a side. @param around vertices of the side, counterclockwise as
+     *  seen from outside */
     void
     add_side(const std::vector<Point> &around, const Vector &normal);
 
