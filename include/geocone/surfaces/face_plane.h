@@ -56,7 +56,7 @@ namespace geocone::GEOCONE_DIM
       return origin;
     }
 
-    dealii::Tensor<1, dim> normal;   ///< outward, of length 1
+    dealii::Tensor<1, dim> normal;   ///< outward unit normal
     double                 size;     ///< length (m), or area (m^2)
     double                 diameter; ///< largest distance between corners (m)
 

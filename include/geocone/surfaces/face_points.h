@@ -21,7 +21,7 @@ namespace geocone::GEOCONE_DIM
     dealii::Tensor<1, dim>    normal; ///< outward from the cell
     double                    weight; ///< JxW times measure() (m, m^2)
     std::vector<unsigned int> nodes;  ///< local nodes of the cell
-    std::vector<double>       values; ///< N at the point, per node
+    std::vector<double>       values; ///< shape functions N, by node
   };
 
   /** Gauss points on a face or a part of a face, exact for polynomial degree 2p
@@ -35,8 +35,8 @@ namespace geocone::GEOCONE_DIM
 
   /** Part of a face selected by a condition, no value if none. A box can select
    *  a part of a face; formulas select entire faces.
-   *  @throws InputError for a part of a face in space that is not along the
-   *  axes */
+   *  @throws InputError for a part of a three-dimensional face that is oblique
+   *  to the axes */
   std::optional<UnitPart>
   part_of_face(const BoundaryCondition    &condition,
                const BackgroundMesh       &mesh,
@@ -46,7 +46,7 @@ namespace geocone::GEOCONE_DIM
   /**
    * Calls f(cell, point) for each Gauss point of the faces of this rank's cells
    * selected by a boundary condition.
-   * @return the number of these faces
+   * @return number of selected faces on this rank
    */
   template <typename Function>
   unsigned int

@@ -79,9 +79,9 @@ namespace geocone::GEOCONE_DIM
     std::vector<dealii::Point<n>> corners;
   };
 
-  /** A part of a boundary segment of the body: in the plane the body is on the
-   *  left of the line, in space the corners are counterclockwise as seen from
-   *  outside. */
+  /** A part of a boundary segment of the body: in two dimensions the body is on
+   *  the left of the line, in three dimensions the corners are counterclockwise
+   *  as seen from outside. */
   using SidePart = Outline<dim>;
 
   /** Outward normal vector scaled by the length (m) or the area (m^2) of the
