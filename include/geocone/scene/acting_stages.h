@@ -45,7 +45,7 @@ namespace geocone
       return list;
     }
 
-    /** Name of the parameter in its section. */
+    /** Name of the parameter. */
     static constexpr const char *entry = "Acts in";
 
   private:

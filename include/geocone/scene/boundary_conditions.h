@@ -222,9 +222,9 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Conditions of one kind, named in the list "SECTION/Names": prescribed
-   * velocities ("Boundary conditions", m/s), tractions ("Tractions", Pa) or
-   * velocities of incoming waves ("Absorbing boundaries", m/s).
+   * Boundary conditions of one kind, named in the list "SECTION/Names":
+   * prescribed velocities ("Boundary conditions", m/s), tractions ("Tractions",
+   * Pa) or velocities of incoming waves ("Absorbing boundaries", m/s).
    */
   class BoundaryConditions : public NamedList<BoundaryCondition>
   {

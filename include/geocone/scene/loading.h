@@ -21,7 +21,8 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** One stage of the loading programme: its duration and time steps. */
+  /** One stage of the loading programme: duration, time steps, and changes of
+   *  the body and the loads. */
   class Stage : public dealii::ParameterAcceptor
   {
   public:

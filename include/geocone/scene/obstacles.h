@@ -110,8 +110,8 @@ namespace geocone::GEOCONE_DIM
             const Neighbours             *beside = nullptr) const;
 
     /**
-     * Distance and normal for small sliding: distance of a point along the
-     * normal at its initial position, in the frame of the obstacle (m).
+     * Distance and normal for small sliding: distance along the normal at the
+     * initial position of the point, in the frame of the obstacle (m).
      * @param start initial position of the point
      * @param step largest relative displacement in a step (m)
      * @param beside neighbours at their initial positions; null: none

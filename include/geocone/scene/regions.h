@@ -116,7 +116,7 @@ namespace geocone::GEOCONE_DIM
 
       std::vector<dealii::Point<dim>> polygon, below;
       std::string                     group = "-1"; ///< number or name
-      Polygon        outline; ///< the polygon, or the part below the line
+      Polygon        outline; ///< polygon, or the part below the line
       Choice<Points> points = {
         {{"moving", Points::moving}, {"fixed", Points::fixed}}};
     };

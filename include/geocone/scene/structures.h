@@ -122,9 +122,9 @@ namespace geocone::GEOCONE_DIM
     const std::string               name;
     ActingStages                    stages;
     std::vector<dealii::Point<dim>> points;
-    double                          stiffness  = 0.; ///< EA (N/m)
-    double                          pre_stress = 0.; ///< initial N (N/m)
-    double                          bending    = 0.; ///< EI (N m)
+    double                          stiffness  = 0.; ///< stiffness EA (N/m)
+    double                          pre_stress = 0.; ///< initial force (N/m)
+    double                          bending    = 0.; ///< stiffness EI (N m)
 
     /** Largest distance between the tie points of a plate (m); infinite: ties
      *  only where the plate crosses cell faces. */
@@ -140,9 +140,9 @@ namespace geocone::GEOCONE_DIM
                                          {"last", Ends::last},
                                          {"both", Ends::both}}};
     std::string tensile_text = "unlimited", compressive_text = "automatic";
-    double      tensile = 0., compressive = 0.; ///< N_t and N_c (N/m)
+    double      tensile = 0., compressive = 0.; ///< strengths N_t, N_c (N/m)
     std::string capacity_text = "unlimited", spacing_text = "automatic";
-    double      capacity = 0.; ///< M_p (N)
+    double      capacity = 0.; ///< plastic moment M_p (N)
 
     /** Checks the parameters of a plate. @throws InputError */
     void

@@ -57,8 +57,8 @@ namespace geocone::GEOCONE_DIM
     bool
     is_level() const;
 
-    /** Whether the seepage force varies within the cells of any mesh: pressures
-     *  from a file or from seepage. */
+    /** Whether the seepage force varies within the cells of any mesh, as for
+     *  pressures from a file or from seepage. */
     bool
     varies_in_cells() const
     {
@@ -162,7 +162,7 @@ namespace geocone::GEOCONE_DIM
     std::optional<PressureGrid> grid;
     Table                       table;
     std::vector<Flow>           all_flows;
-    std::vector<double>         initial_parts; ///< initial parts()
+    std::vector<double>         initial_parts; ///< initial weights
 
     /** Piezometric line at the end of a stage, or a flow problem during the
      *  stage. */
