@@ -84,9 +84,9 @@ namespace geocone::GEOCONE_DIM
     double
     non_associativity() const override;
 
-    /** Whether the tangent is symmetric: false if the cone varies, because its
-     *  apex depends on shear but not on opening, and for softening, where the
-     *  tangent is not positive definite. */
+    /** Whether the tangent is symmetric: false for hardening with friction,
+     *  where the apex of the cone depends on shear but not on opening, and for
+     *  softening, where the tangent is not positive definite. */
     bool
     has_symmetric_tangent() const override;
 

@@ -16,7 +16,7 @@ namespace geocone
     bool has_natural_map = true;  ///< all laws have a natural map
     bool spatial         = false; ///< any law is three-dimensional
     bool can_yield       = false; ///< any law can yield and checks its flow
-    bool frictionless    = false; ///< all laws that yield are cylinders (a = 0)
+    bool frictionless    = false; ///< some laws yield, all on cylinders (a = 0)
     bool dilates         = false; ///< any law has plastic dilatancy
     bool undrained       = false; ///< any soil is undrained
     /** Whether any law without friction memory is hard to solve

@@ -121,9 +121,8 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * A spatial law with cohesion, friction and dilatancy, optionally with
-   * friction with memory (FrictionMemory) and a cohesion that increases with
-   * depth.
+   * A spatial law with cohesion, friction and dilatancy, optionally friction
+   * with memory (FrictionMemory) and a cohesion that varies in space.
    */
   class FrictionalSpatialLaw : public Frictional<SpatialReturnMap>
   {

@@ -51,7 +51,7 @@ namespace geocone::GEOCONE_DIM
       return sin_theta > 0.;
     }
 
-    /** Explicit update by the kernel that processes several points at once. */
+    /** Explicit update by a vectorised kernel, for several points at once. */
     void
     advance(const PointBlock &block, LawCounts &counts) const override;
 

@@ -106,7 +106,8 @@ namespace geocone::GEOCONE_DIM
     initial_state(const typename SubloadingModel<n>::Vector &stress,
                   SubloadingState<n>                        &state) const;
 
-    /** State of a point in the model. @param stress tension positive */
+    /** State variables of the subloading model at a point.
+     *  @param stress tension positive */
     SubloadingState<n_spatial>
     state(const Components &stress, const double *history) const;
     /** @} */
