@@ -37,7 +37,7 @@ namespace geocone::GEOCONE_DIM
      *  without zz. */
     using Components = std::array<double, n_mandel>;
 
-    /** @param section e.g. "Materials/soil" */
+    /** @param section name of the parameter section, e.g. "Materials/soil" */
     explicit ConstitutiveLaw(const std::string &section);
 
     /** Checks the parameters and computes derived constants. */

@@ -15,7 +15,7 @@ namespace geocone
     bool symmetric       = true;  ///< all tangents are symmetric
     bool has_natural_map = true;  ///< all laws have a natural map
     bool spatial         = false; ///< any law is three-dimensional
-    bool can_yield       = false; ///< any law can yield and checks its flow
+    bool can_yield       = false; ///< any law can yield, with check_flow()
     bool frictionless    = false; ///< some laws yield, all on cylinders (a = 0)
     bool dilates         = false; ///< any law has plastic dilatancy
     bool undrained       = false; ///< any soil is undrained

@@ -86,7 +86,7 @@ namespace geocone::GEOCONE_DIM
   class Material : public ConstitutiveLaw
   {
   public:
-    /** @param section e.g. "Materials/soil" */
+    /** @param section name of the parameter section, e.g. "Materials/soil" */
     explicit Material(const std::string &section);
 
     /** Checks the parameters and computes derived constants. */

@@ -27,7 +27,7 @@ namespace geocone::GEOCONE_DIM
   class Subloading : public ConstitutiveLaw
   {
   public:
-    /** @param section e.g. "Materials/soil" */
+    /** @param section name of the parameter section, e.g. "Materials/soil" */
     explicit Subloading(const std::string &section);
 
     void

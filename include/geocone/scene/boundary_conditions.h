@@ -66,7 +66,7 @@ namespace geocone::GEOCONE_DIM
     formula_holds(const dealii::Point<dim> &x) const;
 
     /** Corners of the bounding box of the selected part of @p faces; no value
-     *  if no part of them is selected.
+     *  for an empty selection.
      *  @param faces vertices of each face */
     std::optional<std::array<dealii::Point<dim>, 2>>
     reach(const std::vector<std::vector<dealii::Point<dim>>> &faces) const;

@@ -29,7 +29,7 @@ namespace geocone
     struct Held
     {
       unsigned int id;
-      unsigned int cell; ///< index of the cell that contains it
+      unsigned int cell; ///< index of the particle's cell
       /** Weight of the particle among the controlled particles of the cell and
        *  of the condition: one over their number, in axisymmetry proportional
        *  to the circumference. */

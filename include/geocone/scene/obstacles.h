@@ -212,8 +212,8 @@ namespace geocone::GEOCONE_DIM
     InterfaceLaw      law;
 
   private:
-    /** @name Coordinates of a point in the frame of the obstacle, and its
-     *  current position */
+    /** @name Coordinates of a point in the frame of the obstacle, and current
+     *  position of a point of the obstacle */
     /** @{ */
     dealii::Point<dim>
     own_place(const dealii::Point<dim> &x, const RigidMotion &moved) const;

@@ -17,8 +17,8 @@ namespace geocone::GEOCONE_DIM
   using VerticesOfFaces = std::vector<std::vector<dealii::Point<dim>>>;
 
   /**
-   * Time in which a loaded part of the boundary moves by a thousandth of its
-   * length at its greatest speed (s): minimum over all parts, 0 without loaded
+   * Time in which a loaded part of the boundary moves at its greatest speed by
+   * a thousandth of its length (s): minimum over all parts, 0 without loaded
    * parts. For a boundary condition the length is the extent of the selected
    * part, doubled if it ends in a plane of symmetry; for an obstacle, the width
    * of the obstacle or of the body.

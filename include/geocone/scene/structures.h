@@ -19,10 +19,10 @@
 namespace geocone::GEOCONE_DIM
 {
   /** A structural element: anchor, strut, geogrid or plate. Anchors, struts and
-   *  geogrids are straight bars along a polyline, tied to the body at its
-   *  vertices; a plate is tied to the body along the polyline and has bending
-   *  stiffness. Forces and stiffness are per metre of thickness, tension
-   *  positive. */
+   *  geogrids are straight bars along a polyline, tied to the body at the
+   *  vertices of the polyline; a plate is tied to the body along the polyline
+   *  and has bending stiffness. Forces and stiffness are per metre of
+   *  thickness, tension positive. */
   class Structure : public dealii::ParameterAcceptor
   {
   public:

@@ -12,8 +12,8 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Boundary segments of the body selected by a condition, clipped to its box:
-   * lines, in three dimensions rectangles.
+   * Boundary segments of the body selected by a condition, clipped to the box
+   * of the condition: lines, in three dimensions rectangles.
    * @throws InputError if the body lacks such a segment, or the segment is
    * outside of the box
    */
