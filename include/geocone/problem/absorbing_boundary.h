@@ -20,15 +20,14 @@ namespace geocone::GEOCONE_DIM
    *   rho (c_p n n' + c_s (1 - n n')) (2 v_in - v),
    * c_p and c_s the speeds of pressure and shear waves in the adjacent cell,
    * v_in the velocity of the incoming wave. Waves along the normal are absorbed
-   * completely. Integrated with row sums, so that each node has its dashpot
-   * C_i, dim x dim.
+   * completely. Lumping by row sums leaves each node a dashpot C_i, dim x dim.
    */
   class AbsorbingBoundary : public Term
   {
   public:
     /** @param body points in the cells of the body, which determine the soil;
-     *  null if they move: then the soil is that of the regions @throws
-     *  InputError if a part has no face */
+     *  null for moving points: then the regions determine the soil
+     *  @throws InputError if a boundary part contains no face */
     AbsorbingBoundary(const Scene          &scene,
                       const BackgroundMesh &mesh,
                       const Space          &space,
@@ -41,13 +40,14 @@ namespace geocone::GEOCONE_DIM
       return !conditions.list.empty();
     }
 
-    /** @throws InputError if dofs of one of its nodes are rotated.
-     *  Collective. */
+    /** Checks that no node of an absorbing boundary has rotated dofs.
+     *  Collective. @throws InputError if a node has */
     void
     check(const Unknowns &unknowns) const;
 
-    /** @param t time for which the step is solved @param unknowns of the
-     *  problem */
+    /** Computes the forces of incoming waves for a step.
+     *  @param t time at which the step is solved (s)
+     *  @param unknowns of the problem */
     void
     begin_step(const double t, const Unknowns &unknowns);
 
@@ -69,11 +69,11 @@ namespace geocone::GEOCONE_DIM
     double
     power(const Vector &v) const;
 
-    /** Dashpot of a node of this rank, by one condition. */
+    /** Dashpot of a locally owned node due to one boundary condition. */
     struct Dashpot
     {
       unsigned int           node, condition;
-      dealii::Tensor<2, dim> C; ///< kg/(m s), per thickness
+      dealii::Tensor<2, dim> C; ///< damping, per thickness (kg/(m s))
     };
     const std::vector<Dashpot> &
     all() const
@@ -81,19 +81,19 @@ namespace geocone::GEOCONE_DIM
       return dashpots;
     }
 
-    /** Force of incoming waves at time t: 2 C v_in (N/m). */
+    /** Nodal forces 2 C v_in of incoming waves at time t (N/m). */
     void
     incoming_force(const double t, Vector &force) const;
 
   private:
-    /** Computes dst_i += C_i x_i. */
+    /** Adds C_i x_i, the product of each node's dashpot, to dst_i. */
     void
     add_product(Vector &dst, const Vector &x) const;
 
     const BoundaryConditions &conditions;
     const Space              &space;
     std::vector<Dashpot>      dashpots;
-    Vector                    incoming; ///< forces 2 C v_in
+    Vector                    incoming; ///< nodal forces 2 C v_in (N/m)
     const Unknowns           *unknowns = nullptr;
   };
 } // namespace geocone::GEOCONE_DIM

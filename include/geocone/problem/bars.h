@@ -19,12 +19,12 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** A bar at the end of a step; zero where it is not installed. Or the bending
-   *  at a node of a plate: a moment (N) and rotations. */
+  /** State of a bar at the end of a step, zero if the bar is not installed; for
+   *  the bending at a node of a plate, a moment (N) and rotations. */
   struct BarState
   {
-    double force      = 0.; ///< axial, tension positive (N/m)
-    double elongation = 0.; ///< since it was installed (m)
+    double force      = 0.; ///< axial force, tension positive (N/m)
+    double elongation = 0.; ///< since installation (m)
     double plastic    = 0.; ///< plastic part of the elongation (m)
     bool   yields     = false;
 
@@ -35,16 +35,17 @@ namespace geocone::GEOCONE_DIM
     }
   };
 
-  /** One end of a segment of a plate. Moments are positive with tension on the
-   *  right-hand side of the polyline, shear forces are their derivative. */
+  /** Displacement and internal forces at one end of a plate segment. Moments are
+   *  positive with tension on the right-hand side of the polyline; the shear
+   *  force is the derivative of the moment. */
   struct PlatePoint
   {
     double                 arc = 0.;     ///< distance along the polyline (m)
-    dealii::Point<dim>     x;            ///< initial place (m)
-    dealii::Tensor<1, dim> displacement; ///< since it was installed (m)
-    double                 normal = 0.;  ///< tension positive (N/m)
-    double                 shear  = 0.;  ///< (N/m)
-    double                 moment = 0.;  ///< (N)
+    dealii::Point<dim>     x;            ///< initial position (m)
+    dealii::Tensor<1, dim> displacement; ///< since installation (m)
+    double                 normal = 0.;  ///< axial force, tension > 0 (N/m)
+    double                 shear  = 0.;  ///< shear force (N/m)
+    double                 moment = 0.;  ///< bending moment (N)
     double                 hinge  = 0.;  ///< plastic rotation (-)
 
     void
@@ -66,17 +67,19 @@ namespace geocone::GEOCONE_DIM
     return point.displacement.norm();
   }
 
-  /** A plate at the end of a step; zero where it is not installed. */
+  /** State of a plate at the end of a step; zero if the plate is not
+   *  installed. */
   struct PlateState
   {
     bool         acts     = false;
-    unsigned int n_hinges = 0; ///< where it yields in bending
+    unsigned int n_hinges = 0; ///< number of nodes that yield in bending
 
-    /** Both ends of each segment, in which normal and shear forces are
-     *  constant. */
+    /** Both ends of each segment, one segment after another. Normal and shear
+     *  forces are constant in a segment. */
     std::vector<PlatePoint> points;
 
-    /** The point of a largest value, of those that are equal the first one. */
+    /** Returns the plate point with the largest value; the first one of equal
+     *  values. */
     template <typename Value>
     const PlatePoint &
     largest(const Value &value) const
@@ -96,33 +99,35 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Bars between points of the body, or a point of it and a fixed one outside:
-   * anchors, struts, geogrids, and the segments of plates. With the row b of a bar, b.v the rate of its
-   * elongation e, the axial force at the end of a step is the projection
+   * Bars between two points of the body, or between a point of the body and a
+   * fixed point outside: anchors, struts, geogrids, and the segments of plates.
+   * With b.v the rate of elongation of a bar, the axial force at the end of a
+   * step is the projection
    *   N = P(N_0 + k (e + h b.v - e_p)),  k = EA/L,  P on [-N_c, N_t],
    * the closed form of the complementarity between force and plastic
    * elongation e_p, see doc/theory/structures.md. Without compressive strength
    * a bar is slack instead of yielding. The term is R = sum N b.
    *
-   * The bending at a node of a plate follows the same law: b.v is the rate of the
-   * change of slope between its segments, N the moment, k = EI over their mean
-   * length.
+   * The bending at a node of a plate follows the same law: b.v is the rate of
+   * rotation between the adjacent segments, N the moment, and k is EI divided by
+   * the mean length of the two segments.
    *
    * The derivative h k b b' for elastic bars couples nodes that share no cell.
-   * It is assembled for the bars of chains, which are short; for long ones, or if
+   * It is assembled for the bars of chains, which are short; for long bars, or if
    * no rank has all nodes, it is a low-rank update of the Jacobian (LowRank).
    */
   class Bars : public Term
   {
   public:
-    /** @throws InputError for a point outside of the body that is not the fixed
-     *  end of an anchor or strut. Collective. */
+    /** Connects the ends of the bars to the nodes of the body. Collective.
+     *  @throws InputError for a point outside the body that is not the fixed end
+     *  of an anchor or strut */
     Bars(const Structures     &structures,
          const BackgroundMesh &mesh,
          const Space          &space);
 
     /** Installs and removes bars at the beginning of a stage, and sets the step
-     *  size h (s) and the rows along rotated dofs. Collective.
+     *  size h (s) and the vectors b along rotated dofs. Collective.
      *  @throws RunError if a bar is tied to a removed part of the body */
     void
     begin_step(const std::string &stage,
@@ -141,42 +146,45 @@ namespace geocone::GEOCONE_DIM
     std::vector<std::vector<unsigned int>>
     node_groups() const override;
 
-    /** Adds the derivative of the assembled bars. */
+    /** Adds the tangent stiffness of the bars that are assembled. */
     void
     linearise(const JacobianPattern &pattern,
               const double           elastic_blend,
               SparseMatrix          &matrix) const override;
 
-    /** Derivative of the other bars at the last residual(), by owned free rows.
+    /** Tangent stiffness of the bars that are not assembled, at the last
+     *  residual(), over the owned free dofs.
      *  @param elastic_blend as in linearise() */
     LowRank
     low_rank(const double elastic_blend) const;
 
-    /** Power of the bars on the body at the last residual() (W/m). */
+    /** Power of the bar forces acting on the body at the last residual()
+     *  (W/m). */
     double
     power() const;
 
-    /** Accepts the forces of the last residual(). */
+    /** Accepts the forces of the last residual() as the state at t_n. */
     void
     commit();
 
-    /** Bars of all structures but plates, as Structures::names_of_bars(). */
+    /** States of the bars of all structures except plates, in the order of
+     *  Structures::names_of_bars(). */
     std::vector<BarState>
     states_of_bars() const;
 
-    /** All plates, as Structures::plates(). */
+    /** States of all plates, in the order of Structures::plates(). */
     std::vector<PlateState>
     states_of_plates() const;
 
-    /** Variables for checkpoints. */
+    /** Saves or restores the state variables of a checkpoint. */
     void
     state(StateRow &row);
 
   private:
     using Row = std::vector<std::pair<unsigned int, double>>;
 
-    /** Nonzero entries of a row b of owned dofs, along x and y, and along the dofs
-     *  of the step. */
+    /** Nonzero coefficients of a linear functional b.x of the owned dofs: in x and
+     *  y, and along the (rotated) dofs of the step. */
     struct Functional
     {
       Row along_axes, row;
@@ -191,22 +199,23 @@ namespace geocone::GEOCONE_DIM
       }
     };
 
-    /** A bar, the same on all ranks except for its row. */
+    /** A bar of a structure; identical on all ranks except for the coefficients
+     *  b. */
     struct Bar : Functional
     {
       const Structure *structure = nullptr;
       bool             bends     = false; ///< bending at a node of a plate
       double           k = 0.; ///< EA/L (N/m^2), or EI over a length (N)
 
-      /** Whether its derivative is assembled by one of the ranks, and the entries
-       *  of the step there, with those of ghosts. */
+      /** Whether some rank, and whether this rank, assembles the bar's tangent
+       *  stiffness; and the coefficients b on this rank, including ghosts. */
       bool is_assembled = false, is_assembled_here = false;
       Row  assembled;
 
       bool     acts = false;
-      BarState n;            ///< at t_n
-      double   force   = 0.; ///< of the last residual() (N/m)
-      double   rate    = 0.; ///< b.v of the last residual() (m/s)
+      BarState n;            ///< state at t_n
+      double   force   = 0.; ///< axial force at the last residual() (N/m)
+      double   rate    = 0.; ///< b.v at the last residual() (m/s)
       bool     elastic = true;
 
       double
@@ -222,16 +231,17 @@ namespace geocone::GEOCONE_DIM
         return bends ? 0. : structure->pre_stress;
       }
 
-      /** Axial force or moment of an elastic elongation or rotation. */
+      /** Axial force due to an elastic elongation, or moment due to an elastic
+       *  rotation. */
       double
       elastic_force(const double elongation) const
       {
         return initial_force() + k * elongation;
       }
 
-      /** Whether it is slack under a trial force, instead of yielding: it has no
-       *  strength in this direction, and carries forces again at its former
-       *  length. */
+      /** Whether the bar is slack, instead of yielding, under a trial force. A bar
+       *  without strength in this direction carries forces again as soon as it
+       *  returns to its former length. */
       bool
       is_slack(const double trial) const
       {
@@ -239,19 +249,19 @@ namespace geocone::GEOCONE_DIM
       }
     };
 
-    /** A plate: the points at which it is tied to the body, its segments between
-     *  them, and the bending at all points but free ends. */
+    /** A plate: the points tied to the body, the segments between these points,
+     *  and the bending at all points except free ends. */
     struct Plate
     {
       std::vector<dealii::Point<dim>> points;
-      unsigned int first_segment = 0;                   ///< in the list of bars
+      unsigned int                    first_segment = 0; ///< bar of segment 0
       std::vector<std::optional<unsigned int>> bending; ///< bar of each point
 
-      /** Displacement of its points at t_n, and their velocity at the last
-       *  residual(). */
+      /** Displacements of the plate's points at t_n (m), and velocities at the
+       *  last residual() (m/s). */
       std::vector<dealii::Tensor<1, dim>> displacement, velocity;
 
-      /** Components of the displacement of each point. */
+      /** Displacement components of each point, as functionals of the dofs. */
       std::vector<std::array<Functional, dim>> components;
 
       unsigned int
@@ -261,49 +271,50 @@ namespace geocone::GEOCONE_DIM
       }
     };
 
-    /** Weights of nodes in the displacement of a point of the body, on the rank
-     *  of its cell; empty on other ranks, and outside. */
+    /** Nodal weights of the displacement at a point of the body, on the rank that
+     *  owns the cell; empty on other ranks and for points outside the body. */
     using Tie = std::vector<std::pair<unsigned int, double>>;
 
-    /** Factors of the displacements of some points. */
+    /** Factors (vectors) of the displacements of points in a linear functional. */
     using Factors = std::vector<std::pair<const Tie *, dealii::Tensor<1, dim>>>;
 
-    /** Row of a sum of displacements, with its ghosts. Collective. */
+    /** Coefficients b of a weighted sum of displacements, including ghosts.
+     *  Collective. */
     Vector
     row_of(const Factors &factors) const;
 
-    /** Adds a bar. Collective. */
+    /** Appends a bar to the list. Collective. */
     void
     add_bar(const Structure &structure,
             const bool       bends,
             const double     k,
             const Factors   &factors);
 
-    /** Adds a plate with all of its bars. Collective. */
+    /** Appends a plate and all bars of the plate. Collective. */
     void
     add_plate(const Structure                &structure,
               std::vector<dealii::Point<dim>> points,
               const std::vector<Tie>         &ties);
 
-    /** Sets the entries of the step. Collective. */
+    /** Computes the coefficients b along the dofs of the step. Collective. */
     void
     set_rows();
 
-    /** Products b.x of all bars. Collective. */
+    /** Scalar products b.x of all bars, summed over the ranks. Collective. */
     std::vector<double>
     products(const Vector &x) const;
 
-    /** @throws StepFailure if a bar is tied to nodes without cells.
-     *  Collective. */
+    /** Checks that all nodes tied to bars belong to cells. Collective.
+     *  @throws StepFailure if a node does not */
     void
     check_body() const;
 
     const Structures  &structures;
     const Space       &space;
     const Constraints *constraints = nullptr;
-    std::vector<Bar>   bars; ///< those of plates are the last ones
+    std::vector<Bar>   bars; ///< bars of plates at the end of the list
     std::vector<Plate> plates;
-    std::string        stage; ///< of the last step
+    std::string        stage; ///< stage of the last step
     double             h = 0.;
   };
 } // namespace geocone::GEOCONE_DIM

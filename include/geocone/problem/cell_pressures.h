@@ -38,19 +38,19 @@ namespace geocone::GEOCONE_DIM
   class CellPressures
   {
   public:
-    /** Whether polynomial pressures are needed: B-bar and dilatant soil; the
-     *  same on all ranks. */
+    /** Whether cell-wise polynomial pressures are required, i.e. B-bar is used with
+     *  dilatant soil; the same on all ranks. */
     static bool
     are_those_of(const MaterialPoints &points, const Materials &materials);
 
     CellPressures(const MaterialPoints &points, const Materials &materials);
 
-    /** Initialises the elasticity at t_n. */
+    /** Sets the elastic moduli to the values at t_n. */
     void
     begin_step();
 
     /**
-     * Adds t_p I/n to the strains.
+     * Adds t_p I/n to the strains, so that pi_p is polynomial in each cell.
      * @param update computes stresses and tangents from the strains of a range
      * of points [first, second)
      * @param strain_zz hoop strains, empty unless axisymmetric
@@ -63,8 +63,8 @@ namespace geocone::GEOCONE_DIM
       std::vector<Mandel>             &strain,
       const std::vector<double>       &strain_zz);
 
-    /** Remaining difference of pressures from polynomials after equalise(),
-     *  over the largest stress of the points of this rank. */
+    /** Largest difference between pi_p and the fitted polynomials after
+     *  equalise(), divided by the largest stress of the points of this rank. */
     double
     difference() const
     {
@@ -80,11 +80,11 @@ namespace geocone::GEOCONE_DIM
                    std::vector<Mandel>                  &rate,
                    const std::vector<double>            &rate_zz);
 
-    /** Largest number of polynomials in a cell: Q3, degree 2. */
+    /** Maximum number of polynomials M_j in a cell: degree 2, used with Q3. */
     static constexpr int most_modes = dim == 2 ? 6 : 10;
 
-    /** A basis of the polynomials of a cell and their G, with 1/k_p of its
-     *  points. */
+    /** Polynomial basis M_j of a cell, and the matrix G of this basis, weighted by
+     *  1/k_p of the points. */
     struct Basis
     {
       using Matrix = Eigen::Matrix<double,
@@ -94,20 +94,21 @@ namespace geocone::GEOCONE_DIM
                                    most_modes,
                                    most_modes>;
 
-      /** M_j at the points of a cell; at one point per j, M_j = 1 and all other
-       *  M_i = 0. */
+      /** Values of M_j at the points of a cell. For each j there is a point at which
+       *  M_j = 1 and all other M_i = 0. */
       Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>
         modes;
-      /** Number of this point in the cell; -1 if M_j = 0 at all points. */
+      /** For each j, index of the point in the cell at which M_j = 1; -1 if M_j = 0
+       *  at all points. */
       std::vector<int>    point;
-      Eigen::LDLT<Matrix> compliance; ///< G
+      Eigen::LDLT<Matrix> compliance; ///< factorisation of G
     };
 
-    /** Tangent of a cell with its t_p eliminated, see condense(). */
+    /** Data of a cell's tangent after elimination of the t_p, see condense(). */
     struct Condensed
     {
       std::vector<Mandel> left, right; ///< a_p/k_p, b_p/k_p, times the weight
-      std::vector<double> left_zz, right_zz; ///< axisymmetric: hoop
+      std::vector<double> left_zz, right_zz; ///< hoop, if axisymmetric
       Basis               basis;
     };
 
@@ -130,7 +131,7 @@ namespace geocone::GEOCONE_DIM
              Condensed                      &result) const;
 
   private:
-    /** p_n of a point (Pa); 0 without undrained soil. */
+    /** Excess pore pressure of a point at t_n (Pa); 0 without undrained soil. */
     double
     pore_pressure(const unsigned int point) const;
 
@@ -159,34 +160,35 @@ namespace geocone::GEOCONE_DIM
     double
     fit(const unsigned int cell);
 
-    /** Performs a step of Newton's method in a cell after fit(). */
+    /** Performs a Newton step for the t_p of a cell after fit(). */
     void
     shift(const unsigned int cell);
 
-    /** Shortens the last step to a fraction of it. */
+    /** Shortens the last Newton step of a cell to a fraction of its length. */
     void
     shorten(const unsigned int cell, const double part);
 
-    /** Derivative along the last step, sum_p V_p pi_p dt_p, of the functional
-     *  of the t_p that is minimal if the pi_p are a polynomial. The functional
-     *  is convex, as pi_p never decreases if a point expands. */
+    /** Directional derivative sum_p V_p pi_p dt_p of the cell's potential along the
+     *  last Newton step. The potential, a function of the t_p, is minimal if the
+     *  pi_p are a polynomial, and convex, as pi_p never decreases if a point
+     *  expands. */
     double
     slope(const unsigned int cell) const;
 
     const MaterialPoints     &points;
     const Materials          &materials;
-    std::vector<double>       least_modulus; ///< of points (Pa)
+    std::vector<double>       least_modulus; ///< lower bound on k_p (Pa)
     std::vector<double>       mean;          ///< pi_p (Pa)
     std::vector<double>       k;             ///< k_p (Pa)
-    std::vector<double>       growth;        ///< t_p
-    std::vector<double>       change;        ///< of t_p in the last step
-    std::vector<double>       first_slope;   ///< per cell, at its start
+    std::vector<double>       growth;        ///< t_p (-)
+    std::vector<double>       change;        ///< dt_p of the last Newton step
+    std::vector<double>       first_slope;   ///< slope() before it, by cell
     std::vector<double>       first_difference;
     std::vector<Mandel>       given;    ///< strains without t_p
     std::vector<unsigned int> unequal;  ///< cells not yet converged
     Basis                     basis;    ///< of the cell fitted last
-    Eigen::VectorXd           fitted;   ///< its polynomial at its points (Pa)
-    std::vector<double>       softness; ///< V/k of its points
+    Eigen::VectorXd           fitted;   ///< fitted polynomial, by point (Pa)
+    std::vector<double>       softness; ///< V/k of the points of that cell
     double                    largest_difference = 0.;
   };
 } // namespace geocone::GEOCONE_DIM

@@ -8,7 +8,8 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** External forces of a step, -F: weight and tractions. */
+  /** Term -F of the residual: external forces F, due to self-weight and surface
+   *  tractions. */
   class ExternalForces : public Term
   {
   public:
@@ -27,7 +28,7 @@ namespace geocone::GEOCONE_DIM
         part.add(-1., *force);
     }
 
-    /** Forces F, or null. */
+    /** Nodal forces F (N/m), or null for none. */
     const Vector *
     vector() const
     {

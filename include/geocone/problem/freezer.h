@@ -15,36 +15,38 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Writes incremental problems as data into the folder of the run: those of
-   * selected steps, and those that did not converge.
+   * Writes the incremental problems of selected steps, and of steps that did not
+   * converge, as data files into the run folder.
    */
   class Freezer : public dealii::ParameterAcceptor
   {
   public:
     Freezer();
 
-    /** @throws InputError for steps outside the programme, and for features
-     *  that frozen problems cannot represent */
+    /** Checks the options. @throws InputError for steps outside the loading
+     *  programme, and for features that frozen problems cannot represent */
     void
     check(const Scene &scene) const;
 
-    /** @param folder of the run, which exists */
+    /** Sets the output folder. @param folder existing folder of the run */
     void
     prepare(const std::string &folder);
 
-    /** Whether any problem may be written. */
+    /** Whether any steps, or all steps that do not converge, are selected. */
     bool
     is_used() const
     {
       return failures || !steps.empty();
     }
 
-    /** Sets the step of the programme for the problems that follow. */
+    /** Sets the number of the current step of the loading programme. */
     void
     set_step(const unsigned int number);
 
     /**
-     * Writes a problem after an attempt to solve it, if chosen. Collective.
+     * Writes a problem after a solution attempt if the step is selected (first
+     * attempt only), or if the attempt did not converge and failures are selected.
+     * Collective.
      * @param start initial guess
      */
     void

@@ -12,47 +12,50 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * An incremental problem as data: all input of the solver in a step, without
-   * the scene, the mesh and the method. It can be written, read and solved
-   * again with other options.
+   * Incremental problem stored as data: the complete input of the solver in a
+   * step, without scene, mesh and spatial discretisation. The problem can be
+   * written, read and solved again with other solver options.
    */
   struct FrozenProblem
   {
     /** Section `Materials` of the parameter file. */
     std::string materials;
 
-    bool   particles       = false; ///< whether the points moved
-    double h               = 0.;    ///< step (s)
-    double consistent_part = 0.;    ///< of the mass, c of Inertia
+    bool   particles       = false; ///< material points (moving points)
+    double h               = 0.;    ///< step size (s)
+    double consistent_part = 0.;    ///< fraction c of Inertia
 
-    /** Only the data used by an incremental problem. */
+    /** Points, with only the data that an incremental problem uses. */
     MaterialPoints points;
 
-    /** @name By dof, dim per node */
+    /** @name Nodal data by dof, dim dofs per node */
     /** @{ */
-    /** Kind: 0, Unknowns::prescribed_row or Unknowns::massless_row. */
+    /** Kind of dof: 0 (free), Unknowns::prescribed_row or
+     *  Unknowns::massless_row. */
     std::vector<int>    kind;
     std::vector<double> mass;       ///< lumped (kg/m); empty without inertia
     std::vector<double> force;      ///< F (N/m); empty without loads
-    std::vector<double> velocity_L; ///< vL (m/s)
-    std::vector<double> prescribed; ///< of prescribed dofs (m/s)
+    std::vector<double> velocity_L; ///< velocities vL at t_n (m/s)
+    std::vector<double> prescribed; ///< velocities of prescribed dofs (m/s)
     std::vector<double> start;      ///< initial guess (m/s)
     /** @} */
 
-    /** GhostStencil by stencil: three nodes; three coefficients and k. */
+    /** Ghost stencils: three nodes each, and three coefficients and the stiffness
+     *  k (Pa) each. */
     std::vector<int>    ghost_nodes;
     std::vector<double> ghost_values;
 
-    /** Rows H v = q over these dofs. */
+    /** Linear constraints H v = q on the velocities v of the listed dofs. */
     std::vector<int> constrained_dofs;
     Eigen::MatrixXd  H;
     Eigen::VectorXd  q;
 
-    /** Writes an HDF5 file. @throws RunError */
+    /** Writes the problem to an HDF5 file. @throws RunError if that fails */
     void
     write(const std::string &file_name) const;
 
-    /** Reads a file. @throws RunError naming the file and the error in it */
+    /** Reads a problem from an HDF5 file. @throws RunError naming the file and the
+     *  error */
     static FrozenProblem
     read(const std::string &file_name);
   };

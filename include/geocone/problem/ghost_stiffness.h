@@ -11,25 +11,26 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Three adjacent functions of a row or a column of splines, the last of
-   *  which has very little material in its support. */
+  /** Three adjacent basis functions along a grid direction of splines; the last
+   *  one has very little material in the support. */
   struct GhostStencil
   {
-    std::array<unsigned int, 3> node;        ///< local
-    std::array<double, 3>       coefficient; ///< c
-    double                      stiffness;   ///< k (Pa)
+    std::array<unsigned int, 3> node;        ///< local node numbers
+    std::array<double, 3>       coefficient; ///< c of GhostStiffness
+    double                      stiffness;   ///< k of GhostStiffness (Pa)
   };
 
   /**
-   * Viscous force that couples low-mass functions to their neighbours. A
-   * function reached only by the tail of a few particles has almost no mass and
-   * stiffness: a load on it causes velocities a thousand times those around, at
-   * no cost (spurious velocities). With its two neighbours towards the
-   * material, at Greville abscissae x0, x1, and x2 its own,
+   * Viscous force that couples low-mass basis functions to adjacent functions. A
+   * basis function whose support contains only a few particles near its boundary
+   * has almost no mass and stiffness: a load on it causes spurious velocities, a
+   * thousand times larger than in the surroundings. With x2 the Greville abscissa
+   * of the low-mass function, and x0, x1 those of the next two functions towards
+   * the material, the stiffness acts on
    *   g = v2 - (1 + a) v1 + a v0 = c.v,   a = (x2 - x1)/(x1 - x0),
    * which is zero for linear fields. Force and work in a step h are
    *   R += k h c g,   k = gamma E (1 - fill/0.2),   W = h^2 sum k g^2 >= 0.
-   * It has no memory. Forces and moments of a stencil are self-equilibrated, so
+   * The force has no memory. Forces and moments of a stencil are self-equilibrated, so
    * that the reactions of supports remain equal to the load.
    */
   class GhostStiffness : public Term
@@ -58,7 +59,8 @@ namespace geocone::GEOCONE_DIM
     void
     add_elastic_diagonal(Vector &dst) const override;
 
-    /** W of a step with the velocities v (J/m), of all ranks. Collective. */
+    /** Work W of the ghost forces in a step with the velocities v (J/m), summed
+     *  over all ranks. Collective. */
     double
     work(const Vector &v) const;
 
@@ -72,13 +74,13 @@ namespace geocone::GEOCONE_DIM
     node_groups() const override;
 
   private:
-    /** g of a stencil along a component. */
+    /** Difference g = c.v of a stencil, for a velocity component. */
     static double
     bend(const GhostStencil &stencil,
          const Vector       &v,
          const unsigned int  component);
 
-    /** Computes part += k h c g(v), including ghosts. */
+    /** Adds the forces k h c g(v) to @p part, including ghosts. */
     void
     add_forces(Vector &part, const Vector &v) const;
 
@@ -88,19 +90,20 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Candidates for ghost stiffness in a space of splines: all triples of
-   * adjacent functions, each on the rank of one cell in the support of all
-   * three.
+   * Candidate stencils of ghost stiffness in a spline space: all triples of
+   * adjacent basis functions, each on the rank that owns a cell in the common
+   * support.
    */
   class GhostPlaces
   {
   public:
     GhostPlaces(const BackgroundMesh &mesh, const Space &space);
 
-    /** Fill below which a function is low-mass. */
+    /** Fill (see fill()) below which a basis function is low-mass. */
     static constexpr double least_fill = 0.2;
 
-    /** Fill sum_p V_p N_i(x_p)/int N_i of a local node.
+    /** Fill of the support of a local node's basis function with material,
+     *  sum_p V_p N_i(x_p)/int N_i.
      *  @param volume see stencils() */
     double
     fill(const Vector &volume, const unsigned int node) const
@@ -109,12 +112,12 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * Stencils of the low-mass functions with mass, in all directions in which
-     * their neighbours have a larger fill.
+     * Stencils of all low-mass basis functions with nonzero mass, in each direction
+     * in which the adjacent functions have a larger fill.
      * @param volume at the dofs of each node sum_p V_p N_i (m^2) and sum_p V_p
      * E_p N_i (N), with ghosts
-     * @param is_wanted by local node; empty: all
-     * @param gamma of the stiffness
+     * @param is_wanted selected nodes, by local node; empty: all
+     * @param gamma factor of the stiffness k
      */
     std::vector<GhostStencil>
     stencils(const Vector            &volume,
@@ -122,7 +125,8 @@ namespace geocone::GEOCONE_DIM
              const std::vector<bool> &is_wanted,
              const double             gamma) const;
 
-    /** Number of low-mass functions with mass, of all ranks. Collective. */
+    /** Number of low-mass basis functions with nonzero mass, summed over all ranks.
+     *  Collective. */
     unsigned int
     n_light(const Vector &volume, const Unknowns &unknowns) const;
 
@@ -133,7 +137,7 @@ namespace geocone::GEOCONE_DIM
       double                      a;
     };
     std::vector<Triple> triples;
-    std::vector<double> integral; ///< int N_i (m^2), by local node
+    std::vector<double> integral; ///< integral of N_i, by local node (m^2)
     unsigned int        n_owned = 0;
   };
 } // namespace geocone::GEOCONE_DIM

@@ -25,22 +25,22 @@ namespace geocone::GEOCONE_DIM
   struct ResidualReport
   {
     double       norm       = 0.; ///< Euclidean norm over the free rows (N/m)
-    double       force_norm = 0.; ///< largest norm of a part of R (N/m)
+    double       force_norm = 0.; ///< largest norm of a term of R (N/m)
     unsigned int n_cone     = 0;  ///< points on the smooth part of the cone
     unsigned int n_apex     = 0;  ///< points at the apex
-    unsigned int n_switched = 0;  ///< points whose mode has changed
+    unsigned int n_switched = 0;  ///< points whose mode differs from the last R
 
     double local_error = 0.; ///< see InternalForces::local_error()
 
-    /** Over potential contact nodes: norm of F (N/m) and the sum of its
-     *  reference Contact::Touch::size. Contact forces may be small compared
-     *  with those of the soil. */
+    /** Norm of the contact equations F over the potential contact nodes, and sum of
+     *  the reference forces Contact::Touch::size (N/m). Contact forces can be
+     *  small compared with the internal forces of the soil. */
     double contact_norm = 0., contact_size = 0.;
   };
 
   /**
-   * One implicit step as a root-finding problem for the velocities v of the
-   * free dofs (backward Euler):
+   * Root-finding problem of one implicit step (backward Euler) for the velocities
+   * v of the free dofs:
    *   R(v) = M (v - vL)/h + sum_p V_p B_p' s_p(v) - F - H' lambda,   H v = q.
    * The residual is a sum of terms (Inertia, InternalForces, ExternalForces,
    * GhostStiffness) and of the reactions of linear constraints; prescribed
@@ -73,14 +73,15 @@ namespace geocone::GEOCONE_DIM
       std::vector<GhostStencil> ghosts          = {},
       const bool                has_contact     = false);
 
-    /** Adds a term, which must outlive the problem. */
+    /** Appends a term to the residual; the term must outlive the problem. */
     void
     add(Term &term)
     {
       terms.push_back(&term);
     }
 
-    /** Adds bars, which must outlive the problem. */
+    /** Appends the bars of the scene to the residual; they must outlive the
+     *  problem. */
     void
     add(Bars &of_scene)
     {
@@ -98,10 +99,10 @@ namespace geocone::GEOCONE_DIM
     IncrementalProblem(const IncrementalProblem &) = delete;
 
     /**
-     * Sets the data of a step of size h.
-     * @param force F at its end, or null for none
+     * Sets the loads, velocities and contacts of a step of size h.
+     * @param force F at the end of the step, or null for none
      * @param velocity_L vL, velocities at t_n
-     * @param prescribed prescribed velocities at its end
+     * @param prescribed prescribed velocities at the end of the step
      * @param touching potential contacts, see Contact
      */
     void
@@ -112,22 +113,23 @@ namespace geocone::GEOCONE_DIM
                ContactStep   touching = {});
 
     /**
-     * Evaluates trial states and R(v) in all rows by a local law; in prescribed
-     * rows R is the reaction, in rows of contact nodes F. @p v needs its
-     * ghosts.
+     * Evaluates the trial states and the residual R(v) by a local law. In the rows
+     * of prescribed dofs R is the reaction; in the rows of contact nodes, F of
+     * Contact. The ghosts of @p v must be up to date.
      */
     ResidualReport
     residual(Vector &dst, const Vector &v, const LocalLaw &law = {});
 
-    /** Local law that linearises the complementarity problem in each
-     *  residual(); arguments as for NaturalMap. */
+    /** Creates the natural map, a local law that linearises the complementarity
+     *  problem in each residual(); arguments as for NaturalMap. */
     NaturalMap
     make_natural_map(const double rho, const std::vector<Mandel> &start) const
     {
       return NaturalMap(points, materials, {h}, rho, start);
     }
 
-    /** Properties of the current step, over all ranks. Collective. */
+    /** Features of the current step that determine the solution strategy, combined
+     *  over all ranks. Collective. */
     StepTraits
     traits() const;
 
@@ -145,35 +147,37 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * Sparsity pattern of the Jacobian on the free dofs, with zero values.
-     * @param one_triangle whether only the lower triangle of a symmetric one is
-     * stored
+     * Creates a zero matrix with the sparsity pattern of the Jacobian on the free
+     * dofs.
+     * @param one_triangle whether only the lower triangle of a symmetric Jacobian
+     * is stored
      */
     SparseMatrix
     make_pattern(const bool one_triangle);
 
-    /** Nodes of the rows of the Jacobian. Collective. */
+    /** Node to which each row of the Jacobian belongs. Collective. */
     NodalRows
     nodal_rows() const;
 
-    /** Whether the couplings of the step differ from those of the last pattern.
-     *  Collective with contact. */
+    /** Whether the Jacobian of the step needs a new sparsity pattern, as other dofs
+     *  are coupled than in the last pattern. Collective with contact. */
     bool
     needs_pattern() const;
 
     /**
      * Generalised Jacobian dR/dv = M/h + h sum V B' C B at the last residual(),
      * with C replaced by (1 - w) C + w D, w the elastic blend.
-     * @return contribution of free obstacles or of bars
+     * @return low-rank contribution of free obstacles or of bars
      */
     LowRank
     linearise(SparseMatrix &matrix, const double elastic_blend = 0.) const;
 
-    /** Computes dst = (dR/dv) dv in all rows, at the last residual(). */
+    /** Computes the Jacobian-vector product dst = (dR/dv) dv in all rows, at the
+     *  last residual(). */
     void
     apply_tangent(Vector &dst, const Vector &dv) const;
 
-    /** Sets the prescribed components of v at the end of the step. */
+    /** Sets the prescribed components of v to the values at the end of the step. */
     void
     set_prescribed(Vector &v) const;
 
@@ -183,14 +187,15 @@ namespace geocone::GEOCONE_DIM
       return unknowns;
     }
 
-    /** Multipliers at the last residual(): forces along the rows of H (N/m). */
+    /** Lagrange multipliers lambda of the constraints H v = q at the last
+     *  residual() (N/m). */
     const Eigen::VectorXd &
     multipliers() const
     {
       return lambda;
     }
 
-    /** Inertia term of a dynamic problem. */
+    /** Inertia term; only for a dynamic problem. */
     const Inertia &
     inertia_term() const
     {
@@ -203,7 +208,7 @@ namespace geocone::GEOCONE_DIM
       return contact_term.has_value();
     }
 
-    /** @name Contact, if there may be any */
+    /** @name Contact term; only for problems with possible contact */
     /** @{ */
     const Contact &
     contact() const
@@ -249,7 +254,7 @@ namespace geocone::GEOCONE_DIM
     double
     free_dot(const Vector &a, const Vector &b) const;
 
-    /** A zero vector with the layout of velocities and forces. */
+    /** Creates a zero vector with the parallel layout of velocities and forces. */
     Vector
     make_vector() const
     {
@@ -285,8 +290,8 @@ namespace geocone::GEOCONE_DIM
     std::optional<Inertia> inertia;
     GhostStiffness         ghost;
     std::optional<Contact> contact_term;
-    std::vector<Term *>    terms; ///< all of them
-    Bars                  *bars = nullptr; ///< if there are any
+    std::vector<Term *>    terms;          ///< terms of the residual
+    Bars                  *bars = nullptr; ///< null without bars
 
     bool of_particles = false;
 
@@ -294,17 +299,17 @@ namespace geocone::GEOCONE_DIM
     Vector velocity_L;
     Vector prescribed;
 
-    Vector          part;             ///< of a term in residual()
-    Vector          elastic_diagonal; ///< of the present h, or empty
+    Vector          part;             ///< value of a term in residual()
+    Vector          elastic_diagonal; ///< scale() for the current h, or empty
     Eigen::VectorXd lambda;
     JacobianPattern pattern;
 
     using Links = std::vector<std::vector<unsigned int>>;
-    Links links_now; ///< of the step, Contact::links()
-    Links links;     ///< of the pattern
+    Links links_now; ///< Contact::links() of the current step
+    Links links;     ///< Contact::links() of the last pattern
 
-    /** Factors of H in the metric of scale(), for the present step, or
-     *  empty. */
+    /** Factorisation of the constraint rows H in the metric of scale(), for the
+     *  current step, or empty. */
     Multipliers::Factors row_factors;
   };
 } // namespace geocone::GEOCONE_DIM

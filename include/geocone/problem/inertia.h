@@ -16,7 +16,7 @@ namespace geocone::GEOCONE_DIM
   {
   public:
     /**
-     * @param lumped_mass m
+     * @param lumped_mass m, by dof
      * @param consistent_part c, nonzero only for points with N and mass
      */
     Inertia(const MaterialPoints &points,
@@ -24,15 +24,16 @@ namespace geocone::GEOCONE_DIM
             const Vector         &lumped_mass,
             const double          consistent_part);
 
-    /** @param step h (s) @param velocity_n vL, which must outlive the step */
+    /** Sets the data of a step. @param step size h (s)
+     *  @param velocity_n vL, which must outlive the step */
     void
     begin_step(const double step, const Vector &velocity_n);
 
     void
     residual(Vector &part, const Vector &v, const LocalLaw &law) override;
 
-    /** Adds also 1e-6 |M vL/h|^2, the only reference of a body in free
-     *  flight. */
+    /** Appends also 1e-6 |M vL/h|^2 to the squared reference norms: the only
+     *  nonzero reference of a body in free flight. */
     void
     add_sizes(const Vector &part, std::vector<double> &sizes) const override;
 
@@ -47,7 +48,8 @@ namespace geocone::GEOCONE_DIM
     void
     add_elastic_diagonal(Vector &dst) const override;
 
-    /** Computes dst = M x in all rows. @p x needs its ghosts. */
+    /** Computes the product dst = M x with the mass matrix in all rows. The ghosts
+     *  of @p x must be up to date. */
     void
     apply_mass(Vector &dst, const Vector &x) const;
 
@@ -57,7 +59,7 @@ namespace geocone::GEOCONE_DIM
       return mass;
     }
 
-    /** Fraction c of the consistent mass. */
+    /** Fraction c of the consistent mass matrix in M. */
     double
     consistent_part() const
     {

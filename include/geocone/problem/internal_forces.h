@@ -20,11 +20,10 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Accuracy of a computed state with respect to the cone law, independent of
-   * the solver: maxima over all points, with z = S (s - s_n) - h B v recomputed
-   * from the state, y = Psi(z), the stress scale max |s| + max k, and the
-   * strain scale max |y|, at least stress scale/2G (without plastic flow y is
-   * rounding).
+   * Residuals of a computed state in the cone law, independent of the solver:
+   * maxima over all points, with z = S (s - s_n) - h B v recomputed from the
+   * state, y = Psi(z), the stress scale max |s| + max k, and the strain scale
+   * max |y|, at least stress scale/2G (without plastic flow y is rounding).
    */
   struct Quality
   {
@@ -33,17 +32,17 @@ namespace geocone::GEOCONE_DIM
     double dual_violation  = 0.; ///< max(0, a |y_t| - y_n) / strain scale
     double complementarity = 0.; ///< |<y, s + (k/a) n>| / (both scales)
 
-    /** max(0, |s_t| - a s_n - k) of the exact cone (Pa): nonzero with lagged
-     *  friction or friction with memory, for which the other numbers refer to
-     *  the law that was solved. */
+    /** Violation max(0, |s_t| - a s_n - k) of the exact cone (Pa): nonzero with
+     *  lagged friction or friction with memory, for which the other members refer
+     *  to the law that was solved. */
     double cone_excess = 0.;
 
-    /** |s - P_C(s - 2G y)| / stress scale of the exact law; equals natural_map
-     *  if this law was solved. */
+    /** Natural-map residual |s - P_C(s - 2G y)| / stress scale of the exact law;
+     *  equals natural_map if the exact law was solved. */
     double exact_natural_map = 0.;
 
-    /** Plastic work due to the difference between the strength used and the
-     *  exact one, over the plastic work of a step; see
+    /** Plastic work due to the difference between the strength used and the exact
+     *  strength, divided by the plastic work of the step; see
      *  InternalForces::excess_work(). */
     double excess_share = 0.;
 
@@ -77,8 +76,8 @@ namespace geocone::GEOCONE_DIM
    *   sum_p V_p B_p' s_p(v),   s_p(v) = material(h B_p v, state at t_n).
    * Undrained soil additionally has an excess pore pressure,
    *   p_p(v) = p_p - K_w/n tr(h B_p v).
-   * The total stress s_p - p_p I enters the equilibrium; the law, its modes and
-   * its checks use the effective stress s_p. With dilatant soil, B-bar includes
+   * Equilibrium uses the total stress s_p - p_p I; the law, its modes and its
+   * checks use the effective stress s_p. With dilatant soil, B-bar includes
    * CellPressures. The state at t_n is const; the trial states stored here are
    * those of the last residual().
    */
@@ -90,15 +89,15 @@ namespace geocone::GEOCONE_DIM
                    const Unknowns       &unknowns,
                    const MPI_Comm        comm);
 
-    /** @param step h (s) */
+    /** Sets the step size. @param step h (s) */
     void
     begin_step(const double step);
 
     void
     residual(Vector &part, const Vector &v, const LocalLaw &law) override;
 
-    /** Computes part = sum V B's of the stresses at t_n, in all owned rows
-     *  (N/m). */
+    /** Computes the internal forces sum V B's of the stresses at t_n, in all owned
+     *  rows (N/m). */
     void
     forces_at_start(Vector &part) const;
 
@@ -113,18 +112,19 @@ namespace geocone::GEOCONE_DIM
     void
     add_elastic_diagonal(Vector &dst) const override;
 
-    /** Counts the points of this rank on the smooth part of the cone, at the
-     *  apex, and those whose mode differs from that at the previous
-     *  residual. */
+    /** Counts the points of this rank on the smooth part of the cone, the points at
+     *  the apex, and the points whose mode has changed since the previous
+     *  residual(). */
     void
     count_modes(double *counts) const;
 
-    /** Largest |R| of NaturalMap over the stress scale, or
+    /** Largest local error: |R| of NaturalMap divided by the stress scale, or
      *  CellPressures::difference(); 0 for the return map alone. Collective. */
     double
     local_error() const;
 
-    /** Whether there are CellPressures; the same on all ranks. */
+    /** Whether CellPressures are used (B-bar with dilatant soil); the same on all
+     *  ranks. */
     bool
     has_cell_pressures() const
     {
@@ -132,7 +132,7 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * Rounding error N of the residual norm at a velocity (N/m),
+     * Estimated rounding error N of the residual norm for a velocity field (N/m),
      *   N^2 = eps^2 sum_p sum_i |grad N_i|^2 (V_p K_p h sum_j |grad N_j| |v_j|)^2
      * with K_p = 2 (lambda + G). The terms of the strain e_p = h B_p v have the
      * relative error eps, but their sum is smaller by the ratio of the sizes of
@@ -143,13 +143,14 @@ namespace geocone::GEOCONE_DIM
     double
     rounding_floor(const Vector &v) const;
 
-    /** Checks the trial states; the same on all ranks.
+    /** Evaluates the residuals of the trial states in the cone law; the same on all
+     *  ranks.
      *  @param excess_work result of excess_work() (J/m) */
     Quality
     quality(const double excess_work) const;
 
-    /** Description of a point whose trial state is NaN, or empty.
-     *  Collective. */
+    /** Returns a description of a point whose trial state is NaN, or an empty
+     *  string. Collective. */
     std::string
     not_a_number() const;
 
@@ -159,8 +160,8 @@ namespace geocone::GEOCONE_DIM
     double
     excess_work() const;
 
-    /** Ratio of @p excess_work to the plastic work of the step, 0 for the exact
-     *  law. Collective. */
+    /** Ratio of the excess work to the plastic work of the step; 0 for the exact
+     *  law. Collective. @param excess_work result of excess_work() (J/m) */
     double
     excess_share(const double excess_work) const;
 
@@ -171,7 +172,7 @@ namespace geocone::GEOCONE_DIM
     {
       return stress;
     }
-    /** Total stress: trial stress less the excess pore pressure. */
+    /** Total stress: trial stress minus excess pore pressure, tension positive. */
     const std::vector<Mandel> &
     total_stress() const
     {
@@ -187,16 +188,17 @@ namespace geocone::GEOCONE_DIM
     {
       return mode;
     }
-    /** History variables, in the layout of those of the points at t_n. */
+    /** Trial history variables, in the layout of the history variables of
+     *  MaterialPoints. */
     std::vector<double>
     trial_history() const;
 
-    /** Plastic part -z of the strain increment of a point. */
+    /** Plastic strain increment -z of a point. */
     SpatialMandel
     plastic_strain_increment(const unsigned int point) const;
 
-    /** @name Full stress tensor of a point, trial and at t_n; s_zz is 0 unless
-     *  the law is three-dimensional */
+    /** @name Full stress tensor of a point, in the trial state and at t_n; s_zz is
+     *  0 unless the law is three-dimensional */
     /** @{ */
     SpatialMandel
     whole_stress(const unsigned int point) const;
@@ -204,18 +206,18 @@ namespace geocone::GEOCONE_DIM
     whole_stress_n(const unsigned int point) const;
     /** @} */
 
-    /** Work at a point in the step, per volume (J/m^3). */
+    /** Internal work at a point in the step, per volume (J/m^3). */
     struct Work
     {
-      double elastic; ///< s:S(s - s_n), and p (p - p_n)/(K_w/n) of the fluid
+      double elastic; ///< s:S(s - s_n), plus p (p - p_n)/(K_w/n) of the fluid
       double plastic; ///< s:(plastic strain increment)
     };
     Work
     work(const unsigned int point) const;
     /** @} */
 
-    /** Calls f(p, dof, column of B_p for a local dof) for all nonzero
-     *  columns. */
+    /** Calls f(p, dof, column of B_p for the local dof) for each nonzero column of
+     *  the strain matrices B_p. */
     void
     for_each_strain_column(
       const std::function<
@@ -229,7 +231,8 @@ namespace geocone::GEOCONE_DIM
     };
     std::vector<Run> runs;
 
-    /** Increment of such points for their material, at the last residual(). */
+    /** Strain increment and state at t_n of a run of points, as input of the
+     *  material at the last residual(). */
     Increment
     increment_of(const Run &run) const;
 
@@ -239,8 +242,8 @@ namespace geocone::GEOCONE_DIM
       return {h, friction_lag};
     }
 
-    /** Updates the materials, run by run, at all points, or with tangents at
-     *  those in [begin, end). */
+    /** Updates stresses and modes of all points, run by run; the second version,
+     *  stresses, modes and tangents of the points [begin, end). */
     void
     update_materials(const bool with_tangent) const;
     void
@@ -256,8 +259,8 @@ namespace geocone::GEOCONE_DIM
         update_materials(true);
     }
 
-    /** Computes strain[p] = factor B_p v for the points of a cell, and in
-     *  axisymmetric problems the hoop strain. */
+    /** Computes the strains strain[p] = factor B_p v of the points of a cell, and
+     *  the hoop strains in axisymmetric problems. */
     template <int n>
     void
     strains_of_cell(const unsigned int   c,
@@ -266,8 +269,9 @@ namespace geocone::GEOCONE_DIM
                     std::vector<Mandel> &strain,
                     std::vector<double> &strain_zz) const;
 
-    /** Computes cell_f += sum B_p' s_p, s_p the stress times the weight, in the
-     *  plane and, in axisymmetric problems, the hoop stress. */
+    /** Adds the internal forces sum B_p' s_p of a cell to cell_f, where s_p is the
+     *  stress times the weight of the point, including the hoop stress in
+     *  axisymmetric problems. */
     template <int n, typename WeightedStress, typename WeightedHoopStress>
     void
     add_forces_of_cell(const unsigned int        c,
@@ -275,27 +279,29 @@ namespace geocone::GEOCONE_DIM
                        const WeightedHoopStress &weighted_hoop_stress,
                        double                   *cell_f) const;
 
-    /** Adds the low-rank contribution of the cell pressure to K. */
+    /** Adds the low-rank contribution of CellPressures to the stiffness matrix K
+     *  of a cell. */
     template <int n>
     void
     add_pressure_stiffness(const unsigned int              c,
                            const CellPressures::Condensed &condensed,
                            double                         *K) const;
 
-    /** Computes part = sum V B's. @param hoop_stress of a point, for
-     *  axisymmetric problems only */
+    /** Computes the internal forces sum V B's of given stresses.
+     *  @param hoop_stress of a point, for axisymmetric problems only */
     template <typename HoopStress>
     void
     sum_forces(const std::vector<Mandel> &stress,
                const HoopStress          &hoop_stress,
                Vector                    &part) const;
 
-    /** Out-of-plane parts of a point's tangent, including the fluid's, times h
-     *  and the weight. */
+    /** Out-of-plane components of a point's tangent, including the pore fluid,
+     *  multiplied by h and the weight of the point. */
     OutOfPlaneTangent
     tangent_zz_of(const unsigned int p, const double blend) const;
 
-    /** Adds the out-of-plane parts to K. */
+    /** Adds the out-of-plane components of a point's tangent to the stiffness
+     *  matrix K of a cell. */
     template <int n>
     void
     add_hoop_stiffness(const unsigned int       p,
@@ -314,14 +320,15 @@ namespace geocone::GEOCONE_DIM
       return !pressure.empty();
     }
 
-    /** Modulus K_w/n of the pore fluid at a point (Pa). */
+    /** Bulk modulus K_w/n of the pore fluid, with n the porosity, at a point
+     *  (Pa). */
     double
     fluid_modulus(const unsigned int point) const
     {
       return materials[points.material[point]].fluid_modulus();
     }
 
-    /** Updates the trial pressures and total stresses. */
+    /** Updates the trial excess pore pressures and total stresses. */
     void
     update_pressures();
 
@@ -337,7 +344,7 @@ namespace geocone::GEOCONE_DIM
     double            h = 0.;
     NaturalMap::Error map_error;
 
-    /** @name The law of the last residual() */
+    /** @name Local law of the last residual() */
     /** @{ */
     double friction_lag   = 0.;
     bool   by_natural_map = false;
@@ -349,8 +356,8 @@ namespace geocone::GEOCONE_DIM
     std::vector<Mode>                 previous_mode;
     mutable std::vector<MandelMatrix> tangent;
 
-    /** For B-bar with dilatant soil; then tangents are those of the last
-     *  residual(). */
+    /** Cell pressures, for B-bar with dilatant soil; they keep the tangents of the
+     *  last residual() up to date. */
     mutable std::optional<CellPressures> cell_pressures;
 
     /** @name Excess pore pressure and total stress: empty without undrained

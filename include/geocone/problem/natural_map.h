@@ -13,8 +13,8 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Local part of the incremental problem in (v, s, z) with the natural map
-   * (Guillet et al. 2025, eq 60). At each point
+   * Local part of the incremental problem for (v, s, z), formulated by the natural
+   * map (Guillet et al. 2025, eq 60). At each point
    *   z = S (s - s_n) - e,   R = s - P_C(s - rho Psi(z)),   e = h B v,
    * where s is an additional unknown, and a Newton step from (v, s) has
    *   A ds = rho J Psi' de - R,   A = I - J + rho J Psi' S,
@@ -30,7 +30,7 @@ namespace geocone::GEOCONE_DIM
   public:
     /**
      * @param step for Material::step_cone(), the cones of the points
-     * @param rho in units of 2G of each point
+     * @param rho as a multiple of 2G of each point
      * @param start initial guess of s, by point (Pa)
      */
     NaturalMap(const MaterialPoints      &points,
@@ -39,7 +39,8 @@ namespace geocone::GEOCONE_DIM
                const double               rho,
                const std::vector<Mandel> &start);
 
-    /** |R| of the worst point and its reference stress (Pa). */
+    /** Largest natural-map residual |R| over the points, and the reference stress
+     *  (Pa). */
     struct Error
     {
       double largest_residual = 0.;
@@ -47,16 +48,16 @@ namespace geocone::GEOCONE_DIM
     };
 
     /**
-     * Updates s with the strain increments e since the last call, and
-     * linearises there.
-     * @param[out] mode location of s - rho Psi(z): in C, on its side, or at its
-     * apex
+     * Updates the stresses s by a Newton step with the strain increments e, and
+     * linearises the natural map at the new (v, s).
+     * @param[out] mode region of s - rho Psi(z): inside C, projected onto the
+     * smooth part of C, or projected onto the apex
      */
     Error
     update(const std::vector<Mandel> &strain, std::vector<Mode> &mode);
 
-    /** Stress s - A^-1 R of the last update(), by point (Pa); before it the
-     *  initial guess. */
+    /** Stress s - A^-1 R of the last update(), by point (Pa); before the first
+     *  update(), the initial guess. */
     const std::vector<Mandel> &
     stress() const
     {
@@ -76,11 +77,11 @@ namespace geocone::GEOCONE_DIM
     const StepLaw                        step;
     const double                         rho;
     std::vector<std::optional<FlowCone>> cones;      ///< by material
-    std::vector<char>                    varies;     ///< whether also by point
+    std::vector<char>                    varies;     ///< cone differs by point
     std::vector<MandelMatrix>            compliance; ///< by material
     std::vector<Mandel>                  iterate;
     std::vector<MandelMatrix>            slope;
-    std::vector<Mandel>                  last_strain; ///< or empty
+    std::vector<Mandel>                  last_strain; ///< empty at first
   };
 } // namespace geocone::GEOCONE_DIM
 

@@ -12,12 +12,13 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Points at which a plate is tied to the body: the corners of its polyline, and
-   * between them points at most its spacing apart or, without one, those where it
-   * crosses the sides of cells, and a number of intervals between them. Along
-   * sides of the mesh these are the nodes. Crossings very near to others are left
-   * out. The same on all ranks.
-   * @param degree of the displacements, the number of intervals
+   * Points at which a plate is tied to the body, the same on all ranks. They
+   * include the corners of the plate's polyline. If the plate has a spacing, the
+   * corners are joined by points at most this distance apart; otherwise by the
+   * points where the plate crosses cell sides, with @p degree intervals between
+   * two crossings. Along sides of the mesh these are the nodes. Crossings very
+   * close to others are omitted.
+   * @param degree polynomial degree of the displacements
    */
   std::vector<dealii::Point<dim>>
   points_of_plate(const Structure      &plate,

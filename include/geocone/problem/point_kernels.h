@@ -15,17 +15,17 @@
 #include <vector>
 
 /**
- * Kernels for each point, for a number n of nodes known at compile time: g
- * holds grad N as n values d/dx, n values d/dy and so on; cell vectors are
- * interleaved (v_x, v_y, ... per node).
+ * Kernels of strains, nodal forces and stiffness at points, for a number n of
+ * nodes per cell known at compile time: g stores grad N as n values d/dx, n
+ * values d/dy and so on; cell vectors are interleaved (v_x, v_y, ... per node).
  */
 namespace geocone::kernels
 {
-  /** n to the power of the dimension. */
+  /** n to the power dim: number of nodes of a tensor-product cell. */
   template <int n>
   constexpr int power = dim == 2 ? n *n : n *n *n;
 
-  /** Number of nodes of simplices of degree p. */
+  /** Number of nodes of a simplex of polynomial degree p. */
   template <int p>
   constexpr int simplex = dim == 2 ? (p + 1) * (p + 2) / 2
                                    : (p + 1) * (p + 2) * (p + 3) / 6;
@@ -47,7 +47,7 @@ namespace geocone::kernels
       }
   }
 
-  /** Calls f with the number of nodes as a compile-time constant. */
+  /** Calls f with the number of nodes of a cell as a compile-time constant. */
   template <typename F>
   void
   with_n_nodes(const unsigned int n, const F &f)
@@ -65,7 +65,7 @@ namespace geocone::kernels
       }
   }
 
-  /** Computes B v: the Mandel strain rate of a cell vector v. */
+  /** Computes B v, the strain rate in Mandel notation of nodal velocities v. */
   template <int n>
   inline Mandel
   strain(const double *g, const double *v)
@@ -90,7 +90,7 @@ namespace geocone::kernels
     return e;
   }
 
-  /** Computes f += B' s. */
+  /** Adds the nodal forces B' s of a stress s to f. */
   template <int n>
   inline void
   add_force(const double *g, const Mandel &s, double *f)
@@ -123,7 +123,7 @@ namespace geocone::kernels
   };
   constexpr PlacesOfTensor place;
 
-  /** Calls f with each direction as a compile-time constant. */
+  /** Calls f with each coordinate direction as a compile-time constant. */
   template <typename F>
   [[gnu::always_inline]] inline void
   for_each_direction(const F &f)
@@ -134,8 +134,9 @@ namespace geocone::kernels
       f(std::integral_constant<unsigned int, 2>());
   }
 
-  /** Entry d of t g, for a tensor t with the value at(r) at position r of a
-   *  Mandel vector, shears over sqrt2, and a gradient with entries n apart. */
+  /** Component d of the product t g of a tensor t and a gradient g. The tensor is
+   *  given by at(r), entry r of the Mandel vector, with shear entries divided by
+   *  sqrt2; the components of g are n values apart. */
   template <int n, unsigned int d, typename F, std::size_t... k>
   [[gnu::always_inline]] inline auto
   along(const double *g, const F &at, std::index_sequence<k...>)
@@ -143,10 +144,10 @@ namespace geocone::kernels
     return (... + (g[n * ((d + k) % dim)] * at(place.of[d][(d + k) % dim])));
   }
 
-  /** Number of columns of a stiffness matrix that are summed at once. */
+  /** Number of columns of a stiffness matrix that are summed together. */
   constexpr int block = 4;
 
-  /** Number of scratch values for stiffness(). */
+  /** Required length of the scratch array of stiffness(). */
   inline std::size_t
   scratch_size(const unsigned int n_points, const unsigned int n_nodes)
   {
@@ -155,9 +156,9 @@ namespace geocone::kernels
   }
 
   /**
-   * Computes K = sum_q B_q' C_q B_q of a cell, row-major (dim n)^2, in blocks
-   * of a node's rows and a few columns whose sums over the points stay in
-   * registers.
+   * Computes the stiffness matrix K = sum_q B_q' C_q B_q of a cell, row-major
+   * (dim n)^2. The blocks, of a node's rows and a few columns, are so small that
+   * the sums over the points stay in registers.
    * @tparam upper whether only the blocks of nodes i <= j are needed
    * @param g gradients of the points one after another, dim n each
    * @param C tangents times weights
@@ -234,8 +235,9 @@ namespace geocone::kernels
       }
   }
 
-  /** a = modified gradients of the volumetric strain (B-bar) less those of a
-   *  point, in axisymmetric problems including N/r. @param hoop N/r, or null */
+  /** Computes a, the modified gradients of the volumetric strain (B-bar) minus the
+   *  gradients at the point, including N/r in axisymmetric problems.
+   *  @param hoop N/r, or null */
   template <int n>
   inline void
   volumetric_change(const double *g,
@@ -252,14 +254,15 @@ namespace geocone::kernels
   }
 
   /**
-   * Adds the contribution of modified gradients of the volumetric strain to K
-   * (B-bar). With I the unit tensor the strain is B + I a'/dim, a their
-   * volumetric_change(), so that with w = C I/dim
+   * Adds the B-bar contribution, from the modified gradients of the volumetric
+   * strain, to the stiffness matrix K. With I the unit tensor and a from
+   * volumetric_change(), the strain matrix is B + I a'/dim, so that with
+   * w = C I/dim
    *   K += sum_q a_q (C_q' I/dim)' B_q + (B_q' w_q) a_q'
    *          + (I' w_q/dim) a_q a_q'.
    * @param hoop N/r in axisymmetric problems, part of the volumetric strain; or
    * null
-   * @param volumetric those gradients, laid out as g
+   * @param volumetric modified gradients, in the layout of g
    */
   template <int n, bool upper>
   [[gnu::always_inline]] inline void
@@ -305,7 +308,7 @@ namespace geocone::kernels
   }
 
 #if defined(__x86_64__)
-  /** stiffness_body() for processors with AVX2 and FMA. */
+  /** Computes stiffness_body() with the instructions AVX2 and FMA. */
   template <int n, bool upper>
   [[gnu::target("avx2,fma")]] void
   stiffness_avx2(const double       *g,
@@ -320,9 +323,9 @@ namespace geocone::kernels
   }
 #endif
 
-  /** Computes K by the fastest variant for the processor, without out-of-plane
-   *  parts.
-   *  @param volumetric gradients of B-bar, or null */
+  /** Computes the stiffness matrix K of a cell, without out-of-plane components,
+   *  by the fastest variant for the processor.
+   *  @param volumetric modified gradients of B-bar, or null */
   template <int n, bool upper>
   void
   stiffness(const double       *g,
@@ -343,7 +346,7 @@ namespace geocone::kernels
     stiffness_body<n, upper>(g, hoop, volumetric, C, n_points, scratch, K);
   }
 
-  /** Copies the entries of a cell's nodes between a cell vector and a
+  /** Gathers the entries of a cell's nodes from a global vector into a cell
    *  vector. */
   template <int n>
   inline void

@@ -9,20 +9,20 @@
 
 namespace geocone
 {
-  /** Properties of the incremental problem of a step on which the solution
-   *  strategy depends. */
+  /** Features of a step's incremental problem that determine the solution
+   *  strategy. */
   struct StepTraits
   {
     LawTraits     law;
     ContactTraits contact;
     bool          has_inertia        = false;
-    bool          has_constraints    = false; ///< H v = q has rows
-    bool          has_cell_pressures = false; ///< CellPressures
-    bool          points_move        = false; ///< material points
-    bool          raises_loads       = false; ///< to the limit load
+    bool          has_constraints    = false; ///< linear constraints H v = q
+    bool          has_cell_pressures = false; ///< CellPressures are used
+    bool          points_move        = false; ///< material points (MPM)
+    bool          raises_loads       = false; ///< load stepping to the limit
 
-    /** Whether points have a local solver of their own, which excludes the
-     *  natural map: laws without one, and cell pressures. */
+    /** Whether stresses must be computed by return maps: some laws have no natural
+     *  map, and cell pressures exclude it. */
     bool
     needs_return_map() const
     {

@@ -11,32 +11,32 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Local law by which residual() computes the stresses. */
+  /** Local law: options by which residual() computes stresses and contact
+   *  forces. */
   struct LocalLaw
   {
-    /** Closed-form return maps of the materials, with the fraction of the
-     *  normal stress that determines strength taken from t_n
-     *  (Increment::friction_lag). */
+    /** Fraction of the normal stress that is taken from t_n when return maps
+     *  evaluate the strength (lagged friction, Increment::friction_lag). */
     double friction_lag = 0.;
 
-    /** Alternatively, the iterate of the natural map, updated in each
-     *  residual(). */
+    /** Natural map that replaces the return maps, updated in each residual(); or
+     *  null. */
     NaturalMap *natural_map = nullptr;
 
-    /** Whether contact has friction; a step without friction is an initial
-     *  guess for one with friction. */
+    /** Whether contact has friction; the solution without friction is an initial
+     *  guess for the solution with friction. */
     bool contact_friction = true;
 
-    /** Whether initially active contacts are bilateral, as an initial guess for
-     *  a step with separation. */
+    /** Whether initially active contacts are bilateral; the bilateral solution is
+     *  an initial guess for the solution with separation. */
     bool contact_holds = false;
   };
 
   /**
-   * Term of the residual R(v) of an implicit step, which is a sum of such
-   * terms. Functions not overridden contribute zero. Forces are per metre of
-   * thickness (N/m); rotated dofs (Unknowns::turned_nodes) have their
-   * components.
+   * Term of the residual R(v) of an implicit step; R is the sum of all terms.
+   * Member functions not overridden contribute zero. Forces are per metre of
+   * thickness (N/m); at rotated dofs (Unknowns::turned_nodes) they have the
+   * components along the rotated axes.
    */
   class Term
   {
@@ -44,15 +44,15 @@ namespace geocone::GEOCONE_DIM
     virtual ~Term() = default;
 
     /**
-     * Evaluates the term in all owned rows, and the data for its tangent.
-     * @param[out] part is overwritten
+     * Evaluates the term in all owned rows, and stores the data for its tangent.
+     * @param[out] part value of the term
      * @param v with its ghosts
      */
     virtual void
     residual(Vector &part, const Vector &v, const LocalLaw &law) = 0;
 
-    /** Appends squared reference norms for the residual, the sums on this rank:
-     *  |part|^2 unless overridden. */
+    /** Appends squared reference norms of the term, as sums on this rank, by which
+     *  the residual is normalised: |part|^2 unless overridden. */
     virtual void
     add_sizes(const Vector &part, std::vector<double> &sizes) const
     {
@@ -63,7 +63,7 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * Adds the term's dR/dv at the last residual() to the matrix.
+     * Adds the term's Jacobian dR/dv at the last residual() to the matrix.
      * @param elastic_blend w in (1 - w) C + w D, for a tangent C
      */
     virtual void
@@ -72,16 +72,16 @@ namespace geocone::GEOCONE_DIM
               [[maybe_unused]] SparseMatrix          &matrix) const
     {}
 
-    /** Adds the term's (dR/dv) dv at the last residual() to dst, in all owned
-     *  rows.
+    /** Adds the term's Jacobian-vector product (dR/dv) dv at the last residual() to
+     *  dst, in all owned rows.
      *  @param dv with its ghosts */
     virtual void
     apply_tangent([[maybe_unused]] Vector       &dst,
                   [[maybe_unused]] const Vector &dv) const
     {}
 
-    /** Groups of local nodes that couple in the term's matrix, besides those of
-     *  cells. */
+    /** Groups of local nodes that are coupled in the term's Jacobian without
+     *  sharing a cell. */
     virtual std::vector<std::vector<unsigned int>>
     node_groups() const
     {

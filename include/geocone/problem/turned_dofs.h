@@ -12,9 +12,8 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Nodes of cells with rotated dofs (Unknowns::turned_nodes), and the
-   * transformation of cell vectors and matrices. Without such nodes it has no
-   * cost.
+   * Transformation of cell vectors and matrices to the rotated dofs of nodes
+   * (Unknowns::turned_nodes). Without rotated dofs it has no cost.
    */
   class TurnedDofs
   {
@@ -23,16 +22,16 @@ namespace geocone::GEOCONE_DIM
 
     struct Turn
     {
-      unsigned int           node; ///< of the cell
-      dealii::Tensor<2, dim> axes; ///< by rows
+      unsigned int           node; ///< number in the cell
+      dealii::Tensor<2, dim> axes; ///< unit vectors, by rows
     };
 
-    /** Rotation of a node of a cell, or null. */
+    /** Rotated axes of a node of a cell; null if the dofs are not rotated. */
     const Turn *
     turn_of(const unsigned int c, const unsigned int node) const;
 
-    /** Transforms velocities of a cell from components of the dofs to x and
-     *  y. */
+    /** Transforms the nodal velocities of a cell from components along the dofs to
+     *  Cartesian components. */
     void
     velocities_to_xy(const unsigned int c, double *cell_v) const
     {
@@ -40,7 +39,8 @@ namespace geocone::GEOCONE_DIM
         turn_velocities(c, cell_v);
     }
 
-    /** Transforms forces of a cell from x and y to components of the dofs. */
+    /** Transforms the nodal forces of a cell from Cartesian components to
+     *  components along the dofs. */
     void
     forces_to_dofs(const unsigned int c, double *cell_f) const
     {
@@ -48,9 +48,10 @@ namespace geocone::GEOCONE_DIM
         turn_forces(c, cell_f);
     }
 
-    /** Transforms the rows and columns of the matrix of a cell.
-     *  @param n_dofs its rows @param upper whether only the upper entries are
-     *  set */
+    /** Transforms the rows and columns of a cell matrix from Cartesian components
+     *  to components along the dofs.
+     *  @param n_dofs number of rows
+     *  @param upper whether only the upper triangle is set */
     void
     matrix_to_dofs(const unsigned int c,
                    const unsigned int n_dofs,
@@ -63,7 +64,8 @@ namespace geocone::GEOCONE_DIM
     void
     turn_forces(const unsigned int c, double *cell_f) const;
 
-    /** If there are any, those of cell c begin at first_turn[c]. */
+    /** Rotated axes by cell: those of cell c begin at first_turn[c]. Empty without
+     *  rotated dofs. */
     std::vector<Turn>         turns;
     std::vector<unsigned int> first_turn;
   };
