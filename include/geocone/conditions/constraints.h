@@ -16,7 +16,7 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Prescribed velocities of nodes. Their dofs are eliminated; the others, the
+   * Prescribed nodal velocities. Prescribed dofs are eliminated; all others, the
    * free dofs, are the unknowns. The reaction of the support on the body is the
    * residual in the row of the dof. Linear constraints on free dofs are
    * additional rows with multipliers.
@@ -35,23 +35,25 @@ namespace geocone::GEOCONE_DIM
    * force counts once, and no support reports the load carried by an adjacent
    * one.
    *
-   * Conditions act in their stages only; in the others their dofs are free.
+   * A condition is active in selected stages only; in all other stages the dofs
+   * are free.
    */
   class Constraints : public Unknowns
   {
   public:
     /**
-     * Collects the conditions imposed on nodes, and lets those of a stage act.
-     * @throws InputError if one of them selects no node
+     * Collects the conditions imposed on nodes, and activates the conditions of a
+     * stage.
+     * @throws InputError if a condition selects no node
      */
     Constraints(const Scene          &scene,
                 const BackgroundMesh &mesh,
                 const Space          &space,
                 const std::string    &stage);
 
-    /** Lets the conditions of a stage act. Unknowns must be numbered and
-     *  problems set up anew thereafter. Collective.
-     *  @return whether they are others than before */
+    /** Activates the conditions of a stage. Thereafter the unknowns must be
+     *  numbered and incremental problems created again. Collective.
+     *  @return whether the set of active conditions has changed */
     bool
     begin_stage(const BackgroundMesh &mesh, const std::string &stage);
 
@@ -66,36 +68,36 @@ namespace geocone::GEOCONE_DIM
                   const Space          &space,
                   const MaterialPoints &points) const;
 
-    /** @throws InputError if a node of an axisymmetric body can leave the
-     *  axis */
+    /** Checks that the nodes of an axisymmetric body on the axis cannot leave it.
+     *  @throws InputError if a node can */
     void
     check_axis(const BackgroundMesh &mesh, const Space &space) const;
 
-    /** Warning for values that are not linear in space with shape functions
-     *  whose coefficients are not nodal values (Bernstein, splines): they are
-     *  only as accurate as with linear functions. Empty otherwise.
-     *  Collective. */
+    /** Returns a warning for prescribed velocities that are not linear in space, if
+     *  coefficients of shape functions are not nodal values (Bernstein, splines):
+     *  the velocities are then only as accurate as with linear functions. Empty
+     *  otherwise. Collective. */
     std::string
     warn_of_bent_values() const;
 
-    /** Sets the prescribed components of v at time t. */
+    /** Sets the prescribed components of v to the values at time t. */
     void
     set_values(Vector &v, const double t) const;
 
     /**
      * Numbers the unknowns: the dofs that are not prescribed and have mass.
      * @param mass lumped mass with ghosts; null if all nodes have mass. Without
-     * inertia any number > 0 counts
-     * @throws InputError if there is none
+     * inertia any positive value marks a node with mass
+     * @throws InputError if there are no unknowns
      */
     void
     number_unknowns(const Vector *mass);
 
     /**
-     * Reaction of each condition. Collective.
+     * Support reaction of each condition. Collective.
      * @param residual residual of the momentum balance in all rows
      * @param stress of the points, to divide the forces of shared nodes
-     * @param t time of the values
+     * @param t time of the prescribed velocities (s)
      */
     std::vector<Reaction>
     reactions(const Vector              &residual,
@@ -103,7 +105,7 @@ namespace geocone::GEOCONE_DIM
               const std::vector<Mandel> &stress,
               const double               t) const;
 
-    /** Mean of a nodal field over the nodes of a condition. */
+    /** Mean of a component of a nodal field over the nodes of a condition. */
     double
     mean(const Vector      &field,
          const unsigned int condition,
@@ -116,8 +118,8 @@ namespace geocone::GEOCONE_DIM
       return centres[condition];
     }
 
-    /** @name Rotation of the owned entries of a vector from Cartesian
-     *  components to those of the dofs, and back */
+    /** @name Rotation of the owned entries of a vector from Cartesian components
+     *  to components along the dofs, and back */
     /** @{ */
     void
     turn(Vector &v) const;
@@ -125,7 +127,8 @@ namespace geocone::GEOCONE_DIM
     turn_back(Vector &v) const;
     /** @} */
 
-    /** Prescribed nodes of this rank, with ghosts, except oblique ones. */
+    /** Prescribed nodes of this rank, with ghosts, except nodes with oblique
+     *  directions. */
     const std::vector<PrescribedNode> &
     prescribed_nodes() const
     {
@@ -137,21 +140,22 @@ namespace geocone::GEOCONE_DIM
     struct Direction
     {
       unsigned int           condition;
-      unsigned int           component; ///< or dim for the normal
+      unsigned int           component; ///< dim for the normal
       dealii::Tensor<1, dim> d;
     };
 
-    /** A node with prescribed directions not along the coordinates: either some
-     *  directions, which are the first axes of a rotated node, or enough
-     *  independent ones to fix it completely. */
+    /** A node with prescribed directions that are not along the coordinate axes.
+     *  Fewer than dim directions are the first axes of the node's rotated dofs;
+     *  dim independent directions fix the node completely. */
     struct Oblique
     {
       unsigned int           node;
       std::vector<Direction> directions;
-      /** Orthonormal rows; the first i + 1 span the first i + 1 directions. */
+      /** Orthonormal axes, by rows; the first i + 1 axes span the first i + 1
+       *  directions. */
       dealii::Tensor<2, dim> axes;
 
-      /** Whether a normal velocity is prescribed. */
+      /** Whether a velocity normal to the boundary is prescribed. */
       bool
       has_normal() const
       {
@@ -168,65 +172,66 @@ namespace geocone::GEOCONE_DIM
       }
     };
 
-    /** A component prescribed by several conditions. */
+    /** A velocity component of a node prescribed by several conditions. */
     struct Shared
     {
       std::vector<unsigned int> conditions; ///< the last one governs
-      std::vector<double>       size;       ///< int N_i over their faces (m)
+      std::vector<double>       size;       ///< int N_i, by condition (m)
       unsigned int              first = 0;  ///< offset, see Part
     };
 
-    /** int N_i n dA over the faces of a condition on a cell. */
+    /** Integral int N_i n dA over the faces of a cell that belong to a
+     *  condition. */
     struct Part
     {
-      unsigned int           place; ///< among all shared conditions
+      unsigned int           place; ///< number, starts at Shared::first
       unsigned int           component;
-      dealii::Tensor<1, dim> weight; ///< (m)
+      dealii::Tensor<1, dim> weight; ///< int N_i n dA (m)
     };
 
-    /** Mean unit normals of the boundary of a condition at its nodes.
-     *  Collective.
-     *  @throws InputError if its faces meet in a sharp corner */
+    /** Mean unit normals of a condition's boundary, by node. Collective.
+     *  @throws InputError if faces of the condition meet in a sharp corner */
     std::map<unsigned int, dealii::Tensor<1, dim>>
     normals_of(const BoundaryCondition         &condition,
                const BackgroundMesh            &mesh,
                const std::vector<unsigned int> &nodes) const;
 
-    /** A node with its independent directions; later ones take precedence. */
+    /** Selects the independent directions prescribed at a node; later directions
+     *  take precedence. */
     static Oblique
     independent(const unsigned int            node,
                 const std::vector<Direction> &directions);
 
-    /** Finds the nodes with normal velocities.
-     *  @param of_dof conditions along x and y per dof */
+    /** Finds the nodes with prescribed normal velocities.
+     *  @param of_dof conditions on Cartesian components, by dof */
     void
     find_oblique_nodes(
       const BackgroundMesh                              &mesh,
       std::map<unsigned int, std::vector<unsigned int>> &of_dof);
 
-    /** Finds the dofs that the acting conditions prescribe. Collective. */
+    /** Finds the dofs prescribed by the active conditions. Collective. */
     void
     find_prescribed(const BackgroundMesh &mesh);
 
-    /** Finds the components prescribed by several conditions and numbers these
-     *  conditions. Collective. */
+    /** Finds the velocity components prescribed by several conditions, and numbers
+     *  these conditions. Collective. */
     void
     number_shared(
       const std::map<unsigned int, std::vector<unsigned int>> &of_dof);
 
-    /** Finds the faces adjacent to shared components. Collective. */
+    /** Finds the faces adjacent to nodes with shared components. Collective. */
     void
     find_shared(
       const BackgroundMesh                                    &mesh,
       const std::map<unsigned int, std::vector<unsigned int>> &of_dof);
 
-    /** Traction resultants of the stress on the faces of conditions that share
-     *  nodes. Collective. */
+    /** Nodal forces of the adjacent stress on the faces of conditions that share
+     *  nodes, by Part::place. Collective. */
     std::vector<double>
     exerted_on_faces(const MaterialPoints      &points,
                      const std::vector<Mandel> &stress) const;
 
-    /** Divides the force of a shared component among its conditions. */
+    /** Divides the nodal force of a shared component among the conditions. */
     void
     divide(const PrescribedNode      &node,
            const Shared              &among,
@@ -243,7 +248,7 @@ namespace geocone::GEOCONE_DIM
               const double           force,
               std::vector<Reaction> &result) const;
 
-    /** Velocity prescribed by a condition at a node. */
+    /** Velocity component prescribed by a condition at a node at time t (m/s). */
     double
     value(const unsigned int condition,
           const unsigned int component,
@@ -262,15 +267,15 @@ namespace geocone::GEOCONE_DIM
     std::vector<bool>                      acts;        ///< per condition
     std::vector<std::vector<unsigned int>> nodes;       ///< per condition
     std::vector<std::vector<unsigned int>> owned_nodes; ///< per condition
-    std::vector<unsigned int>              n_nodes;     ///< of all ranks
+    std::vector<unsigned int>              n_nodes;     ///< over all ranks
     std::vector<dealii::Point<dim>>        centres;     ///< per condition
 
-    /** Shared components by global dof, the same on all ranks, and the total
-     *  number of their conditions. */
+    /** Shared components by global dof, and total number of conditions over all
+     *  shared components; the same on all ranks. */
     std::map<dealii::types::global_dof_index, Shared> shared;
     unsigned int                                      n_shares = 0;
 
-    /** Parts by the active index of their cell: those of cell c begin at
+    /** Parts, ordered by active cell index: parts of cell c begin at
      *  first_part[c]. */
     std::vector<unsigned int> first_part;
     std::vector<Part>         parts;

@@ -13,9 +13,9 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Warnings for nodal conditions whose nodes do not cover the part of the
-   *  boundary in their box: the velocity is then applied to a narrower strip.
-   *  Collective. */
+  /** Returns warnings for nodal conditions whose nodes do not cover the complete
+   *  boundary segment in the condition's box: the velocity is then applied to a
+   *  narrower strip. Collective. */
   std::vector<std::string>
   warn_of_held_width(const Scene          &scene,
                      const BackgroundMesh &mesh,

@@ -14,20 +14,21 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Sparsity pattern of the Jacobian of the free dofs: nodes couple if they
-   * share a cell with points. Stores the positions of cell entries and of the
-   * diagonal.
+   * Sparsity pattern of the Jacobian on the free dofs: two nodes are coupled if
+   * they share a cell with points. Stores the positions of the entries of cell
+   * matrices and of the diagonal in the array of values.
    */
   class JacobianPattern
   {
   public:
-    /** Empty pattern. */
+    /** Creates an empty pattern. */
     JacobianPattern() = default;
 
     /**
-     * @param groups further nodes that couple
-     * @param links a node, followed by others whose rows include its row
-     * (Contact::links())
+     * Creates the pattern and a zero matrix.
+     * @param groups groups of nodes that are coupled without sharing a cell
+     * @param links lists of a node, followed by nodes to whose rows the row of the
+     * first one is added (Contact::links())
      * @param one_triangle whether only the lower triangle of a symmetric matrix
      * is stored
      * @param[out] matrix with the pattern and zero values
@@ -40,15 +41,16 @@ namespace geocone::GEOCONE_DIM
                     const bool                                    one_triangle,
                     SparseMatrix                                 &matrix);
 
-    /** Whether only the entries i <= j of a cell's matrix are used. */
+    /** Whether only the entries i <= j of a cell matrix are used, as one triangle of
+     *  a symmetric Jacobian is stored. */
     bool
     is_one_triangle() const
     {
       return one_triangle;
     }
 
-    /** Adds K of a cell to the matrix, row-major (dim n)^2, rows interleaved as
-     *  v_x, v_y, ... */
+    /** Adds a cell's matrix K to the Jacobian; K is row-major (dim n)^2, with rows
+     *  interleaved as v_x, v_y, ... */
     template <int n>
     void
     add_cell(const unsigned int c, const double *K, SparseMatrix &matrix) const
@@ -61,8 +63,8 @@ namespace geocone::GEOCONE_DIM
             matrix.value[*place] += K[m * i + j];
     }
 
-    /** Adds a value in a free row and column. Of a symmetric matrix, entries of
-     *  the other triangle are skipped. */
+    /** Adds a value to the entry of a free row and column. If one triangle is
+     *  stored, entries of the upper triangle are skipped. */
     void
     add_entry(const int     row,
               const int     column,
@@ -73,7 +75,7 @@ namespace geocone::GEOCONE_DIM
         matrix.value[matrix.entry(row, column)] += value;
     }
 
-    /** Adds a value to the diagonal of a free row. */
+    /** Adds a value to the diagonal entry of a free row. */
     void
     add_diagonal(const int row, const double value, SparseMatrix &matrix) const
     {
@@ -84,9 +86,9 @@ namespace geocone::GEOCONE_DIM
     bool one_triangle = false;
 
     /**
-     * Per cell, positions in the matrix of its (dim n_nodes)^2 entries, or of
-     * one entry per symmetric pair if one triangle is stored; -1 for prescribed
-     * dofs.
+     * Positions of the (dim n_nodes)^2 entries of each cell matrix in the Jacobian,
+     * or of one entry per symmetric pair if one triangle is stored; -1 for dofs
+     * that are not free.
      */
     std::vector<int> places;
     std::size_t      places_of_cell = 0;

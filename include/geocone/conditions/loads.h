@@ -13,13 +13,13 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Computes nodal integrals of the density over the cells with points, each
-   * stored for all components:
+   * Computes nodal integrals of the mass density over the cells with points; each
+   * integral is stored for all components:
    * @param[out] weight_per_g  int rho N_i, which times g is the weight (kg/m)
    * @param[out] lumped_mass  diagonal mass: the row sums int rho N_i, which are
    * positive for P1, P3, Q1, Q2, Q3 (vertex, edge, centre of P3: 1/30, 3/40,
-   * 9/20 of the cell); for P2, whose vertices would get nothing, the diagonal
-   * of the consistent mass scaled to the mass of the cell
+   * 9/20 of the cell); for P2, whose vertices would have zero mass, the diagonal
+   * of the consistent mass matrix scaled to the mass of the cell
    */
   void
   integrate_density(const Scene          &scene,
@@ -30,22 +30,22 @@ namespace geocone::GEOCONE_DIM
                     Vector               &lumped_mass);
 
   /**
-   * External forces F(t) on the cells with points: weight, tractions and
-   * hydrostatic water forces. Only loads present in the scene are stored.
+   * External nodal forces F(t) on the cells with points: self-weight, surface
+   * tractions and hydrostatic water forces. Only loads of the scene are stored.
    */
   class Loads
   {
   public:
-    /** @param points in the loaded cells */
+    /** Collects the loads of the scene. @param points in the loaded cells */
     Loads(const Scene          &scene,
           const BackgroundMesh &mesh,
           const Space          &space,
           const MaterialPoints &points);
 
     /**
-     * Evaluates F at time t (N/m).
-     * @param stage null: all loads; otherwise those scaled by the load factor
-     * of the stage, or the others
+     * Evaluates the nodal forces F at time t (N/m).
+     * @param stage null: all loads; otherwise, loads that the load factor of the
+     * stage scales, if @p raised, or all other loads
      */
     void
     evaluate(Vector       &force,
@@ -70,7 +70,7 @@ namespace geocone::GEOCONE_DIM
 
     const Scene             &scene;
     std::vector<LoadedPoint> loaded;
-    /** Per water surface, at full gravity (N/m). */
+    /** Nodal forces of each free water surface at full gravity (N/m). */
     std::vector<Vector> of_water;
   };
 } // namespace geocone::GEOCONE_DIM

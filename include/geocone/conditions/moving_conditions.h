@@ -21,32 +21,34 @@ namespace geocone::GEOCONE_DIM
   class MovingConditions
   {
   public:
-    /** @throws InputError if the body has no such boundary segments */
+    /** Collects the conditions with their boundary segments.
+     *  @throws InputError if the body has no boundary segment for a condition */
     MovingConditions(const Scene          &scene,
                      const BackgroundMesh &mesh,
                      const Space          &space);
 
-    /** Lets the conditions of a stage act. Segments of the others move with
-     *  the body. */
+    /** Activates the conditions of a stage. Boundary segments of inactive conditions
+     *  move with the body. */
     void
     begin_stage(const std::string &stage)
     {
       acts = scene.dirichlet.acting_in(stage);
     }
 
-    /** Whether a condition acts. */
+    /** Whether a condition is active in the current stage. */
     bool
     is_acting(const unsigned int condition) const
     {
       return acts[condition];
     }
 
-    /** @throws InputError if a condition selects no particle. Collective. */
+    /** Checks that each condition on particles selects particles. Collective.
+     *  @throws InputError if a condition selects none */
     void
     check_held_particles(const MaterialPoints &points) const;
 
     /**
-     * Adds the tractions at time t. Collective.
+     * Adds the nodal forces of the tractions at time t to @p force. Collective.
      * @param stage,raised as in Loads::evaluate()
      * @throws StepFailure if a boundary segment has left the mesh
      */
@@ -56,22 +58,22 @@ namespace geocone::GEOCONE_DIM
                   const Stage *stage  = nullptr,
                   const bool   raised = false) const;
 
-    /** Transfer from nodes to particles in a step. It solves for v = v^L + part
-     *  (v_end - v^L); the particle velocity at the end of the step is f (v_p +
-     *  N (v_end - v^L)) + (1 - f) N v_end. */
+    /** Transfer of velocities from nodes to particles in a step. The step is solved
+     *  for v = v^L + part (v_end - v^L); the particle velocity at the end of the
+     *  step is f (v_p + N (v_end - v^L)) + (1 - f) N v_end. */
     struct Transfer
     {
-      const Vector &velocity_L; ///< with ghost values
-      double        flip_part;  ///< f
+      const Vector &velocity_L; ///< v^L, with ghosts (m/s)
+      double        flip_part;  ///< FLIP fraction f
       double        part;       ///< theta of the theta-scheme, or 1
-      double        t_end;
+      double        t_end;      ///< time at the end of the step (s)
     };
 
     /**
-     * Assembles the rows H v = q, with q at time t. Collective.
+     * Assembles the constraints H v = q, with q at time t. Collective.
      * @throws StepFailure if a boundary segment has left the mesh
-     * @throws InputError for rows that have no support in the grid or
-     * contradict each other
+     * @throws InputError for rows without nodes with mass, and for contradictory
+     * rows
      */
     void
     make_rows(const MaterialPoints &points,
@@ -81,75 +83,79 @@ namespace geocone::GEOCONE_DIM
               Constraints          &constraints) const;
 
     /**
-     * Moves the boundary segments over a step h: those with prescribed velocity
-     * by the velocity at time t, others by that of the nodes. Collective.
+     * Moves the boundary segments over a step h: segments with prescribed velocity
+     * by the velocity at time t, all others by the nodal velocities v. Collective.
      */
     void
     move(const Vector &v, const double h, const double t);
 
-    /** Segments normal to an axis with prescribed normal velocity, at which the
-     *  soil ends. */
+    /** Boundary segments with prescribed normal velocity at which the soil ends;
+     *  only segments normal to a coordinate axis. */
     std::vector<SoilLimit>
     soil_limits() const;
 
     /** Corners of the bounding box of the boundary segments of a condition.
-     *  @pre it has boundary segments */
+     *  @pre the condition has boundary segments */
     std::pair<dealii::Point<dim>, dealii::Point<dim>>
     box_of(const BoundaryCondition &condition) const;
 
-    /** Whether the shape function of each local node is nonzero on a loaded or
+    /** For each local node, whether its shape function is nonzero on a loaded or
      *  prescribed boundary segment; empty without such segments. Collective. */
     std::vector<bool>
     loaded_nodes() const;
 
     /**
-     * Returns a point to the boundary if it has crossed a segment with
-     * prescribed normal velocity; possible because the condition is imposed in
-     * the mean only. The new position is on the segment, or at its end if the
-     * point came from beside it. Empty for points that crossed none in the last
-     * move().
+     * Corrected position of a point that has crossed a boundary segment with
+     * prescribed normal velocity in the last move(); a point can cross because the
+     * condition is imposed in the mean only. The corrected position is on the
+     * segment, or at its end if the point came from beside it. Empty for points
+     * that crossed no segment.
      * @param before,after position of the point before and after the step
      */
     std::optional<dealii::Point<dim>>
     put_back(const dealii::Point<dim> &before,
              const dealii::Point<dim> &after) const;
 
-    /** Number of points, of all ranks, that lie more than a tenth of their size
-     *  beyond a segment with prescribed normal velocity. Collective. */
+    /** Number of points, over all ranks, that have penetrated a boundary segment
+     *  with prescribed normal velocity by more than a tenth of the point size.
+     *  Collective. */
     unsigned int
     n_behind(const MaterialPoints &points) const;
 
-    /** Positions of the segments, for a checkpoint. */
+    /** Saves or restores the positions of the boundary segments in a
+     *  checkpoint. */
     void
     state(StateRow &row);
 
   private:
-    /** A support and its boundary segment. */
+    /** A condition with prescribed velocity, and its boundary segments. */
     struct HeldSide
     {
       unsigned int          condition;
       std::vector<SidePart> panels;
-      std::vector<SidePart> before = {}; ///< before the last move()
+      std::vector<SidePart> before = {}; ///< panels before the last move()
     };
 
-    /** A load and its boundary segments. */
+    /** A traction condition and its boundary segments. */
     struct LoadedSide
     {
       unsigned int  condition;
       MovingSurface surface;
     };
 
-    /** Number of prescribed particles per condition; in axisymmetric problems
-     *  the sum of their circumferences (m). All ranks. Collective. */
+    /** Number of prescribed particles of each condition over all ranks; in
+     *  axisymmetric problems, the sum of the circumferences of the particles (m).
+     *  Collective. */
     std::vector<double>
     sum_held(const MaterialPoints &points) const;
 
-    /** Shortens the segments of a condition by 'Segment shortening'. */
+    /** Shortens the boundary segments of a condition by the parameter 'Segment
+     *  shortening'. */
     void
     shorten(const BoundaryCondition &condition,
             std::vector<SidePart>   &panels) const;
 
-    /** @name Rows of supports at time t */
+    /** @name Constraint rows of prescribed velocities at time t */
     /** @{ */
     void
     add_rows_of_sides(const double t, Multipliers &rows) const;
@@ -159,8 +165,8 @@ namespace geocone::GEOCONE_DIM
                           const Transfer       &transfer,
                           Multipliers          &rows) const;
 
-    /** Adds a position x, with the shape functions that are nonzero there, to a
-     *  row for each prescribed component of a condition. */
+    /** Adds the velocity at a position x, i.e. the values of the nonzero shape
+     *  functions, to the row of each prescribed component of a condition. */
     void
     add_to_row(const unsigned int                                  condition,
                const Imposition::Share                            &share,
@@ -170,8 +176,9 @@ namespace geocone::GEOCONE_DIM
                const double                                       *values,
                Multipliers                                        &rows) const;
 
-    /** Adds to the row of a particle the difference between N v and the
-     *  prescribed velocity that gives the particle this velocity by FLIP. */
+    /** Adds an offset to the right-hand side of a particle's row: the difference
+     *  between N v and the prescribed velocity for which the particle has this
+     *  velocity after the FLIP transfer. */
     void
     add_flip_offsets(const MaterialPoints                               &points,
                      const unsigned int                                  p,
@@ -181,9 +188,9 @@ namespace geocone::GEOCONE_DIM
                      Multipliers    &rows) const;
     /** @} */
 
-    /** Adds the contribution of a point of a facet to a load.
-     *  @param size initial size, on which dead loads act
-     *  @param area current outward normal times size */
+    /** Adds the traction at a quadrature point of a facet to the nodal forces.
+     *  @param size initial size of the facet, on which dead loads act
+     *  @param area current outward normal times current size */
     void
     add_traction(const BoundaryCondition      &load,
                  const double                  size,
@@ -193,11 +200,11 @@ namespace geocone::GEOCONE_DIM
                  Vector                       &force) const;
 
     /**
-     * Rejects a condition that has segments outside the mesh, where it would
+     * Rejects a condition with boundary segments outside the mesh, where it would
      * have no effect. Collective.
      * @param middles midpoints of the segments @param in_mesh fraction of each
      * segment found on this rank
-     * @throws StepFailure
+     * @throws StepFailure if a segment is outside the mesh
      */
     void
     check_in_mesh(const BoundaryCondition               &condition,

@@ -18,16 +18,16 @@ namespace geocone::GEOCONE_DIM
   struct Unknowns;
 
   /**
-   * General linear constraints H v = q on the free dofs, with multipliers
+   * Linear constraints H v = q on the free dofs, with Lagrange multipliers
    * lambda: H' lambda are the constraint forces on the body. The rows prescribe
    * velocities at points, H = A N, and may be linearly dependent (more points
-   * than functions): a pivoted QR factorisation of H' selects independent rows,
-   * with which the others must agree.
+   * than basis functions): a pivoted QR factorisation of H' selects independent
+   * rows, and all other rows must be consistent with these.
    */
   class Multipliers
   {
   public:
-    /** Identifies a row: condition, component, and a number within them. */
+    /** Key of a row: condition, velocity component, and a number within both. */
     struct Key
     {
       unsigned int condition;
@@ -35,18 +35,18 @@ namespace geocone::GEOCONE_DIM
       unsigned int number;
     };
 
-    /** A row that cannot be satisfied. */
+    /** A constraint row that cannot be satisfied. */
     struct Refusal
     {
       Key    key;
-      bool   is_supported; ///< false if the row contains no function with mass
-      double asked = 0.;   ///< its target (m/s)
-      double left  = 0.;   ///< value by the rows on which it depends (m/s)
+      bool   is_supported; ///< whether a basis function of the row has mass
+      double asked = 0.;   ///< prescribed right-hand side q (m/s)
+      double left  = 0.;   ///< q implied by the independent rows (m/s)
     };
 
     Multipliers() = default;
 
-    /** Constraints of one rank, given by their matrices. */
+    /** Creates constraints on one rank from given H and q. */
     Multipliers(const std::vector<unsigned int> &dofs,
                 const Eigen::MatrixXd           &H,
                 const Eigen::VectorXd           &q)
@@ -59,25 +59,25 @@ namespace geocone::GEOCONE_DIM
     void
     clear();
 
-    /** Adds a coefficient of a node to a row, e.g. weight x N_i(x). */
+    /** Adds the coefficient of a node, e.g. weight x N_i(x), to a row of H. */
     void
     add_coefficient(const Key                            &key,
                     const dealii::types::global_dof_index node,
                     const double                          value);
 
-    /** Adds to the right-hand side q of a row. */
+    /** Adds a prescribed velocity to the right-hand side q of a row. */
     void
     add_target(const Key &key, const double value);
 
-    /** Adds a term to the right-hand side that is not a prescribed velocity and
-     *  is excluded from mean_target(). */
+    /** Adds a term that is not a prescribed velocity to the right-hand side q of a
+     *  row; mean_target() excludes the term. */
     void
     add_offset(const Key &key, const double value);
 
     /**
      * Assembles the rows from the contributions of all ranks. Prescribed dofs
-     * move to the right-hand side. Functions without mass are omitted, and the
-     * remaining coefficients of a row are scaled to preserve its sum.
+     * move to the right-hand side. Basis functions without mass are omitted, and
+     * the remaining coefficients of a row are scaled to preserve their sum.
      * @param prescribed a vector that contains the values of prescribed dofs
      * @return the first row that cannot be satisfied, the same on all ranks, or
      * nothing. Collective.
@@ -88,9 +88,9 @@ namespace geocone::GEOCONE_DIM
              const Vector      &prescribed);
 
     /**
-     * Adds, as the last row, F.v/sum |F_i| = velocity for load stepping. Its
-     * multiplier is the load factor times the sum, over the nodes, of the
-     * magnitudes of their forces.
+     * Appends the row F.v/sum |F_i| = velocity, which controls the load factor in
+     * load stepping. The multiplier of this row is the load factor times the sum
+     * of the magnitudes |F_i| of the nodal forces.
      * @param force F, including prescribed dofs @param prescribed as in
      * assemble()
      * @return whether the loads can move the body. Collective.
@@ -101,7 +101,7 @@ namespace geocone::GEOCONE_DIM
               const Unknowns &unknowns,
               const Vector   &prescribed);
 
-    /** Whether the last row controls a load factor. */
+    /** Whether the last row controls the load factor, see add_loads(). */
     bool
     has_loads() const
     {
@@ -115,7 +115,7 @@ namespace geocone::GEOCONE_DIM
       return lambda[lambda.size() - 1] / sum_of_loads;
     }
 
-    /** Number of independent rows, and of all rows given. */
+    /** Number of independent rows; n_given() is the number of all rows. */
     unsigned int
     n_rows() const
     {
@@ -127,15 +127,16 @@ namespace geocone::GEOCONE_DIM
       return given;
     }
 
-    /** Defect q - H v. Collective. */
+    /** Residual q - H v of the constraints (m/s). Collective. */
     Eigen::VectorXd
     defect(const Vector &v) const;
 
-    /** Product H f. Collective. */
+    /** Matrix-vector product H f. Collective. */
     Eigen::VectorXd
     multiply(const Vector &f) const;
 
-    /** Adds factor H' lambda to f, in owned entries. */
+    /** Adds @p factor times the constraint forces H' lambda to the owned entries of
+     *  f. */
     void
     add_transposed(Vector                &f,
                    const double           factor,
@@ -149,18 +150,20 @@ namespace geocone::GEOCONE_DIM
      */
     struct Factors
     {
-      Eigen::VectorXd root; ///< D^{1/2} of the dofs involved
-      Eigen::MatrixXd Q;    ///< rows of the dofs involved
+      Eigen::VectorXd root; ///< D^{1/2}, by dof of dofs()
+      Eigen::MatrixXd Q;    ///< rows by dof of dofs()
       Eigen::MatrixXd U;
     };
 
-    /** Factorises H'. @param scale D, or null for 1. Collective. */
+    /** Computes the QR factorisation of D^{-1/2} H'. Collective.
+     *  @param scale D, or null for the identity */
     Factors
     factorise(const Vector *scale) const;
 
     /**
-     * Removes from a residual R the forces H' lambda that minimise
-     *   sum_i (R - H' lambda)_i^2 / D_i over the dofs involved.
+     * Removes from a residual R the constraint forces H' lambda, with lambda that
+     * minimises
+     *   sum_i (R - H' lambda)_i^2 / D_i over dofs().
      * The result is accurate to the rounding of R, however large the
      * multipliers of nearly dependent rows.
      * @return lambda. Collective.
@@ -168,43 +171,47 @@ namespace geocone::GEOCONE_DIM
     Eigen::VectorXd
     remove(Vector &residual, const Factors &factors) const;
 
-    /** Sum of the forces H' lambda of a condition along a component (N/m). */
+    /** Resultant of a condition's constraint forces H' lambda, for a component
+     *  (N/m). */
     double
     resultant(const Eigen::VectorXd &lambda,
               const unsigned int     condition,
               const unsigned int     component) const;
 
-    /** Moment of the forces H' lambda of a condition about a point (N m/m). Collective. */
+    /** Moment of a condition's constraint forces H' lambda about a point (N m/m).
+     *  Collective. */
     dealii::Tensor<1, n_rotations>
     moment(const Eigen::VectorXd    &lambda,
            const unsigned int        condition,
            const dealii::Point<dim> &centre,
            const Space              &space) const;
 
-    /** Contribution of low-mass functions to a row. */
+    /** Largest relative contribution of low-mass basis functions to a row. */
     struct LightShare
     {
-      double             largest   = 0.; ///< over all rows
-      unsigned int       condition = 0;  ///< its condition
-      dealii::Point<dim> place;          ///< of the function of largest share
+      double             largest   = 0.; ///< maximum over all rows (-)
+      unsigned int       condition = 0;  ///< condition of this row
+      dealii::Point<dim> place;          ///< node with the largest term (m)
     };
 
     /**
-     * Share of low-mass functions in the worst row: |sum_light H_i v_i| over
-     * sum_i H_i times the velocity prescribed by its condition along x or y.
-     * Functions with less than 1e-3 of the largest mass in the row are
-     * low-mass. The share is 0.02 in sound steps, and above 1 if spurious
-     * velocities satisfy the row. Collective.
+     * Relative contribution of low-mass basis functions in the worst row:
+     * |sum_light H_i v_i|, divided by sum_i H_i times the larger of the velocities
+     * that the condition prescribes along x and y. Basis functions with less than
+     * 1e-3 of the largest mass in the row are low-mass. The ratio is 0.02 in sound
+     * steps, and above 1 if spurious velocities satisfy the row. Collective.
      */
     LightShare
     light_share(const Vector &v, const Vector &mass, const Space &space) const;
 
-    /** Mean of the velocities prescribed by a condition, or 0. */
+    /** Mean prescribed velocity of a condition, for a component (m/s); 0 if none is
+     *  prescribed. */
     double
     mean_target(const unsigned int condition,
                 const unsigned int component) const;
 
-    /** Owned local dofs involved in rows, and their coefficients per row. */
+    /** Owned local dofs with nonzero coefficients; coefficients() has a column for
+     *  each of them. */
     const std::vector<unsigned int> &
     dofs() const
     {
@@ -216,7 +223,7 @@ namespace geocone::GEOCONE_DIM
       return H;
     }
 
-    /** Right-hand side q, less contributions of prescribed dofs. */
+    /** Right-hand side q minus the contributions of prescribed dofs (m/s). */
     const Eigen::VectorXd &
     targets() const
     {
@@ -227,19 +234,21 @@ namespace geocone::GEOCONE_DIM
     void
     contribute(const Key &key, const double node, const double value);
 
-    /** condition, component, number, node (-1: target, -2: offset), value. */
+    /** Contributions to the rows: condition, component, number, node (-1: target,
+     *  -2: offset), value. */
     std::vector<std::array<double, 5>> contributions;
 
     MPI_Comm         comm         = MPI_COMM_SELF;
     unsigned int     given        = 0;
-    double           sum_of_loads = 0.; ///< of load stepping (N/m), or 0
+    double           sum_of_loads = 0.; ///< sum |F_i|, see add_loads() (N/m)
     std::vector<Key> keys;
     std::vector<unsigned int> touched;
     Eigen::MatrixXd           H;
-    Eigen::VectorXd           q; ///< less contributions of prescribed dofs
+    Eigen::VectorXd           q; ///< minus terms of prescribed dofs (m/s)
     Eigen::VectorXd           row_sum;
 
-    /** Right-hand side of a given row without offset, and the sum of its N. */
+    /** Right-hand side of a row without offset, and the sum of the row's
+     *  coefficients. */
     struct Asked
     {
       Key    key;

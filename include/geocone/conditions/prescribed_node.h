@@ -15,14 +15,15 @@ namespace geocone::GEOCONE_DIM
   /** A velocity component of a node, prescribed by a condition. */
   struct PrescribedNode
   {
-    unsigned int       node; ///< in the numbering of the owner of this list
+    unsigned int       node; ///< number, as defined by the list's owner
     unsigned int       component;
     unsigned int       condition; ///< index in Scene::dirichlet
-    dealii::Point<dim> place;
-    bool               mine; ///< whether this rank counts it in sums
+    dealii::Point<dim> place;     ///< position of the node (m)
+    bool               mine;      ///< whether this rank includes it in sums
   };
 
-  /** Moment of a unit force along a component about an axis of n_rotations. */
+  /** Lever arm: moment of a unit force along a coordinate axis about a rotation
+   *  axis. */
   inline double
   lever(const dealii::Tensor<1, dim> &arm,
         const unsigned int            component,
@@ -32,15 +33,17 @@ namespace geocone::GEOCONE_DIM
     return component == b ? arm[a] : component == a ? -arm[b] : 0.;
   }
 
-  /** Resultant of the nodal forces of a support on the body, or of impulses. */
+  /** Resultant force and moment of the nodal forces f_i, or impulses, exerted on
+   *  the body by a support. */
   struct Reaction
   {
-    dealii::Tensor<1, dim> force; ///< sum f_i (N/m)
+    dealii::Tensor<1, dim> force; ///< resultant sum f_i (N/m)
 
-    /** sum (x_i - c) x f_i (N m/m), about the axes of n_rotations. */
+    /** Moment sum (x_i - c) x f_i about the reference point c, by rotation axis
+     *  (N m/m). */
     dealii::Tensor<1, n_rotations> moment;
 
-    /** Adds a component of f_i. @param arm x_i - c */
+    /** Adds a component of a nodal force f_i. @param arm x_i - c (m) */
     void
     add(const dealii::Tensor<1, dim> &arm,
         const unsigned int            component,

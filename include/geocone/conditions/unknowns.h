@@ -25,7 +25,7 @@ namespace geocone::GEOCONE_DIM
       return free_row[local_dof] >= 0;
     }
 
-    /** Whether the node of a local dof has mass. */
+    /** Whether the node of a local dof has nonzero mass. */
     bool
     has_mass(const unsigned int local_dof) const
     {
@@ -39,35 +39,36 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * Row of each local dof among the free ones, or a negative number if it is
-     * prescribed or its node has no mass.
+     * Local number of each free dof (row), by local dof; prescribed_row for
+     * prescribed dofs, massless_row for dofs of nodes without mass.
      */
     std::vector<int>     free_row;
     static constexpr int prescribed_row = -1, massless_row = -2;
 
-    std::vector<bool> with_mass; ///< per local dof
+    std::vector<bool> with_mass; ///< has_mass(), by local dof
 
-    /** Global row numbers of the local free rows; the owned ones come first. */
+    /** Global row number of each local free row; owned rows are first. */
     std::vector<int> global_row;
     int              n_owned_rows = 0;
-    int              n_rows       = 0; ///< unknowns of all ranks
+    int              n_rows       = 0; ///< number over all ranks
 
-    /** Constraints on the free dofs. */
+    /** Linear constraints H v = q on the free dofs. */
     Multipliers multipliers;
 
     /**
-     * Nodes with dofs not along the coordinates: there, vectors of the
-     * incremental problem contain components along other axes, the first of
-     * which span the prescribed directions.
+     * A node with rotated dofs: vectors of the incremental problem contain the
+     * components along these axes, the first of which span the prescribed
+     * directions.
      */
     struct TurnedNode
     {
-      unsigned int           node; ///< local
+      unsigned int           node; ///< local number
       dealii::Tensor<2, dim> axes; ///< unit vectors, by rows
     };
     std::vector<TurnedNode> turned_nodes;
 
-    /** Positions of the local nodes; null in a replayed problem. */
+    /** Positions of the local nodes; null in a problem read from a file
+     *  (FrozenProblem). */
     const std::vector<dealii::Point<dim>> *node_positions = nullptr;
   };
 } // namespace geocone::GEOCONE_DIM

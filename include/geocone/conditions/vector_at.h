@@ -10,7 +10,7 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Vector whose components begin at an address. */
+  /** Reads a vector from an array that begins at an address; put() writes it. */
   inline dealii::Tensor<1, dim>
   taken(const double *at)
   {
