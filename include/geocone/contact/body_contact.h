@@ -18,10 +18,10 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Contact between deformable bodies: mortar elements with dual functions
-   * (Wohlmuth 2000; Hueeber and Wohlmuth 2005), which transmit a uniform
-   * pressure between non-matching meshes. The contact pressure is sum_i psi_i
-   * r_i/D_i on the faces of the first body, where on each face
+   * Contact between deformable bodies by mortar elements with dual basis
+   * functions psi_i (Wohlmuth 2000; Hueeber and Wohlmuth 2005), which transmit a
+   * uniform pressure between non-matching meshes. The contact pressure is
+   * sum_i psi_i r_i/D_i on the faces of the first body, where on each face
    *   int psi_i N_j = delta_ij int N_j  over the part facing the other body.
    * With D_i = int psi_i and M_ij = int psi_i N_j of the other body, node i is
    * in contact with a surface that moves by sum_j P_ij v_j, P = M/D; its gap is
@@ -47,42 +47,43 @@ namespace geocone::GEOCONE_DIM
     using Place = std::function<dealii::Point<dim>(unsigned int)>;
 
     /**
-     * Finds the contact nodes, the same on each rank. Each node appears once,
-     * in the first contact of the list that contains it.
-     * @param reach largest distance of facing faces, in addition to the size of
-     * a face (m)
+     * Finds the potential contact nodes, the same on all ranks. Each node appears
+     * once, in the first contact of the list that contains it.
+     * @param reach maximum distance of facing faces, in addition to the size of a
+     * face (m)
      * @throws StepFailure if a node of the first body of one contact also
      * belongs to the other body of a later contact
      */
     std::vector<FacingNode>
     find(const Place &place, const double reach) const;
 
-    /** @throws InputError if bodies overlap at the start */
+    /** Checks that bodies do not overlap in the initial state.
+     *  @throws InputError if bodies overlap */
     void
     check_start(const Place &place) const;
 
   private:
-    /** A face of a cell at the boundary: an edge in the plane. */
+    /** A boundary face of a cell: an edge in two dimensions. */
     struct Face
     {
       BackgroundMesh::Cell      cell;
       SidePart                  unit;     ///< in unit coordinates of the cell
-      SidePart                  at_start; ///< both in the order of FacePlane
-      std::vector<unsigned int> corners = {}; ///< nodes, in this order
-      std::vector<unsigned int> nodes   = {}; ///< on the face
-      std::vector<unsigned int> of_cell = {}; ///< their numbers in the cell
+      SidePart                  at_start; ///< initial, ordered as FacePlane
+      std::vector<unsigned int> corners = {}; ///< nodes, ordered as FacePlane
+      std::vector<unsigned int> nodes   = {}; ///< nodes on the face
+      std::vector<unsigned int> of_cell = {}; ///< number of each in the cell
 
-      Eigen::VectorXd integrals = {}; ///< of their N, on the initial face
+      Eigen::VectorXd integrals = {}; ///< int N of each, on the initial face
 
-      double size =
-        0.; ///< at the start (m, m^2), around an axis without 2 pi r
+      double size = 0.; ///< initial length (m) or area (m^2), without 2 pi r
     };
 
-    /** Boundary faces of the materials. */
+    /** Boundary faces of the cells with selected materials.
+     *  @param materials selection by material index */
     std::vector<Face>
     faces_of(const std::vector<bool> &materials) const;
 
-    /** A face in its current position. */
+    /** A face in the current configuration. */
     struct PlacedFace
     {
       const Face *face;
@@ -92,44 +93,47 @@ namespace geocone::GEOCONE_DIM
     static std::vector<PlacedFace>
     placed(const std::vector<Face> &faces, const Place &place);
 
-    /** Evaluates N of the nodes of a face, in unit coordinates of the face. */
+    /** Evaluates the shape functions N of a face's nodes at a point s in unit
+     *  coordinates of the face. */
     void
     evaluate(const Face                   &face,
              const dealii::Point<dim - 1> &s,
              Eigen::VectorXd              &N) const;
 
-    /** A quadrature point on a face of the first body opposite the other
-     *  body. */
+    /** A quadrature point on a face of the first body, and the opposite point on
+     *  the other body. */
     struct PointAhead
     {
-      dealii::Point<dim - 1> s; ///< on the face
+      dealii::Point<dim - 1> s; ///< unit coordinates on the face
       const Face            *other;
       dealii::Point<dim - 1> other_s;
-      double                 part; ///< fraction of the face
+      double                 part; ///< weight, as a fraction of the face
     };
     std::vector<PointAhead>
     points_ahead(const PlacedFace              &face,
                  const std::vector<PlacedFace> &others,
                  const double                   reach) const;
 
-    /** Sums over the faces of a node. */
+    /** Mortar integrals of a node, summed over the adjacent faces. */
     struct Sums
     {
       double                         D     = 0.;
-      double                         whole = 0.; ///< D if fully opposite
+      double                         whole = 0.; ///< D of fully opposite faces
       double                         faced = 0.; ///< size of the opposite part
-      double                         diameter = 0.; ///< of the largest (m)
-      dealii::Tensor<1, dim>         normal;        ///< outward, times sizes
+      double                         diameter = 0.; ///< largest face (m)
+      dealii::Tensor<1, dim>         normal; ///< sum of outward normal x size
       std::map<unsigned int, double> M;
     };
 
-    /** Adds the contributions of a face to D, M and the normals. */
+    /** Adds the contributions of a face to D, M and the normals of the face's
+     *  nodes. */
     void
     integrate(const PlacedFace              &placed_face,
               const std::vector<PointAhead> &points,
               std::map<unsigned int, Sums>  &sums) const;
 
-    /** Computes D of fully opposite faces for all nodes with such faces. */
+    /** Computes Sums::whole, i.e. D as if the faces were completely opposite the
+     *  other body, for all contact nodes. */
     static void
     add_whole_faces(const std::vector<PlacedFace> &faces,
                     std::map<unsigned int, Sums>  &sums);

@@ -11,8 +11,8 @@
 namespace geocone
 {
   /**
-   * Frictional contact of n nodes with a linear body whose other unknowns are
-   * eliminated: find u, r = K u + c with
+   * Frictional contact problem of n nodes of a linear body, after static
+   * condensation of all other unknowns: find u and r = K u + c with
    *   0 <= r_N + tension _|_ u_N - least >= 0,
    *   |r_T| <= mu r_N + adhesion, u_T against r_T where it slides,
    * in the axes n and t of each node, or in n alone if it has no friction. K
@@ -28,35 +28,35 @@ namespace geocone
   {
     struct Node
     {
-      unsigned int first      = 0; ///< of its components in u and r: u_N, u_T
+      unsigned int first      = 0; ///< index of u_N in u (and r); u_T follows
       unsigned int n_tangents = 0; ///< 0 for nodes without friction
 
-      double least    = 0.; ///< (m/s)
-      double friction = 0.; ///< mu
-      double adhesion = 0.; ///< additional, while closed (N/m)
-      double tension  = 0.; ///< largest tension, at most adhesion/mu (N/m)
+      double least    = 0.; ///< lower bound of u_N (m/s)
+      double friction = 0.; ///< friction coefficient mu
+      double adhesion = 0.; ///< shear strength at r_N = 0, if closed (N/m)
+      double tension  = 0.; ///< tensile strength, <= adhesion/mu (N/m)
     };
 
     Eigen::MatrixXd   K;
-    Eigen::VectorXd   c; ///< (N/m)
+    Eigen::VectorXd   c; ///< forces r at u = 0 (N/m)
     std::vector<Node> nodes;
 
     /**
-     * Solves the contact problem.
+     * Solves the contact problem for the velocities u.
      * @param[in,out] u in: initial guess; out: the solution, or the last
      * iterate (m/s)
-     * @return whether it is solved within rounding
+     * @return whether the problem is solved within rounding
      */
     bool
     solve(Eigen::VectorXd &u) const;
 
-    /** Largest violation of the laws at a node, by the root functions of
-     *  Contact, over the largest force. */
+    /** Largest nodal residual of the contact laws, i.e. of the root functions F of
+     *  Contact, divided by the largest force. */
     double
     error(const Eigen::VectorXd &u) const;
 
   private:
-    /** Rounding error of K u in error(). */
+    /** Estimated rounding error of K u, as a contribution to error(). */
     double
     rounding(const Eigen::VectorXd &u) const;
 
@@ -70,12 +70,13 @@ namespace geocone
     {
       Contact contact = Contact::open;
 
-      /** Slip direction d of r_T, and the derivative of d times the bound with
-       *  respect to r_T - rho u_T: zero with one tangent. */
+      /** Slip direction d of r_T, and the derivative of d, times the friction
+       *  bound, with respect to r_T - rho u_T; the derivative is zero for one
+       *  tangent. */
       Eigen::VectorXd direction;
       Eigen::MatrixXd turn;
 
-      /** Whether both lead to the same equations. */
+      /** Whether both contact states lead to the same linear equations. */
       bool
       operator==(const State &other) const
       {
@@ -84,28 +85,29 @@ namespace geocone
       }
     };
 
-    /** Contact states by u and r. */
+    /** Contact states of all nodes, as predicted from u and r = K u + c. */
     std::vector<State>
     states(const Eigen::VectorXd &u) const;
 
-    /** u that satisfies the equations of all these states. */
+    /** Solves the linear equations of given contact states for u. */
     Eigen::VectorXd
     solve_for(const std::vector<State> &state) const;
 
-    /** Gauss-Seidel sweep over the nodes. @return the largest change of a force
-     *  over the largest force */
+    /** Performs a Gauss-Seidel sweep over the nodes.
+     *  @return the largest change of a force, divided by the largest force */
     double
     sweep(Eigen::VectorXd &u) const;
 
-    /** Vector of at most a normal and two tangential components of a node. */
+    /** Nodal vector: a normal component and at most two tangential ones. */
     using OfNode = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3, 1>;
 
-    /** rho of the tangents: the mean of their stiffness. */
+    /** Augmentation parameter rho of the tangential equations: the mean tangential
+     *  stiffness. */
     double
     tangential_rho(const Node &node) const;
 
-    /** Solves for u of one node, with the others fixed. @param b r for u = 0 at
-     *  this node */
+    /** Solves the contact problem of one node for its u, with u of all other nodes
+     *  fixed. @param b force r at the node for u = 0 there */
     OfNode
     solve_node(const Node &node, const OfNode &b) const;
   };

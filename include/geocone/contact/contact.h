@@ -21,70 +21,73 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Gap below which a contact is considered closed, over the size of a
-   *  cell. */
+  /** Gap below which a contact is considered closed, divided by the cell
+   *  size. */
   constexpr double closed_gap = 1e-9;
 
-  /** Distance below which boundaries of obstacles are joined, over the size of
-   *  a cell. */
+  /** Distance below which the boundaries of two obstacles are considered
+   *  continuous, divided by the cell size. */
   constexpr double meeting = 1e-3;
 
-  /** Cosine of the angle between normals above which they are considered
-   *  parallel (10 degrees). */
+  /** Cosine above which two normals are considered parallel (10 degrees). */
   const double parallel = std::cos(radians(10.));
 
-  /** Minimum length of the free part of the normal for contact of a node with
-   *  partial support (10 degrees). */
+  /** Contact of a partially supported node requires that the component of the unit
+   *  normal in the free directions has at least this length (10 degrees). */
   const double along_support = std::cos(radians(10.));
 
   /** A node that may be in contact with an obstacle or another body in a
    *  step. */
   struct ContactNode
   {
-    unsigned int node; ///< local, also a ghost
+    unsigned int node; ///< local number, owned or ghost
 
     /** Number of the obstacle, or of the contact pair; pairs are numbered after
      *  obstacles. */
     unsigned int           obstacle;
-    dealii::Tensor<1, dim> normal; ///< out of the obstacle, or the other body
+    dealii::Tensor<1, dim> normal; ///< out of the obstacle or other body
     dealii::Tensor<1, dim> arm;    ///< from the obstacle's centre (m)
 
-    /** Unit vectors orthogonal to the normal and each other in which it may
-     *  slide, in free directions only. */
+    /** Tangential unit vectors along which the node can slide: orthogonal to the
+     *  normal and to each other, in free directions only. */
     std::array<dealii::Tensor<1, dim>, dim - 1> tangents;
     unsigned int                                n_tangents = 0;
 
     dealii::Tensor<1, dim>
-      velocity; ///< of the obstacle, or other body, here (m/s)
+      velocity; ///< of the obstacle or other body at the node (m/s)
 
-    /** A node of the other body and its weight in the velocity here. */
+    /** A node of the other body, and its weight P_ij in the velocity of the other
+     *  body at the contact node. */
     struct Partner
     {
-      unsigned int node; ///< local, also a ghost
+      unsigned int node; ///< local number, owned or ghost
       double       part;
     };
     std::vector<Partner> partners; ///< empty for obstacles
 
-    /** Whether the other body's node is at the same position in another layer
-     *  of the mesh, so that supports act on both in the same way. */
+    /** Whether the contact node and the node of the other body coincide, as nodes
+     *  of two layers of the mesh; supports then act on both in the same way. */
     bool is_twin = false;
 
     double length = 0.; ///< tributary length of the boundary (m), or 0
 
-    /** Lower bound of the relative normal velocity: -g/h for a gap g, or -e u_N
-     *  with the initial u_N if the node rebounds (m/s). */
+    /** Lower bound of the relative normal velocity u_N (m/s): -g/h for a gap g, or
+     *  -e times the initial u_N, with the coefficient of restitution e, if the node
+     *  rebounds. */
     double least    = 0.;
     bool   rebounds = false; ///< whether e > 0
 
-    /** Initial u_N of a node that impacts and rebounds in this step. */
+    /** Initial relative normal velocity u_N of a node that impacts and rebounds in
+     *  this step (m/s). */
     double impact = 0.;
 
-    /** Share of the force of a corner node, which has two contacts with normals
-     *  n and m: n k' with k.n = 1, k.m = 0; otherwise the identity. */
+    /** Matrix that selects the share of this contact in the force of a corner node,
+     *  which has two contacts with normals n and m: n k' with k.n = 1, k.m = 0;
+     *  otherwise the identity. */
     dealii::Tensor<2, dim> share =
       dealii::Tensor<2, dim>(dealii::unit_symmetric_tensor<dim>());
     bool is_corner = false;
-    bool is_second = false; ///< of the two contacts
+    bool is_second = false; ///< second contact of a corner node
 
     bool
     touches_body() const
@@ -94,14 +97,14 @@ namespace geocone::GEOCONE_DIM
 
     bool is_closed = false; ///< at the beginning of the step
 
-    double friction = 0.; ///< mu
-    double adhesion = 0.; ///< besides friction, while closed (N/m)
-    double tension  = 0.; ///< largest tension, if initially closed (N/m)
+    double friction = 0.; ///< friction coefficient mu
+    double adhesion = 0.; ///< shear strength at r_N = 0, if closed (N/m)
+    double tension  = 0.; ///< tensile strength, if initially closed (N/m)
   };
 
-  /** A node of a first body that may contact the other one, without the values
-   *  that depend on the step; the gap and, for body-fitted meshes, the size of
-   *  the faces there (m). */
+  /** A node of the first body of a contact pair that may come into contact with the
+   *  other body, with the gap and, for body-fitted meshes, the size of adjacent
+   *  faces (m). Members of ContactNode that depend on the step are not set. */
   struct FacingNode
   {
     ContactNode node;
@@ -116,8 +119,8 @@ namespace geocone::GEOCONE_DIM
      *  consecutive entries with non-parallel normals, the nearer contact
      *  first. */
     std::vector<ContactNode>  nodes;
-    std::vector<ObstacleBody> bodies; ///< the obstacles
-    bool has_pairs = false;           ///< whether bodies may touch, on any rank
+    std::vector<ObstacleBody> bodies; ///< obstacles
+    bool has_pairs = false;           ///< contact between bodies, on any rank
   };
 
   /**
@@ -137,8 +140,8 @@ namespace geocone::GEOCONE_DIM
    * of the identity except for sliding nodes. rho is given by rho_of().
    *
    * Equivalently F = r - q, with q the projection of p = r - rho (u - least n).
-   * A free obstacle has no unknowns here either: its velocity y at the end of
-   * the step, which is G_i y at node i, balances the projected forces,
+   * A free obstacle requires no additional unknowns either: its velocity y at the
+   * end of the step, which is G_i y at node i, balances the projected forces,
    *   M (y - y_0)/h + sum_i G_i' q_i = 0:
    * a function of v, found from a few equations of its own. (The forces r are
    * far off before Newton's method has converged and would accelerate a light
@@ -170,22 +173,24 @@ namespace geocone::GEOCONE_DIM
       : unknowns(unknowns)
     {}
 
-    /** @throws StepFailure if a support acts on a node in contact with another
+    /** Sets the potential contacts of a step.
+     *  @throws StepFailure if a support acts on a node in contact with another
      *  body */
     void
     begin_step(ContactStep step);
 
-    /** Nodes that couple with those of other bodies in the Jacobian: each node,
-     *  followed by its partners. */
+    /** Couplings of contact nodes with nodes of other bodies in the Jacobian: lists
+     *  of a contact node, followed by its partners. */
     std::vector<std::vector<unsigned int>>
     links() const;
 
     /**
-     * Replaces the forces r in the rows of contact nodes by F, and stores both.
+     * Replaces the forces r in the rows of contact nodes by the contact equations
+     * F, and stores both. Collective.
      * @param[in,out] residual in owned rows
      * @param scale the diagonal of the elastic Jacobian (kg/(m s))
      * @param with_friction whether friction is included
-     * @param holds whether initially closed contacts are bilateral. Collective.
+     * @param holds whether initially closed contacts are bilateral
      */
     void
     replace(Vector       &residual,
@@ -194,23 +199,23 @@ namespace geocone::GEOCONE_DIM
             const bool    with_friction,
             const bool    holds);
 
-    /** Applies A and B of the last replace() to the rows of the Jacobian.
-     *  Collective if obstacles are free.
-     *  @return contribution of free obstacles */
+    /** Transforms the rows of contact nodes in the Jacobian by A and B of the last
+     *  replace(). Collective if obstacles are free.
+     *  @return low-rank contribution of free obstacles */
     LowRank
     linearise(const JacobianPattern &pattern, SparseMatrix &matrix) const;
 
-    /** Applies A and B to a product: dst = A dst + B dv, in owned rows.
-     *  @param dv with its ghosts. Collective. */
+    /** Transforms a Jacobian-vector product by A and B of the last replace():
+     *  dst = A dst + B dv, in owned rows. Collective. @param dv with its ghosts */
     void
     apply_tangent(Vector &dst, const Vector &dv) const;
 
-    /** Sums over active and potential contacts on this rank. */
+    /** Residual norms, summed over active and potential contacts on this rank. */
     struct Sums
     {
-      double of_errors = 0.; ///< |F|^2
-      double of_bodies = 0.; ///< of_errors of free obstacles
-      double of_sizes  = 0.; ///< reference for errors
+      double of_errors = 0.; ///< sum of |F|^2 of the nodes ((N/m)^2)
+      double of_bodies = 0.; ///< the same for free obstacles ((N/m)^2)
+      double of_sizes  = 0.; ///< sum of the references Touch::size (N/m)
     };
     Sums
     sums() const
@@ -232,27 +237,27 @@ namespace geocone::GEOCONE_DIM
       slip
     };
 
-    /** State of an owned node at the last replace(). */
+    /** Contact force and state of an owned node at the last replace(). */
     struct Touch
     {
-      dealii::Tensor<1, dim> force; ///< of the obstacle on the body (N/m)
+      dealii::Tensor<1, dim> force; ///< r, obstacle on body (N/m)
       State                  state = State::open;
       double                 error = 0.; ///< |F| (N/m)
       double size = 0.; ///< |r| + rho |u|, the reference for F (N/m)
       dealii::Tensor<1, dim> relative; ///< u, in free directions (m/s)
-      double                 rho = 0.; ///< (kg/(m s))
+      double                 rho = 0.; ///< rho of F (kg/(m s))
     };
 
-    /** @name For ContactDirection */
+    /** @name Functions for ContactDirection */
     /** @{ */
-    /** Selects the owned nodes that are in contact at the last replace(), or
-     *  within the distance over which the forces there could move them.
+    /** Selects the owned nodes that are in contact at the last replace(), or so
+     *  close to contact that the largest contact force could close them.
      *  Collective. */
     std::vector<unsigned int>
     choose(const MPI_Comm comm) const;
 
-    /** Replaces dF by r + rho du in linearise() for these nodes and freezes the
-     *  motions of obstacles. Collective. */
+    /** Replaces dF by dr + rho du in linearise() for the chosen nodes, and fixes the
+     *  motions of the obstacles. Collective. */
     void
     relax(const std::vector<unsigned int> &chosen);
 
@@ -262,16 +267,16 @@ namespace geocone::GEOCONE_DIM
       return dim * node.node < row_A[0].locally_owned_size();
     }
 
-    /** Changes the initial guess of the velocities of free obstacles in the
-     *  next replace(). */
+    /** Adds a change to the initial guess of the velocities of free obstacles for
+     *  the next replace(). */
     void
     change_motions(const Eigen::VectorXd &change)
     {
       obstacles.change(change);
     }
 
-    /** Calls f(number, G) for each free motion of a node's obstacle; G is the
-     *  velocity of the node by this motion. */
+    /** Calls f(number, G) for each free motion of the obstacle in contact with a
+     *  node; G is the velocity of the node due to a unit motion. */
     template <typename Function>
     void
     for_motions_of(const ContactNode &node, const Function &f) const
@@ -290,33 +295,35 @@ namespace geocone::GEOCONE_DIM
       return list;
     }
 
-    /** State of each of nodes(); meaningless for nodes that are not owned. */
+    /** Contact states in the order of nodes(); undefined for nodes that are not
+     *  owned. */
     const std::vector<Touch> &
     touches() const
     {
       return touch;
     }
 
-    /** Whether there is a force, including tension in initially closed
-     *  contacts. */
+    /** Whether contact i carries a force, or can carry tension because it was
+     *  initially closed. */
     bool
     carries_load(const unsigned int i) const
     {
       return touch[i].state != State::open || list[i].tension > 0.;
     }
 
-    /** Properties over all ranks. Collective. */
+    /** Features of the contact problem that determine the solution strategy,
+     *  combined over all ranks. Collective. */
     ContactTraits
     traits(const MPI_Comm comm) const;
 
-    /** Velocities of the obstacles at the last replace(). */
+    /** Motions (velocities) of the obstacles at the last replace(). */
     const ObstacleMotions &
     motions() const
     {
       return obstacles;
     }
 
-    /** Part of a vector along the free directions of a node. */
+    /** Component of a vector in the free directions of a node. */
     dealii::Tensor<1, dim>
     free_part(const dealii::Tensor<1, dim> &x, const unsigned int node) const;
 
@@ -324,25 +331,27 @@ namespace geocone::GEOCONE_DIM
     using Force  = dealii::Tensor<1, dim>;
     using Matrix = dealii::Tensor<2, dim>;
 
-    /** Input of replace() at an owned node, in free directions only. */
+    /** Force r, velocity v and rho of an owned node, as input of replace(); free
+     *  directions only. */
     struct Local
     {
       Force  r, v;
       double rho = 0.;
     };
 
-    /** rho: for a pair 1/rho = 1/d_i + sum P_ij^2/d_j, d the mean of
+    /** Augmentation parameter rho of a contact node (kg/(m s)): d_i, or for a pair
+     *  1/rho = 1/d_i + sum P_ij^2/d_j, where d is the mean of
      *  IncrementalProblem::scale() at a node. The lighter body dominates,
      *  whichever of the two it is. */
     double
     rho_of(const ContactNode &node, const Vector &scale) const;
 
-    /** v at the free dofs of a node. */
+    /** Velocity of a node in its free directions. */
     Force
     free_part(const Vector &v, const unsigned int node) const;
 
-    /** Velocity of the other body at a node, in its free directions. @param v
-     *  with ghosts */
+    /** Velocity of the other body at a contact node, in the free directions of the
+     *  contact node. @param v with ghosts */
     Force
     velocity_of_partners(const ContactNode &node, const Vector &v) const;
 
@@ -350,26 +359,27 @@ namespace geocone::GEOCONE_DIM
     unsigned int
     n_free(const unsigned int node) const;
 
-    /** Chooses the tangents of a node whose normal is in its free
+    /** Computes the tangents of a contact node whose normal lies in the free
      *  directions. */
     void
     make_tangents(ContactNode &node) const;
 
-    /** Makes a corner of two entries of the same node with non-parallel
-     *  normals. */
+    /** Turns two contacts of the same node, with non-parallel normals, into the
+     *  contacts of a corner node. */
     static void
     make_corner(ContactNode &a, ContactNode &b);
 
-    /** Adds P' r to the rows of other bodies. Collective. */
+    /** Adds the forces P' r to the residual rows of the other bodies' nodes.
+     *  Collective. */
     void
     load_partners(Vector &residual) const;
 
-    /** Adds P' times the rows of contact nodes to the Jacobian's rows of other
-     *  bodies. */
+    /** Adds P' times the Jacobian rows of contact nodes to the rows of the other
+     *  bodies' nodes. */
     void
     add_rows_to_partners(SparseMatrix &matrix) const;
 
-    /** Projection q of a node, F, and Q. */
+    /** Projected force q of a node, F = r - q, and the derivative Q = dq/dp. */
     struct Projection
     {
       Force  q, F;
@@ -381,31 +391,31 @@ namespace geocone::GEOCONE_DIM
             const Local       &at,
             const Force       &velocity) const;
 
-    /** Sums G' q, rho G' Q G and magnitudes for each obstacle at its present
-     *  motion. Collective. */
+    /** Sums of G' q, of rho G' Q G and of magnitudes over the nodes of each
+     *  obstacle, for the current motion of the obstacle. Collective. */
     std::vector<double>
     sums_of_nodes(const std::vector<Local> &locals, const MPI_Comm comm) const;
 
-    /** Combines the rows of a node by A. */
+    /** Multiplies the Jacobian rows of a contact node by A. */
     void
     combine_rows(const unsigned int node, SparseMatrix &matrix) const;
 
-    /** Contribution of free obstacles to the Jacobian. @param matrix before
-     *  linearise() */
+    /** Low-rank contribution of free obstacles to the Jacobian.
+     *  @param matrix before linearise() */
     LowRank
     low_rank(const SparseMatrix &matrix) const;
 
     const Unknowns          &unknowns;
     std::vector<ContactNode> list;
     std::vector<Touch>       touch;
-    std::vector<Matrix>      rho_Q; ///< of owned nodes
+    std::vector<Matrix>      rho_Q; ///< rho Q of owned nodes
     std::array<Vector, dim>  row_A; ///< A by component of F, at the node's dofs
     ObstacleMotions          obstacles;
-    bool                     has_pairs     = false; ///< of bodies, on any rank
-    double                   body_error    = 0.; ///< of their equilibrium (N/m)
+    bool                     has_pairs     = false; ///< ContactStep::has_pairs
+    double                   body_error    = 0.;    ///< free obstacles (N/m)
     bool                     with_friction = true;  ///< in the last replace()
     bool                     holds         = false; ///< in the last replace()
-    bool                     relaxed = false; ///< since the last replace()
+    bool                     relaxed       = false; ///< relax() since replace()
   };
 } // namespace geocone::GEOCONE_DIM
 

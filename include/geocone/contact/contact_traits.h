@@ -6,15 +6,15 @@
 
 namespace geocone
 {
-  /** Properties of the contact in a step on which the solution strategy
-   *  depends. */
+  /** Features of a step's contact problem that determine the solution
+   *  strategy. */
   struct ContactTraits
   {
-    bool exists           = false; ///< there may be contact
-    bool of_bodies        = false; ///< between deformable bodies
-    bool has_friction     = false; ///< a node has friction or adhesion
+    bool exists           = false; ///< contact is possible
+    bool of_bodies        = false; ///< contact between deformable bodies
+    bool has_friction     = false; ///< friction or adhesion at some node
     bool moves_obstacles  = false; ///< motions of obstacles are unknowns
-    bool obstacles_loaded = false; ///< obstacles carry loads
+    bool obstacles_loaded = false; ///< loads act on free obstacles
   };
 } // namespace geocone
 

@@ -8,12 +8,13 @@
 
 namespace geocone
 {
-  /** Low-rank part U W' of a Jacobian, by the owned free rows and columns. */
+  /** Low-rank contribution U W' to a Jacobian; the rows of U and W are the owned
+   *  free dofs. */
   struct LowRank
   {
     Eigen::MatrixXd U, W;
 
-    /** Number of columns, the same on all ranks. */
+    /** Rank of U W', i.e. number of columns of U and W; the same on all ranks. */
     unsigned int
     rank() const
     {

@@ -19,21 +19,22 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Contact statistics of a step, over all ranks. */
+  /** Contact statistics of a step, reduced over all ranks. */
   struct ContactReport
   {
-    unsigned int open = 0, stick = 0, slip = 0; ///< nodes
-    double       error = 0.; ///< largest |F| over the sum of |r| + rho |u|
-    double       penetration = 0.; ///< greatest (m)
-    /** For body-fitted meshes: width of closed and of sticking contact (m),
-     *  largest pressure and shear traction (Pa). */
+    unsigned int open = 0, stick = 0, slip = 0; ///< numbers of nodes
+    double       error       = 0.; ///< largest |F| / sum of (|r| + rho |u|)
+    double       penetration = 0.; ///< maximum penetration (m)
+    /** For body-fitted meshes: width of closed and of sticking contact (m), and
+     *  maximum contact pressure and shear traction (Pa). */
     double width = 0., stick_width = 0., pressure = 0., shear = 0.;
-    double work        = 0.; ///< of the contact forces on the body (J/m)
-    double dissipation = 0.; ///< by friction and impact (J/m)
+    double work        = 0.; ///< work of contact forces on the body (J/m)
+    double dissipation = 0.; ///< dissipation by friction and impact (J/m)
 
-    /** Work of impact forces on rebounding nodes by the mean of the velocities
-     *  before and after, less their work by the final velocity, which is
-     *  included in work and dissipation (J/m, not positive). */
+    /** Correction of the work of impact forces on rebounding nodes (J/m, not
+     *  positive): the work done over the mean of the velocities before and after
+     *  impact, minus the work done over the final velocity, which `work` and
+     *  `dissipation` include. */
     double of_rebound = 0.;
 
     void
@@ -61,32 +62,34 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Moving obstacles of a scene and the nodes that may contact them or other
-   * bodies. In a body-fitted mesh these are boundary nodes, which carry the gap
-   * with them. In a background mesh they are the nodes in or on the obstacle,
-   * with the gap of the nearest particle that they move.
+   * Moving obstacles of a scene, and the nodes that may come into contact with
+   * obstacles or other bodies. In a body-fitted mesh these are boundary nodes,
+   * with the gap at their current position. In a background mesh they are the
+   * nodes in or on the obstacle, with the gap of the nearest particle that they
+   * move.
    */
   class ObstacleContact
   {
   public:
-    /** @param supports for a body-fitted mesh, which must outlive this object;
+    /** Initialises the obstacles at their initial positions. Collective.
+     *  @param supports for a body-fitted mesh, which must outlive this object;
      *  null for particles
-     *  @throws InputError if the body overlaps with an obstacle. Collective. */
+     *  @throws InputError if the body overlaps with an obstacle */
     ObstacleContact(const Scene          &scene,
                     const BackgroundMesh &mesh,
                     const Space          &space,
                     const Unknowns       *supports);
 
     /**
-     * Sets the cells of the body in a body-fitted mesh from now on: those of
-     * this rank, with their boundary. New nodes of the body have zero
-     * displacement.
-     * @throws InputError if an obstacle overlaps with them. Collective.
+     * Replaces the cells of the body in a body-fitted mesh, and hence its boundary.
+     * New nodes of the body have zero displacement. Collective.
+     * @param cells of the body on this rank
+     * @throws InputError if an obstacle overlaps with the cells
      */
     void
     take_body(const std::vector<BackgroundMesh::Cell> &cells);
 
-    /** Whether there are obstacles or contacts between bodies. */
+    /** Whether the scene has obstacles, or contacts between bodies. */
     bool
     exists() const
     {
@@ -94,13 +97,14 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * Potential contact nodes and obstacles of a step from t to t + h.
+     * Determines the potential contact nodes, and the motions of the obstacles, in a
+     * step from t to t + h.
      * @param velocity_n at t_n, with ghosts
      * @param solved_h time increment of the solution: theta h by the
      * theta-scheme
      * @param gaps for a background mesh: per obstacle, the gap of the nearest
      * particle moved by a node, by its first dof, with ghosts
-     * @param facing for a background mesh: the nodes of bodies that may touch
+     * @param facing for a background mesh: potential contact nodes between bodies
      * @throws StepFailure if a node has three contacts at once; also see
      * BodyContact::find(), ParticleBodies::find()
      */
@@ -112,19 +116,19 @@ namespace geocone::GEOCONE_DIM
           const std::vector<Vector> &gaps   = {},
           std::vector<FacingNode>    facing = {}) const;
 
-    /** Statistics of a step, before commit(). Collective. */
+    /** Computes the contact statistics of a step, before commit(). Collective. */
     ContactReport
     report(const Contact &contact, const Vector &v, const double h) const;
 
-    /** Forces of each obstacle on the body, then of each other body on the
-     *  first one of a contact, with moments about the given centre, that of the
-     *  obstacle, or the origin. Collective. */
+    /** Resultant contact forces on the body: of each obstacle, then, for each
+     *  contact between bodies, of the other body on the first one. Moments are about
+     *  the given centre, the centre of the obstacle, or the origin. Collective. */
     std::vector<Reaction>
     reactions(const Contact &contact) const;
 
-    /** Adds the displacements of supports in a step: of the obstacles, then,
-     *  for each contact, of the first body relative to the other one, averaged
-     *  over active contacts.
+    /** Adds the displacements in a step to @p supports: of each obstacle, then, for
+     *  each contact between bodies, of the first body relative to the other one,
+     *  averaged over active contact nodes.
      *  @param first number of the first of these supports. Collective. */
     void
     add_displacements(const Contact                       &contact,
@@ -149,8 +153,8 @@ namespace geocone::GEOCONE_DIM
            const Vector   &mass,
            Vector         &v_end) const;
 
-    /** Adopts the velocities of the obstacles and moves them and, for a
-     *  body-fitted mesh, its nodes.
+    /** Accepts the velocities of a step, and moves the obstacles and, in a
+     *  body-fitted mesh, the nodes.
      *  @param moves whether to change positions, in addition to velocities
      *  @throws StepFailure if an obstacle penetrates supported nodes.
      *  Collective. */
@@ -161,23 +165,23 @@ namespace geocone::GEOCONE_DIM
            const double   solved_h,
            const bool     moves);
 
-    /** Distance up to which boundaries of obstacles are joined, see Neighbours
-     *  (m). */
+    /** Distance up to which the boundaries of two obstacles are considered
+     *  continuous (m), see Neighbours. */
     double
     margin() const
     {
       return meeting * size;
     }
 
-    /** Displacements of the obstacles since the start. */
+    /** Displacements of the obstacles since the beginning of the run. */
     const std::vector<RigidMotion> &
     moved() const
     {
       return displacement;
     }
 
-    /** @name State: displacements since the start and velocities of the
-     *  obstacles; for a body-fitted mesh also the displacements of its nodes */
+    /** @name State variables for checkpoints: displacements and velocities of the
+     *  obstacles; for a body-fitted mesh also displacements and bonds of nodes */
     /** @{ */
     void
     state(StateRow &row)
@@ -190,13 +194,14 @@ namespace geocone::GEOCONE_DIM
       return path;
     }
 
-    /** Whether contacts may carry tension. */
+    /** Whether some interface has tensile strength, so that contacts can carry
+     *  tension. */
     bool
     has_bonds() const;
 
-    /** Bonds of nodes: by the first dof, one plus the number of the contact at
-     *  the end of the last step, or 0. The tension of a bond must not depend on
-     *  the second-order error of the gap to a rotating obstacle. */
+    /** Bonds of nodes, stored at the node's first dof: 0, or one plus the number of
+     *  the contact at the end of the last step. Without bonds, tension would depend
+     *  on the second-order error of the gap to a rotating obstacle. */
     Vector &
     bonds_of_nodes()
     {
@@ -212,23 +217,23 @@ namespace geocone::GEOCONE_DIM
     const bool            mesh_is_body;
     const Unknowns       *supports;
 
-    /** @throws InputError if an obstacle overlaps with these nodes of a
-     *  body-fitted mesh. Collective. */
+    /** Checks that no obstacle overlaps with given nodes of a body-fitted mesh.
+     *  Collective. @throws InputError if an obstacle does */
     void
     check_overlap(const std::vector<unsigned int> &nodes) const;
 
-    /** Whether boundary conditions prescribe the velocity of a node along this
+    /** Whether boundary conditions prescribe the velocity of a node along a given
      *  normal. */
     bool
     is_held(const unsigned int            node,
             const dealii::Tensor<1, dim> &normal) const;
 
-    /** Current position of a node of a body-fitted mesh, or position in a
-     *  background mesh. */
+    /** Current position of a node in a body-fitted mesh, or fixed position of a
+     *  node in a background mesh. */
     dealii::Point<dim>
     place(const unsigned int node) const;
 
-    /** Current centre of the obstacle. */
+    /** Current position of an obstacle's centre. */
     dealii::Point<dim>
     centre(const unsigned int obstacle) const
     {
@@ -236,37 +241,37 @@ namespace geocone::GEOCONE_DIM
              displacement[obstacle].centre;
     }
 
-    /** A contact of a node and its gap (m). */
+    /** A potential contact of a node, and its gap (m). */
     struct Near
     {
       ContactNode contact;
       double      gap;
-      double      reach; ///< largest gap closed in the step (m)
+      double      reach; ///< largest gap that the step can close (m)
     };
-    /** Near::reach. @param u_n relative normal velocity at the beginning of the
-     *  step h */
+    /** Largest gap that a step can close (Near::reach, in m).
+     *  @param u_n relative normal velocity at the beginning of the step h */
     double
     reach(const double h, const double u_n) const;
 
     using NearBodies = std::map<unsigned int, Near>; ///< by node
 
-    /** Part of an obstacle's boundary that is nearest to a node.
-     *  @param approach of the obstacle relative to the node (m) */
+    /** Point and normal of an obstacle's boundary nearest to a node.
+     *  @param approach displacement of the obstacle relative to the node (m) */
     Obstacle::Nearest
     nearest(const unsigned int            obstacle,
             const unsigned int            node,
             const dealii::Tensor<1, dim> &approach,
             const Neighbours             &others) const;
 
-    /** Checks supported nodes of a body-fitted mesh after a step, which
-     *  penetration would not affect otherwise.
-     *  @throws StepFailure if an obstacle has penetrated a node supported
-     *  against it. Collective. */
+    /** Checks that no obstacle has penetrated supported nodes of a body-fitted mesh
+     *  in a step; such penetration causes no contact force. Collective.
+     *  @throws StepFailure if an obstacle has penetrated a node that is supported
+     *  along the contact normal */
     void
     check_held(const Contact &contact, const Vector &v, const double h) const;
 
-    /** Adds the nodes that may contact obstacles or other bodies.
-     *  Collective. */
+    /** Appends the potential contact nodes with obstacles and other bodies to the
+     *  step. Collective. */
     void
     add_nodes(const Vector              &velocity_n,
               const double               h,
@@ -274,42 +279,43 @@ namespace geocone::GEOCONE_DIM
               const NearBodies          &bodies,
               ContactStep               &step) const;
 
-    /** Adds the nearest contact of a node and, if it may also be closed, a
-     *  second one with another normal.
+    /** Appends the nearest potential contact of a node and, if a second contact with
+     *  another normal can also close, the second one.
      *  @param[in,out] refusal reason if that is impossible */
     void
     add_nearest(std::vector<Near> &near,
                 std::string       &refusal,
                 ContactStep       &step) const;
 
-    /** Potential contact nodes between bodies with body-fitted meshes.
+    /** Finds the potential contact nodes between bodies in a body-fitted mesh.
      *  Collective. */
     std::vector<FacingNode>
     find_facing(const Vector &velocity_n, const double h) const;
 
-    /** Potential contacts of nodes with other bodies. */
+    /** Potential contacts of nodes with other bodies, by node. */
     NearBodies
     near_bodies(const Vector                  &velocity_n,
                 const double                   h,
                 const std::vector<FacingNode> &facing) const;
 
-    /** Sets the strength of the interface at a node, by its other data. */
+    /** Sets friction, adhesion and tensile strength of a contact node from the law
+     *  of the interface. */
     void
     apply_law(const InterfaceLaw &law, ContactNode &node) const;
 
-    /** Contact force on a node, without the part carried by supports. */
+    /** Contact force on a node, without the component carried by supports (N/m). */
     static dealii::Tensor<1, dim>
     force(const Contact &contact, const unsigned int i);
 
     std::vector<unsigned int> candidates; ///< local nodes, with ghosts
     std::vector<bool> had_cells;    ///< nodes of the body, before take_body()
-    std::optional<NodeSides> sides; ///< of a body-fitted mesh only
-    double                   size = 0.; ///< of a cell (m)
+    std::optional<NodeSides> sides; ///< for a body-fitted mesh only
+    double                   size = 0.; ///< cell size (m)
     std::vector<RigidMotion> displacement, velocity;
-    Vector                   path;  ///< of the nodes of the body (m)
-    Vector                   bonds; ///< see bonds_of_nodes(), with ghosts
+    Vector                   path;  ///< nodal displacements (m)
+    Vector                   bonds; ///< bonds_of_nodes(), with ghosts
 
-    std::optional<BodyContact> bodies; ///< where there are contacts
+    std::optional<BodyContact> bodies; ///< empty without contact pairs
   };
 } // namespace geocone::GEOCONE_DIM
 

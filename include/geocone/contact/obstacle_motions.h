@@ -15,16 +15,17 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Motion of an obstacle in a step. */
+  /** Prescribed and free rigid motions of an obstacle in a step. */
   struct ObstacleBody
   {
-    /** Velocity y_0 at the end of the step without contact. */
+    /** Velocity y_0 of the obstacle at the end of the step without contact
+     *  forces. */
     RigidMotion without_contact;
 
     std::array<bool, RigidMotion::n_components> is_free = {};
 
-    RigidMotion inertia;    ///< M/h of free motions
-    RigidMotion velocity_n; ///< of free motions, at the start
+    RigidMotion inertia;    ///< M/h of the free motions
+    RigidMotion velocity_n; ///< velocities y_n of the free motions at t_n
 
     unsigned int
     n_free() const
@@ -34,9 +35,9 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Velocities y of the obstacles at the end of a step. Those of driven
-   * obstacles are prescribed; those of free ones balance the forces q_i of the
-   * contact nodes,
+   * Velocities y of the obstacles at the end of a step. Velocities of driven
+   * obstacles are prescribed; velocities of free obstacles balance the forces q_i
+   * of the contact nodes,
    *   M (y - y_0)/h + sum_i G_i' q_i(y) = 0,
    * with as many equations as free motions, solved by Newton's method with E =
    * M/h + sum rho G' Q G. The sums are supplied by the caller; see Contact.
@@ -50,14 +51,14 @@ namespace geocone::GEOCONE_DIM
     void
     begin_step(std::vector<ObstacleBody> bodies);
 
-    /** Sums for each obstacle in turn: sum G' q, sum rho G' Q G by rows, and
-     *  the sum of magnitudes, at the present motions, over all ranks. */
+    /** Returns, for each obstacle in turn, sum G' q, sum rho G' Q G by rows, and the
+     *  sum of magnitudes, at the current motions; summed over all ranks. */
     using Sums = std::function<std::vector<double>()>;
     static constexpr unsigned int n_sums =
       n_motions + n_motions * n_motions + 1;
 
-    /** Solves for the free motions, starting from the last ones. Collective if
-     *  the sums are. */
+    /** Solves for the velocities of the free motions by Newton's method, with the
+     *  last velocities as initial guess. Collective if the sums are. */
     void
     find(const Sums &sums);
 
@@ -73,11 +74,11 @@ namespace geocone::GEOCONE_DIM
       return bodies[obstacle].n_free() > 0;
     }
 
-    /** Whether a load acts along a free motion of one of them. */
+    /** Whether a load acts along a free motion of any obstacle. */
     bool
     are_loaded() const;
 
-    /** Number of free motions of all obstacles. */
+    /** Total number of free motions over all obstacles. */
     unsigned int
     n_free() const
     {
@@ -90,14 +91,14 @@ namespace geocone::GEOCONE_DIM
       return motion;
     }
 
-    /** E^-1 of an obstacle, zero for driven motions. */
+    /** Mobility matrix E^-1 of an obstacle; zero for driven motions. */
     const Matrix &
     mobility(const unsigned int obstacle) const
     {
       return inverse_E[obstacle];
     }
 
-    /** Out-of-balance force (N/m), over all obstacles. */
+    /** Norm of the out-of-balance forces of all obstacles (N/m). */
     double
     error() const
     {
@@ -115,12 +116,13 @@ namespace geocone::GEOCONE_DIM
           f(k, number++);
     }
 
-    /** M/h of the free motions and their out-of-balance forces without contact:
-     *  M/h (y - y_0). */
+    /** Computes M/h of the free motions, and the out-of-balance forces without
+     *  contact, M/h (y - y_0). */
     void
     balance(Eigen::VectorXd &inertia, Eigen::VectorXd &lack) const;
 
-    /** y'M (y - y_n) and y'M y/2 of the free motions, over h (W/m). */
+    /** Kinetic energy y'M y/2 of the free motions, and the work y'M (y - y_n) done
+     *  on them, both divided by h (W/m). */
     struct Kinetic
     {
       double change = 0., energy = 0.;
@@ -128,7 +130,8 @@ namespace geocone::GEOCONE_DIM
     Kinetic
     kinetic() const;
 
-    /** Changes the initial velocities of the next find(). */
+    /** Adds a change to the initial guess of the free velocities in the next
+     *  find(). */
     void
     change(const Eigen::VectorXd &by);
 
@@ -136,7 +139,7 @@ namespace geocone::GEOCONE_DIM
     std::vector<ObstacleBody> bodies;
     std::vector<RigidMotion>  motion;
     std::vector<Matrix>       inverse_E;
-    std::vector<unsigned int> first_free; ///< first number per obstacle
+    std::vector<unsigned int> first_free; ///< first free motion, by obstacle
     unsigned int              n_free_motions = 0;
     double                    lack_of_all    = 0.;
   };

@@ -15,13 +15,13 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Gap between each obstacle and the nearest particle moved by a node (m), by
-   * the node's first dof, for ObstacleContact::begin(). A particle is a square
-   * of its volume. Collective.
+   * Gap between each obstacle and the nearest particle moved by a node (m), stored
+   * at the node's first dof, for ObstacleContact::begin(). A particle is a square
+   * with the particle's volume. Collective.
    *
    * If another obstacle continues the surface of an obstacle, the particles in
-   * front of both count.
-   * @param moved displacements of the obstacles since the start
+   * front of both are included.
+   * @param moved displacements of the obstacles since the beginning of the run
    * @param margin see Neighbours
    */
   std::vector<Vector>
@@ -31,18 +31,19 @@ namespace geocone::GEOCONE_DIM
                     const Space                    &space,
                     const double                    margin);
 
-  /** @throws InputError if a particle is in an obstacle at the start. Collective. */
+  /** Checks that no particle is inside an obstacle in the initial state. Collective.
+   *  @throws InputError if a particle is */
   void
   check_particles_outside(const MaterialPoints &points,
                           const Obstacles      &obstacles,
                           const MPI_Comm        comm);
 
   /**
-   * Contact between bodies of particles. Each body has its own layer of the
-   * background mesh, so that at a position within reach of both there is a node
-   * of each. The normal there is that of the plane that separates the particles
-   * of both nodes with the largest margin: along the shortest line between
-   * their convex hulls. Unlike gradients of volume it does not depend on
+   * Contact between bodies discretised by particles. Each body has its own layer of
+   * the background mesh, so that at a position within reach of both bodies there is
+   * a node of each. The contact normal is that of the plane that separates the
+   * particles of both nodes with the largest margin: along the shortest line between
+   * their convex hulls. Unlike gradients of volume, this normal does not depend on
    * boundaries of the mesh, edges of a body and the density of particles. If no
    * plane separates them, as in a notch, the normal is that of the gradients,
    *   n = a_other - a_first,   a = sum_p V_p grad N_i = int N_i n dA  of a body.
@@ -58,17 +59,17 @@ namespace geocone::GEOCONE_DIM
                    const Space          &space);
 
     /**
-     * Finds the nodes of first bodies that may contact the other ones, of this
-     * rank and its ghosts: at each position those of the nearest pair.
-     * @param unknowns which nodes have mass
-     * @throws StepFailure if three bodies meet at one position, or if a body
-     * with fixed quadrature points has moved too far for it. Collective.
+     * Finds the potential contact nodes of the first body of each contact, owned or
+     * ghost; at each position, only the nodes of the nearest pair. Collective.
+     * @param unknowns determine which nodes have mass
+     * @throws StepFailure if three bodies meet at one position, or if the
+     * displacement of a body with fixed quadrature points is too large
      */
     std::vector<FacingNode>
     find(const MaterialPoints &points, const Unknowns &unknowns) const;
 
-    /** @throws InputError if particles of two bodies overlap at the start.
-     *  Collective. */
+    /** Checks that particles of two bodies do not overlap in the initial state.
+     *  Collective. @throws InputError if particles overlap */
     void
     check_start(const MaterialPoints &points, const Unknowns &unknowns) const;
 
@@ -77,49 +78,49 @@ namespace geocone::GEOCONE_DIM
     struct Pair
     {
       unsigned int contact;
-      unsigned int first, other; ///< layers
+      unsigned int first, other; ///< layers of both bodies
     };
 
-    /** A particle that moves the node of a pair at a position. */
+    /** A particle in the support of a pair's nodes at a position. */
     struct Share
     {
-      unsigned int       place;
-      bool               is_first; ///< of the first body
+      unsigned int       place;    ///< number of the position
+      bool               is_first; ///< belongs to the first body
       dealii::Point<dim> x;
-      double             half; ///< half the side of its square (m)
+      double             half; ///< half the side of the particle's square (m)
     };
 
-    /** Shares of all particles that move nodes of a pair, where both have
-     *  mass. */
+    /** Lists the particles in the support of a pair's nodes, for each position at
+     *  which the nodes of both bodies have mass. */
     std::vector<Share>
     shares_of(const Pair           &pair,
               const MaterialPoints &points,
               const Unknowns       &unknowns) const;
 
-    /** Normals by position; zero if no plane separates the bodies. Each rank
-     *  receives the corners of all hulls, which are few. Collective. */
+    /** Contact normals by position; zero if no plane separates the bodies. Each rank
+     *  receives the corners of all convex hulls, which are few. Collective. */
     std::vector<dealii::Tensor<1, dim>>
     normals(const Pair &pair, const std::vector<Share> &shares) const;
 
-    /** Gaps by position along the normals. Collective. */
+    /** Gaps by position, measured along the normals (m). Collective. */
     std::vector<double>
     gaps(const Pair                                &pair,
          const std::vector<Share>                  &shares,
          const std::vector<dealii::Tensor<1, dim>> &normal) const;
 
-    /** @throws StepFailure if fixed quadrature points have moved by half a
-     *  cell. Collective. */
+    /** Checks that displacements of fixed quadrature points are below half a cell.
+     *  Collective. @throws StepFailure if they are larger */
     void
     check_fixed(const MaterialPoints &points) const;
 
     const Scene &scene;
     const Space &space;
-    double       size = 0.; ///< of a cell (m)
+    double       size = 0.; ///< cell size (m)
 
     std::vector<Pair> pairs;
 
-    /** Local nodes of the layers by position, and position and layer by local
-     *  node. */
+    /** Local nodes of the layers by position; and position and layer by local
+     *  node (place_of, layer_of). */
     std::vector<std::vector<unsigned int>> nodes;
     std::vector<unsigned int>              place_of, layer_of;
   };
