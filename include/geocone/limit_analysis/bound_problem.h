@@ -16,26 +16,26 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Loads multiplied by the load factor of a limit analysis. */
+  /** Choice of the loads that the load factor of a limit analysis multiplies. */
   enum class LoadFactor
   {
     automatic,
-    velocity,  ///< none: the load is the reaction to prescribed velocities
-    weight,    ///< the weight; tractions are dead loads
-    tractions, ///< the tractions; the weight is a dead load
-    all        ///< weight and tractions
+    velocity,  ///< no load: the reaction to prescribed velocities is bounded
+    weight,    ///< self-weight; tractions are dead loads
+    tractions, ///< tractions; self-weight is a dead load
+    all        ///< self-weight and tractions
   };
 
-  /** Units of a limit analysis, chosen so that all numbers are of order one. */
+  /** Scaled units of a limit analysis, in which all variables are of order one. */
   struct BoundUnits
   {
-    double length   = 1.; ///< (m)
-    double stress   = 1.; ///< (Pa)
-    double velocity = 1.; ///< (m/s)
+    double length   = 1.; ///< unit of length (m)
+    double stress   = 1.; ///< unit of stress (Pa)
+    double velocity = 1.; ///< unit of velocity (m/s)
   };
 
-  /** The cone of a point, in units: |s_t| <= a s_n + k, and where there is a tensile
-   *  strength |s_t| <= s_n + opening (FlowCone::opening). */
+  /** Yield cone of a point, in scaled units: |s_t| <= a s_n + k, and, for soil with a
+   *  tensile cut-off, |s_t| <= s_n + opening (FlowCone::opening). */
   struct PointCone
   {
     double a = 0., k = 0., opening = infinite_tension;
@@ -54,7 +54,8 @@ namespace geocone::GEOCONE_DIM
       return a == 0.;
     }
 
-    /** A cylinder without a cut-off, where soil may open. */
+    /** Whether the volumetric strain rate is zero: the cone is a cylinder, without a
+     *  cut-off at which the soil can open. */
     bool
     is_incompressible() const
     {
@@ -62,18 +63,18 @@ namespace geocone::GEOCONE_DIM
     }
   };
 
-  /** Cone of a point without dofs: its B is zero. */
+  /** Placeholder cone of an excluded point, without dofs and with B = 0. */
   constexpr PointCone inactive_cone = {0., 1.};
 
   /**
-   * Rigid-plastic problem with associated flow in a discrete space of velocities q. The
-   * points are the vertices of the triangles, with one third of the area each:
+   * Discrete rigid-plastic problem with associated flow for velocities q. The points
+   * are the vertices of the triangles, with one third of the area each:
    *   equilibrium  sum_p V_p B_p' s_p = lambda f + F0  in free dofs,
    *   strength     |s_t| <= a s_n + k,
    *   flow         -B_p q in K* = {a |e_t| <= -e_n}.
-   * Strains and stresses are in cone axes (second_order_cone.h), all in units. Either f
-   * q = 1 and lambda is the load, or some velocities are prescribed and the load is the
-   * power of their reactions.
+   * Strain rates and stresses are in cone axes (second_order_cone.h), all variables in
+   * scaled units. Either f q = 1 and lambda is the load, or some velocities are
+   * prescribed and the load is the power of the reactions.
    *
    * After the triangles come the faces of the interfaces, as cells of the same form:
    * V is a part of an edge's length, B q the velocity of the body relative to the
@@ -88,20 +89,21 @@ namespace geocone::GEOCONE_DIM
    */
   struct BoundProblem
   {
-    PointStrains           B;      ///< three points of each cell
-    std::vector<double>    volume; ///< of each point
-    std::vector<PointCone> cone;   ///< of each point
+    PointStrains           B;      ///< B_p, three points per cell
+    std::vector<double>    volume; ///< weight V_p of each point
+    std::vector<PointCone> cone;   ///< yield cone of each point
 
     unsigned int n_triangles = 0;
-    /** Triangle of each further cell, i.e. of interfaces and cut-offs. */
+    /** Triangle to which each interface cell and cut-off cell belongs, in the order of
+     *  these cells. */
     std::vector<unsigned int> owner;
     std::vector<unsigned int> cut;               ///< triangles with a cut-off
-    unsigned int              first_cut_dof = 0; ///< nine for each of them
+    unsigned int              first_cut_dof = 0; ///< nine dofs per cut-off
 
     std::vector<bool> is_prescribed; ///< by dof
-    std::vector<bool> has_no_force;  ///< prescribed dofs without any stress
-    Eigen::VectorXd   prescribed;    ///< prescribed values, else 0
-    Eigen::VectorXd   dead, live;    ///< F0 and f by dof; f = 0: no load factor
+    std::vector<bool> has_no_force;  ///< prescribed dofs without stresses
+    Eigen::VectorXd   prescribed;    ///< prescribed velocities; 0 elsewhere
+    Eigen::VectorXd   dead, live;    ///< F0 and f; f = 0: no load factor
 
     unsigned int
     n_dofs() const
@@ -121,29 +123,30 @@ namespace geocone::GEOCONE_DIM
     bool
     has_incompressible() const;
 
-    /** Number of cells of interfaces. */
+    /** Number of interface cells. */
     unsigned int
     n_interfaces() const
     {
       return owner.size() - cut.size();
     }
 
-    /** The first point of the cut-offs. */
+    /** Number of the first point of the cut-off cells. */
     unsigned int
     first_cut_point() const
     {
       return 3 * (n_triangles + n_interfaces());
     }
 
-    /** Point of the triangle to which a point of its cut-off belongs. */
+    /** Point of a triangle to which a point of the triangle's cut-off cell
+     *  corresponds. */
     unsigned int
     point_of_triangle(const unsigned int cut_point) const
     {
       return 3 * owner[cut_point / 3 - n_triangles] + cut_point % 3;
     }
 
-    /** Whether scaled-down stresses carry a scaled-down load: there is no dead load and
-     *  cohesion is positive everywhere. */
+    /** Whether stresses multiplied by a factor < 1 are an admissible state for a smaller
+     *  load: without dead load, and with positive cohesion everywhere. */
     bool
     can_be_scaled() const;
     unsigned int
@@ -151,7 +154,8 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Input of a limit analysis: the scene, its triangles, the load and the strengths.
+   * Input of a limit analysis on a mesh: scene, triangles, load factor and strength of
+   * the materials.
    */
   struct BoundScene
   {
@@ -159,10 +163,10 @@ namespace geocone::GEOCONE_DIM
     const Triangles       &triangles;
     LoadFactor             factor;
     BoundUnits             units;
-    std::vector<PointCone> cones; ///< of the materials, in units
+    std::vector<PointCone> cones; ///< by material, in scaled units
     std::vector<Interface> interfaces;
 
-    /** Growth of the k of each material's cone with depth (in units, per m). */
+    /** Increase of each material's k with depth (scaled units of stress, per m). */
     std::vector<Material::Growth> growth;
 
     PointCone
@@ -173,12 +177,12 @@ namespace geocone::GEOCONE_DIM
       return cone;
     }
 
-    /** Vector to which tractions or weight are added. */
+    /** Selects the load vector, live or dead, of tractions or self-weight. */
     Eigen::VectorXd &
     loads(BoundProblem &problem, const LoadFactor kind) const;
 
-    /** Changes a material's strength: tan(phi), k over cos(phi) times a factor, and the
-     *  tensile strength times another one. */
+    /** Modifies the strength of a material: sets tan(phi), multiplies the cohesion
+     *  k/cos(phi) by a factor, and the tensile strength by another factor. */
     void
     change(const unsigned int material,
            const double       tan_phi,
@@ -186,19 +190,19 @@ namespace geocone::GEOCONE_DIM
            const double       tension_factor);
   };
 
-  /** The upper-bound or the lower-bound problem. */
+  /** Kind of problem: upper bound (kinematic) or lower bound (static). */
   enum class BoundSide
   {
     upper,
     lower
   };
 
-  /** The weight of a cell per area, in units. */
+  /** Self-weight of a cell per area, in scaled units. */
   dealii::Tensor<1, dim>
   weight_of_cell(const BoundScene &scene, const unsigned int cell);
 
-  /** Adds a constant force per area of a cell to the forces in the dofs of a problem,
-   *  in units. */
+  /** Adds the nodal forces of a constant body force in a cell (per area) to F, in scaled
+   *  units. */
   void
   add_force_of_cell(const BoundScene             &scene,
                     const BoundSide               side,
@@ -206,20 +210,20 @@ namespace geocone::GEOCONE_DIM
                     const dealii::Tensor<1, dim> &force,
                     Eigen::VectorXd              &F);
 
-  /** Adds the tractions of a load to the forces in the dofs of a problem, in units. */
+  /** Adds the nodal forces of a traction condition to F, in scaled units. */
   void
   add_tractions(const BoundScene        &scene,
                 const BoundSide          side,
                 const BoundaryCondition &load,
                 Eigen::VectorXd         &F);
 
-  /** The largest traction of a load at the vertices where it acts (Pa). */
+  /** Largest traction of a traction condition over the loaded vertices (Pa). */
   double
   largest_traction(const BoundScene &scene, const BoundaryCondition &load);
 
   /**
-   * Upper-bound problem: quadratic velocities with the points at the vertices. Strains
-   * are linear in a cell, so flow that is admissible at its vertices is admissible
+   * Upper-bound problem with quadratic velocities and points at the vertices. Strain
+   * rates are linear in a cell, so flow that is admissible at the vertices is admissible
    * everywhere, and the dissipation at the vertices is an upper estimate (exact for a >
    * 0): the result is an upper bound (Makrodimopoulos and Martin 2007). Dofs: x and y
    * of the vertices, then of the edges, then of the obstacles. Points of an interface
@@ -230,9 +234,9 @@ namespace geocone::GEOCONE_DIM
   upper_problem(const BoundScene &scene);
 
   /**
-   * Lower-bound problem: the dual of linear stresses that are discontinuous between
-   * triangles. Its velocities are a translation u of each triangle and w at both ends
-   * of each edge,
+   * Lower-bound problem with linear stresses, discontinuous between triangles, in its
+   * dual form. The dual velocities are a translation u of each triangle, and w at both
+   * ends of each edge,
    *   B_i q = -3 sym(u x grad lambda_i) + 3/(2A) sum_{e at i} L_e sym(w_ei x n_e).
    * Equilibrium of these rows is that of the continuum, so each admissible state is a
    * lower bound (dual of Makrodimopoulos and Martin 2006). Dofs: x and y of the

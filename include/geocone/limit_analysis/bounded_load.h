@@ -15,9 +15,10 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Angles in Davis's factor (1968) for strength reduction by F. All are the
-   * same for F = 1. A: those that are given. B: both are reduced, tan(phi)/F
-   * and tan(theta)/F. C: phi is, and theta as far as it would exceed it.
+   * Variants of Davis's factor (1968) in strength reduction by F, which differ in the
+   * friction angle phi and the dilatancy angle theta; equal for F = 1. A: given angles.
+   * B: both reduced, tan(phi)/F and tan(theta)/F. C: phi reduced; theta reduced only as
+   * far as it would exceed phi.
    */
   enum class DavisVariant
   {
@@ -26,18 +27,19 @@ namespace geocone::GEOCONE_DIM
     C
   };
 
-  /** The load bounded by a limit analysis: the choice of the load factor, the strengths
-   *  of the materials, and the units in which both are of order one. */
+  /** Load bounded by a limit analysis: loads multiplied by the load factor, strength of
+   *  the materials, and scaled units in which both are of order one. */
   class BoundedLoad
   {
   public:
-    /** Declares "Load factor of" in a section. */
+    /** Declares the parameter "Load factor of" in a section. */
     void
     declare(dealii::ParameterAcceptor &section);
 
     /**
-     * @param scene prepared
-     * @param triangles of its first mesh
+     * Selects the loads multiplied by the load factor, and the scaled units.
+     * @param scene prepared scene
+     * @param triangles of the first mesh
      * @throws InputError if there is no load to bound, more than one, or a rigid motion
      * of the body is free
      */
@@ -45,33 +47,34 @@ namespace geocone::GEOCONE_DIM
     prepare(const Scene &scene, const Triangles &triangles);
 
     /**
-     * Prepares strength reduction: the factor multiplies all loads, weight and
-     * tractions.
+     * Prepares strength reduction, in which the load factor multiplies all loads, i.e.
+     * self-weight and tractions.
      * @throws InputError also for cohesionless soil, whose load factor is zero or
      * infinite
      */
     void
     prepare_reduction(const Scene &scene, const Triangles &triangles);
 
-    /** Input of upper_problem() and lower_problem() on a mesh. */
+    /** Returns the input of upper_problem() and lower_problem() on a mesh. */
     BoundScene
     on(const Scene &scene, const Triangles &triangles) const;
 
-    /** The same with c/F and tan(phi)/F instead of c and tan(phi). */
+    /** Returns the input on a mesh for reduced strength, c/F and tan(phi)/F. */
     BoundScene
     reduced(const Scene     &scene,
             const Triangles &triangles,
             const double     F) const;
 
-    /** The same with the strength of Davis, whose flow is associated: q c/F and
-     *  q tan(phi)/F with q = cos(theta) cos(phi)/(1 - sin(theta) sin(phi)). */
+    /** Returns the input on a mesh for Davis's equivalent material, with associated flow
+     *  and the strength q c/F and q tan(phi)/F, where
+     *  q = cos(theta) cos(phi)/(1 - sin(theta) sin(phi)). */
     BoundScene
     by_davis(const Scene       &scene,
              const Triangles   &triangles,
              const double       F,
              const DavisVariant variant) const;
 
-    /** Loads multiplied by the factor, never automatic. */
+    /** Loads that the load factor multiplies; never LoadFactor::automatic. */
     LoadFactor
     factor() const
     {
@@ -81,8 +84,8 @@ namespace geocone::GEOCONE_DIM
     std::string
     word() const;
 
-    /** Load for the load factor 1 of a problem: (N/m) for a reaction, else
-     *  1. */
+    /** Load that corresponds to the load factor 1 of a BoundProblem: in N/m for a
+     *  reaction, otherwise 1. */
     double
     value_of_unit() const
     {
@@ -95,14 +98,15 @@ namespace geocone::GEOCONE_DIM
       return chosen == LoadFactor::velocity ? "N/m" : "-";
     }
 
-    /** The unit, if any, after a blank. */
+    /** Unit of the load with a leading blank; empty for a load factor. */
     std::string
     after_number() const
     {
       return chosen == LoadFactor::velocity ? " N/m" : "";
     }
 
-    /** Whether the dilatancy of some material is smaller than its friction. */
+    /** Whether some material has non-associated flow, i.e. a dilatancy angle smaller than
+     *  the friction angle. */
     bool
     non_associated() const
     {
@@ -112,15 +116,16 @@ namespace geocone::GEOCONE_DIM
     BoundUnits units;
 
   private:
-    /** @throws InputError where strength that grows with depth becomes negative */
+    /** Checks strength that increases with depth. @throws InputError if the strength is
+     *  negative at some vertex */
     void
     check_strength(const Scene &scene, const Triangles &triangles) const;
     void
     check_loads(const Scene &scene, const Triangles &triangles);
     void
     take_cones(const Scene &scene);
-    /** The prescribed non-zero velocity, if any.
-     *  @throws InputError if there are several */
+    /** Prescribed non-zero velocity of the scene, if any.
+     *  @throws InputError for several different velocities */
     std::optional<dealii::Tensor<1, dim>>
     prescribed_velocity(const Scene &scene, const Triangles &triangles) const;
     void
@@ -135,7 +140,7 @@ namespace geocone::GEOCONE_DIM
     LoadFactor            chosen    = LoadFactor::automatic;
     double                load_unit = 1.;
     std::vector<FlowCone> flow_cones;
-    /** Growth of their k with depth (Pa/m). */
+    /** Increase of each material's k with depth (Pa/m). */
     std::vector<Material::Growth> growth;
     bool                          less_dilatant = false;
   };

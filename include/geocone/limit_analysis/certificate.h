@@ -11,40 +11,42 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Admissible violation of the cones, relative to the largest stress, where
+  /** Tolerance for violations of the yield cones, relative to the largest stress, if
    *  stresses cannot be scaled back. */
   constexpr double rounding_strength = 1e-8;
 
-  /** A bound with its certificate: all values are recomputed from the fields,
-   *  independently of the solver. In units of the problem. */
+  /** A bound of the load with its certificate, in scaled units. All values are recomputed
+   *  from the stress or velocity field, independently of the solver. */
   struct Bound
   {
     double      load      = 0.;
     bool        certified = false;
     std::string rejection; ///< reason for rejection, if not certified
 
-    /** Largest violation before the repair: of the strength, relative to the largest
-     *  stress, or of admissible flow, relative to the largest strain rate. */
+    /** Largest violation before fields are repaired: of the yield cones, relative to the
+     *  largest stress (lower bound), or of the flow rule, relative to the largest strain
+     *  rate (upper bound). */
     double violation = 0.;
 
-    /** Lower bound: largest error of div s + body force and of tractions across edges
-     *  and on the boundary, relative to the largest stress (over the cell's size).
-     *  Upper bound: largest normal rate of cylinders, relative to the largest rate. */
+    /** Remaining error of the certified field. Lower bound: largest residual of
+     *  equilibrium, i.e. of div s + body force and of tractions across edges and on the
+     *  boundary, relative to the largest stress (divided by the cell size). Upper bound:
+     *  largest volumetric strain rate of cylinders, relative to the largest rate. */
     double error = 0.;
 
-    /** Fields of the bound: scaled stresses at the points in cone axes, or repaired
-     *  velocities of all dofs. The velocities of a lower bound are those of its dual:
-     *  they show the failure mechanism but prove nothing. */
+    /** Certified field: scaled stresses at the points in cone axes (lower bound), or
+     *  repaired velocities of all dofs (upper bound). The velocities of a lower bound are
+     *  dual variables, which show the failure mechanism but are not certified. */
     std::vector<Eigen::Vector3d> s;
     Eigen::VectorXd              q;
   };
 
   /**
-   * Certifies stresses: in the cone at the points, and hence everywhere since they are
-   * linear, and in equilibrium with the loads to rounding. Where the strength is
-   * exceeded, all stresses are scaled by theta = min k/(k + excess), which needs
-   * cohesion and no dead load; otherwise 1e-8 of the largest stress is tolerated as
-   * rounding.
+   * Certifies a lower bound: the stresses are inside the yield cones at the points, hence
+   * everywhere since they are linear, and in equilibrium with the loads to rounding. If
+   * the strength is exceeded, all stresses are scaled by theta = min k/(k + excess). This
+   * requires cohesion and no dead load; otherwise the tolerance for rounding is 1e-8 of
+   * the largest stress.
    */
   Bound
   certify_lower(const BoundScene    &scene,
@@ -52,10 +54,10 @@ namespace geocone::GEOCONE_DIM
                 const BoundSolution &solution);
 
   /**
-   * Certifies velocities: -B q in K* at the points, and hence everywhere since rates
-   * are linear. Cylinders are made incompressible by a projection. Elsewhere a
-   * violation is removed by adding the uniaxial extension (0, y - y_bottom), if that
-   * obeys the boundary conditions.
+   * Certifies an upper bound: the velocities satisfy -B q in K* at the points, hence
+   * everywhere since strain rates are linear. For cylinders, a projection removes
+   * volumetric strain rates. For other cones, violations are removed by adding the
+   * uniaxial extension (0, y - y_bottom), if it satisfies the boundary conditions.
    */
   Bound
   certify_upper(const BoundScene    &scene,
@@ -63,7 +65,7 @@ namespace geocone::GEOCONE_DIM
                 const BoundSolution &solution);
 
   /**
-   * Contributions of the triangles to (upper - lower) f.v, which are not negative:
+   * Non-negative contributions eta_T of the triangles to the gap (upper - lower) f.v:
    *   eta_T = sum_i A/3 D(e_i) - sum_ij A/12 (1 + delta_ij) s_i . e_j
    * with e of the upper and s of the lower bound (Ciria, Peraire and Bonet 2008).
    */
@@ -73,8 +75,8 @@ namespace geocone::GEOCONE_DIM
                const Bound        &lower);
 
   /**
-   * The dissipation of a point at a strain rate in cone axes, per volume. With a cut-off
-   * it is the infimal convolution of those of cone and cut-off,
+   * Dissipation per volume at a point for a strain rate in cone axes. With a cut-off it
+   * is the infimal convolution of the dissipation functions of cone and cut-off,
    *   opening (-e_n) + (k - a opening) (|e_t| + e_n)^+/(1 - a).
    */
   double

@@ -13,7 +13,7 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Both bounds of the load on a mesh, in units of the problem. */
+  /** Certified lower and upper bounds of the load on a mesh, in scaled units. */
   struct CertifiedBounds
   {
     struct Side
@@ -22,28 +22,30 @@ namespace geocone::GEOCONE_DIM
       Bound         bound;
       unsigned int  n_unknowns = 0;
 
-      /** Lower bound: |V s.e| of each triangle, with e of the lower-bound
-       *  velocities. */
+      /** Internal power |V s.e| of each triangle, with the strain rates e of the dual
+       *  velocities; lower bound only. */
       std::vector<double> power;
     };
     Side upper, lower;
 
-    /** Contribution of each triangle to the gap, see gap_of_cells(). */
+    /** Contribution of each triangle to the gap between the bounds, see
+     *  gap_of_cells(). */
     std::vector<double> gap;
 
     /**
-     * Refinement indicator, equal for all triangles of an ideal mesh:
-     * contribution to the gap, plus the power of the lower-bound stresses on
-     * the lower-bound velocities, times the size of the triangle. The latter
-     * marks stresses at yield away from the upper bound's mechanism.
+     * Refinement indicator, equal for all triangles of an optimal mesh: contribution to
+     * the gap, plus a multiple of the internal power of the lower bound times the size of
+     * the triangle. The power marks stresses at yield away from the upper bound's
+     * mechanism.
      */
     std::vector<double> uneven;
 
-    /** Sum of the contributions over the gap; 1 where both fields are exact. */
+    /** Sum of the triangles' contributions divided by the gap; 1 if both fields are
+     *  exact. */
     double gap_share = 0.;
   };
 
-  /** Solves the problem of one side and certifies the result.
+  /** Solves the upper-bound (lower-bound) problem and certifies the result.
    *  @param tolerance of the interior-point method, relative to the load */
   /** @{ */
   CertifiedBounds::Side
@@ -52,13 +54,14 @@ namespace geocone::GEOCONE_DIM
   certified_lower(const BoundScene &bound, const double tolerance);
   /** @} */
 
-  /** Solves both problems of a mesh and certifies the results.
+  /** Solves the upper-bound and lower-bound problems on a mesh and certifies the results.
    *  @param tolerance of the interior-point method, relative to the load */
   CertifiedBounds
   certified_bounds(const BoundScene &bound, const double tolerance);
 
-  /** Both bounds of the load for Davis's soil on a mesh, in the unit of the load: an
-   *  estimate for non-associated flow (doc/theory/limit_analysis.md). */
+  /** Davis's estimate of the load for non-associated flow: both bounds for Davis's
+   *  equivalent material on a mesh, in the unit of the load
+   *  (doc/theory/limit_analysis.md). */
   std::array<double, 2>
   davis_estimate(const BoundedLoad &load,
                  const Scene       &scene,

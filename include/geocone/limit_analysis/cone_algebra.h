@@ -9,8 +9,8 @@
 #include <algorithm>
 #include <cmath>
 
-/** Jordan algebra of the cone {|x_t| <= x_0} of N components, and the pointwise
- *  operations of an interior-point method in it. */
+/** Jordan algebra of the second-order cone {|x_t| <= x_0} with N components, and
+ *  operations of interior-point methods on vectors of this cone. */
 namespace geocone::cone_algebra
 {
   template <int N>
@@ -24,7 +24,7 @@ namespace geocone::cone_algebra
     return std::sqrt(std::max((x[0] - t) * (x[0] + t), 0.));
   }
 
-  /** The Jordan product. */
+  /** Jordan product of u and v: (u.v, u_0 v_t + v_0 u_t). */
   template <int N>
   ConeVector<N>
   product(const ConeVector<N> &u, const ConeVector<N> &v)
@@ -36,7 +36,7 @@ namespace geocone::cone_algebra
     return p;
   }
 
-  /** Solution y of product(l, y) = d. */
+  /** Inverse of the Jordan product: solution y of product(l, y) = d. */
   template <int N>
   ConeVector<N>
   divide(const ConeVector<N> &l, const ConeVector<N> &d)
@@ -51,7 +51,7 @@ namespace geocone::cone_algebra
     return y;
   }
 
-  /** Largest step with l + step d in the cone, at most 1/0.99. */
+  /** Largest step, at most 1/0.99, for which l + step d is in the cone. */
   template <int N>
   double
   step_in_cone(const ConeVector<N> &l, const ConeVector<N> &d)
@@ -99,21 +99,21 @@ namespace geocone::cone_algebra
       eta  = std::sqrt(dx / dz);
     }
 
-    /** W v. */
+    /** Product W v. */
     ConeVector<N>
     times(const ConeVector<N> &v) const
     {
       return eta * turned(w.template tail<N - 1>(), v);
     }
 
-    /** W^-1 v. */
+    /** Product W^-1 v. */
     ConeVector<N>
     inverse_times(const ConeVector<N> &v) const
     {
       return turned(-w.template tail<N - 1>(), v) / eta;
     }
 
-    /** W^2 v = eta^2 (2 w w' - J) v. */
+    /** Product W^2 v = eta^2 (2 w w' - J) v, with J = diag(1, -1, ..., -1). */
     ConeVector<N>
     square_times(const ConeVector<N> &v) const
     {
@@ -123,7 +123,7 @@ namespace geocone::cone_algebra
       return eta * eta * r;
     }
 
-    /** W^2. */
+    /** Matrix W^2. */
     Eigen::Matrix<double, N, N>
     square() const
     {
@@ -134,7 +134,7 @@ namespace geocone::cone_algebra
       return eta * eta * S;
     }
 
-    /** @name For a cylinder, with constant x_0 */
+    /** @name Elimination of z_0 for a cylinder, i.e. constant x_0 */
     /** @{ */
     Eigen::Matrix<double, N - 1, N - 1>
     tangential() const
@@ -153,7 +153,7 @@ namespace geocone::cone_algebra
                (1. + 2. * w.template tail<N - 1>().squaredNorm()) *
                w.template tail<N - 1>();
     }
-    /** Rate dz_0 with (W^2 dz)_0 = r_0 for a given dz_t. */
+    /** Component dz_0 that satisfies (W^2 dz)_0 = r_0 for a given dz_t. */
     double
     first_rate(const double r_0, const ConeVector<N - 1> &dz_t) const
     {
@@ -164,7 +164,7 @@ namespace geocone::cone_algebra
     /** @} */
 
   private:
-    /** W v/eta, or its inverse for the other sign of w_t. */
+    /** Product W v/eta, or (W/eta)^-1 v if w_t has the opposite sign. */
     ConeVector<N>
     turned(const ConeVector<N - 1> &w_t, const ConeVector<N> &v) const
     {

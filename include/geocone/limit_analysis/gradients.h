@@ -13,31 +13,32 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Dependence of both bounds on one parameter p, all others constant. */
+  /** Sensitivity of both bounds to a parameter p, with all other parameters constant. */
   struct Gradient
   {
-    std::array<std::string, 3> place; ///< as in the topic, below
-    std::string                unit;  ///< of p
+    std::array<std::string, 3> place; ///< keys in the topic, see below
+    std::string                unit;  ///< unit of p
     double                     value =
-      0.; ///< p; of a load the mean unit weight or largest traction
+      0.; ///< p; for a load, the mean unit weight or largest traction
 
-    /** Lower and upper: derivatives with respect to p, and d ln bound/d ln p; of a
-     *  friction angle per degree, and d ln bound/d ln tan(phi). Not a number where
-     *  that bound is not certified. */
+    /** Derivatives of the lower and upper bound with respect to p, and elasticities
+     *  d ln bound/d ln p; for a friction angle, derivatives per degree and
+     *  d ln bound/d ln tan(phi). NaN if the bound is not certified. */
     std::array<double, 2> derivative, elasticity;
   };
 
-  /** A problem solved for one bound. */
+  /** Input and solution of a lower-bound or upper-bound problem. */
   struct SolvedBound
   {
     const BoundScene            &scene;
     const CertifiedBounds::Side &side;
-    double                       F = 1.; ///< by which the strength is divided
+    double                       F = 1.; ///< divisor of the strength
   };
 
   /**
-   * Gradients of both bounds of a load from their fields, without another solution. At
-   * the optimum the derivative of the load is that of the Lagrangian,
+   * Gradients of both bounds of a load with respect to all parameters, computed from the
+   * fields of the bounds without another solution. At the optimum the derivative of the
+   * load is the derivative of the Lagrangian,
    *   lambda + q.(F0 + lambda f - sum V B's) + sum V y (a s_n + k - |s_t|),
    * with the rates y of the cones: sum V y per k, sum V y s_n per a, and -q.dF per dead
    * load. For the upper bound's strengths k and loads this is the derivative of a
@@ -48,8 +49,8 @@ namespace geocone::GEOCONE_DIM
    * (traction), obstacles (friction_coefficient, adhesion, tensile_strength), and others
    * (load: the forces of water and of free obstacles).
    *
-   * @param given with the whole strength
-   * @param load_unit load that a problem's 1 corresponds to
+   * @param given input with unreduced strength
+   * @param load_unit load that corresponds to the load factor 1 of a problem
    */
   std::vector<Gradient>
   gradients_of_load(const BoundScene  &given,
@@ -58,20 +59,20 @@ namespace geocone::GEOCONE_DIM
                     const double       load_unit);
 
   /**
-   * Gradients of the factor of safety, from those of the factor of all loads where the
-   * strength is divided by F: dF/dp = -(d lambda/dp)/(d lambda/dF).
-   * @param lower,upper near their roots
+   * Gradients of the factor of safety, computed from the gradients of the factor lambda
+   * of all loads for strength divided by F: dF/dp = -(d lambda/dp)/(d lambda/dF).
+   * @param lower,upper solved near the roots lambda(F) = 1
    */
   std::vector<Gradient>
   gradients_of_safety(const BoundScene  &given,
                       const SolvedBound &lower,
                       const SolvedBound &upper);
 
-  /** Topic bounds/gradients. */
+  /** Converts gradients to the topic bounds/gradients of the summary. */
   Json
   topic_of(const std::vector<Gradient> &gradients);
 
-  /** The elasticities, the largest first, as lines of text. */
+  /** Formats the elasticities as lines of text, in descending order. */
   std::string
   text_of(const std::vector<Gradient> &gradients, const std::string &bounded);
 } // namespace geocone::GEOCONE_DIM

@@ -13,31 +13,32 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Point of an interface. */
+  /** Point of an interface cell. */
   struct InterfacePoint
   {
     double part = 0.; ///< share of the edge's length
 
-    /** The x dofs of the edge's nodes, with their weights in the velocity. */
+    /** Dofs (x component) of the edge's nodes, with the weights of the nodes in the
+     *  velocity at the point. */
     std::vector<std::pair<unsigned int, double>> nodes;
 
-    /** Point where the obstacle's linear velocity is evaluated. */
+    /** Position at which the rigid velocity of the obstacle is evaluated. */
     dealii::Point<dim> place;
   };
 
-  /** Number of dofs of the obstacles' motions and of the openings, three per
+  /** Number of dofs added by interfaces: motions of the obstacles, and three openings per
    *  interface. */
   unsigned int
   n_dofs_of_interfaces(const BoundScene &bound);
 
-  /** The three points of an edge in a space of velocities. */
+  /** Returns the three interface points of an edge in a velocity space. */
   using PointsOfEdge =
     std::function<std::array<InterfacePoint, 3>(const unsigned int edge)>;
 
   /**
-   * Adds the interfaces as cells; prescribes the obstacles' velocities, or loads free
-   * ones.
-   * @param first_dof of n_dofs_of_interfaces()
+   * Appends the interfaces as cells of a problem, prescribes the velocities of driven
+   * obstacles, and applies the loads of free obstacles.
+   * @param first_dof first of the n_dofs_of_interfaces() dofs
    */
   void
   add_interfaces(const BoundScene   &bound,

@@ -12,9 +12,9 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Boundary edge on which the body slides: on an obstacle, or along a side that is
-   * fixed in its normal direction and aligned with neither x nor y. The outside force r
-   * per area and the velocity u of the body relative to the outside correspond to
+   * Boundary edge along which the body can slide: in contact with an obstacle, or on a
+   * side that is fixed in its normal direction and not parallel to x or y. The traction r
+   * from outside and the velocity u of the body relative to the outside correspond to
    * stress and strain rate of a point: r = (s_n, s_t) is in a cone |s_t| <= a s_n + k,
    * with the associated rate e = -(u_N, u_T).
    */
@@ -22,12 +22,12 @@ namespace geocone::GEOCONE_DIM
   {
     Triangles::HeldEdge    held;
     dealii::Tensor<1, dim> normal;        ///< into the body, unit length
-    int                    obstacle = -1; ///< its index, or -1
+    int                    obstacle = -1; ///< obstacle index; -1: a side
 
     /**
-     * Sets whose intersection contains r: Coulomb's cone, and r_N >= -t with the
-     * tensile strength t if the cone extends beyond it; or |r_T| <= k alone, with free
-     * r_N.
+     * Admissible set of r; r is in the intersection of all faces: Coulomb's cone, and
+     * r_N >= -t with the tensile strength t if the cone extends beyond it; or
+     * |r_T| <= k alone, with free r_N.
      */
     struct Face
     {
@@ -36,8 +36,8 @@ namespace geocone::GEOCONE_DIM
     };
     std::vector<Face> faces;
 
-    /** Whether both sets bound r_N. The body then opens by w against the second one
-     *  alone, and (u_N - w, u_T) belongs to the first. */
+    /** Whether both faces bound r_N. The interface then opens at a rate w associated with
+     *  the second face, and the rate (u_N - w, u_T) is associated with the first. */
     bool
     opens() const
     {
@@ -45,12 +45,14 @@ namespace geocone::GEOCONE_DIM
     }
   };
 
-  /** @throws InputError if an obstacle touches no edge or a part of one, or penetrates
-   *  the body */
+  /** Finds all interfaces of the body with obstacles and oblique fixed sides.
+   *  @throws InputError if an obstacle touches no edge or only part of an edge, or
+   *  penetrates the body */
   std::vector<Interface>
   interfaces(const Scene &scene, const Triangles &triangles);
 
-  /** Whether a normal is along x or y, where nodes are fixed without an interface. */
+  /** Whether a normal is parallel to x or y; nodes on such sides are fixed without an
+   *  interface. */
   bool
   is_along_axis(const dealii::Tensor<1, dim> &normal);
 } // namespace geocone::GEOCONE_DIM

@@ -11,20 +11,21 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Result of an interior-point method. */
+  /** Result of the interior-point method for a BoundProblem. */
   struct BoundSolution
   {
     Eigen::VectorXd              q; ///< velocities of all dofs
     std::vector<Eigen::Vector3d> s; ///< stress in cone axes
-    double                       load           = 0.; ///< from the stresses
+    double                       load           = 0.; ///< lambda of s
     unsigned int                 factorisations = 0;
     bool                         converged      = false;
-    std::string                  reason; ///< why it did not converge
-    bool grows = false; ///< stresses are unbounded: no limit load
+    std::string                  reason; ///< cause of non-convergence
+    bool grows = false;                  ///< unbounded stresses: no limit load
   };
 
   /**
-   * Solver of the pair of programmes of a BoundProblem,
+   * Interior-point solver of the static and the kinematic programme of a BoundProblem, a
+   * primal-dual pair:
    *   static max lambda: sum V Bs' (x - o) = lambda f + F0, x in K,
    *   kinematic min sum V o.z - F0.q: z = -Bs q in K, f.q = 1,
    * with x = (a s_n + k, s_t), Bs = diag(1/a, 1, 1) B, o = (k, 0, 0), K = {x_0 >=
@@ -45,14 +46,14 @@ namespace geocone::GEOCONE_DIM
   public:
     struct Options
     {
-      double       tolerance      = 1e-4; ///< inner gap, relative to the load
+      double       tolerance      = 1e-4; ///< duality gap / load
       double       flow_tolerance = 1e-8; ///< |z + Bs q| relative to |Bs q|
-      double       flow_margin    = 0.;   ///< margin of -Bs q in K, likewise
-      double       equilibrium_tolerance = 1e-4; ///< relative to the forces
+      double       flow_margin    = 0.;   ///< of -Bs q in K, over |Bs q|
+      double       equilibrium_tolerance = 1e-4; ///< residual / forces
       unsigned int max_iterations        = 60;
 
-      /** Whether to return the stresses of the iterates instead of the
-       *  velocities. */
+      /** Whether the stresses (lower bound) are returned instead of the velocities (upper
+       *  bound). */
       bool stresses = false;
 
       /** Safety margin of the stresses in their cones, as a reduction of k:

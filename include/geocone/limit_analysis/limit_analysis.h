@@ -23,13 +23,13 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Kind of analysis of a scene. */
+  /** Kind of analysis performed for a scene. */
   enum class AnalysisKind
   {
-    steps,             ///< motion, step by step
-    limit_load,        ///< strict bounds of the limit load
+    steps,              ///< incremental analysis
+    limit_load,         ///< strict bounds of the limit load
     strength_reduction, ///< strict bounds of the factor of safety
-    seepage             ///< steady flow of water alone
+    seepage             ///< steady seepage alone
   };
 
   /**
@@ -55,50 +55,54 @@ namespace geocone::GEOCONE_DIM
     }
 
   private:
-    /** Tolerance of the interior-point method. */
+    /** Tolerance of the interior-point method, relative to the load. */
     double
     inner_tolerance() const
     {
       return std::min(tolerance, gap_tolerance / 10.);
     }
 
-    /** @throws InputError for parameters out of range, several ranks and particles */
+    /** Checks the parameters. @throws InputError for parameters out of range, several
+     *  ranks, and particles */
     void
     check_parameters() const;
 
-    /** Checks the scene, and that it admits strict bounds. @throws InputError */
+    /** Prepares the scene and checks that strict bounds exist for it.
+     *  @throws InputError if they do not */
     void
     prepare_scene(const RunOptions &options);
 
-    /** Warnings about the magnitudes of the scene, a fixed mesh and
+    /** Returns warnings about the magnitudes of the scene's parameters, a fixed mesh and
      *  time-dependent loads. */
     std::vector<std::string>
     warnings_of(const dealii::BoundingBox<dim> &body) const;
 
-    /** @throws InputError if the water table cuts cells of the first mesh */
+    /** Checks that the water table follows cell sides.
+     *  @throws InputError if the water table cuts cells of the first mesh */
     void
     check_water() const;
 
-    /** Whether the factor of safety is bounded instead of a load. */
+    /** Whether the factor of safety, and not a load, is bounded. */
     bool
     reduces_strength() const
     {
       return analysis == AnalysisKind::strength_reduction;
     }
 
-    /** Name of the bounded quantity, for messages. */
+    /** Name of the bounded quantity, used in messages. */
     std::string
     bounded() const
     {
       return reduces_strength() ? "factor of safety" : "load";
     }
 
-    /** Bounds the load on the present mesh. @throws StepFailure if there is no bound */
+    /** Computes both bounds of the load on the current mesh.
+     *  @throws StepFailure if there is no bound */
     BoundLevel
     bound_load();
 
-    /** Bounds the factor of safety on the present mesh. @throws StepFailure if
-     *  there is no bound */
+    /** Computes both bounds of the factor of safety on the current mesh.
+     *  @throws StepFailure if there is no bound */
     BoundLevel
     bound_factor();
 
@@ -118,21 +122,21 @@ namespace geocone::GEOCONE_DIM
     double
     next_cells(const BoundLevel &level);
 
-    /** Davis's estimates for non-associated flow: both bounds of the bounded quantity on
-     *  the last mesh (LoadBracket::davis). */
+    /** Davis's estimates for non-associated flow on the finest mesh: both bounds of the
+     *  load or factor of safety for each variant (LoadBracket::davis). */
     std::vector<std::array<double, 2>>
     estimates_by_davis() const;
 
-    /** The bracket certified by all meshes, or, if water pressures differ
-     *  between the meshes, by the last one with both bounds. */
+    /** Returns the bracket certified by all meshes, or, if water pressures differ between
+     *  meshes, by the last mesh with both bounds. */
     LoadBracket
     certified_by(const std::vector<BoundLevel> &levels) const;
 
-    /** Gradients of both bounds of the last mesh. */
+    /** Gradients of both bounds on the current mesh. */
     std::vector<Gradient>
     gradients_of_last() const;
 
-    /** The bracket certified so far, with that estimate. */
+    /** Returns the bracket certified so far, with Davis's estimate. */
     LoadBracket
     bracket() const;
 
@@ -189,13 +193,13 @@ namespace geocone::GEOCONE_DIM
 
     double asked_cells = 0.;        ///< requested of it, or 0 for the first one
 
-    std::vector<std::array<double, 2>> davis; ///< of the last mesh
+    std::vector<std::array<double, 2>> davis; ///< estimates_by_davis()
 
-    /** @name Last level */
+    /** @name Results of the last level */
     /** @{ */
     std::optional<Triangles> triangles;
     CertifiedBounds          bounds;
-    StrengthReduction::Level reduced; ///< of a strength reduction
+    StrengthReduction::Level reduced; ///< strength reduction only
     std::vector<Gradient>    gradients;
     /** @} */
   };

@@ -15,17 +15,18 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Level of a limit analysis: a mesh with both bounds, in the unit of the load. */
+  /** Results of one level of a limit analysis, i.e. a mesh: both bounds, in the unit of
+   *  the load, and their cost. */
   struct BoundLevel
   {
-    unsigned int number = 0; ///< from 1
+    unsigned int number = 0; ///< level number, from 1
     unsigned int cells = 0, unknowns_upper = 0, unknowns_lower = 0;
     double       lower = 0., upper = 0., gap = 0.; ///< gap: upper/lower - 1
     bool         lower_certified = false, upper_certified = false;
     unsigned int iterations_lower = 0, iterations_upper = 0;
     double       violation_lower = 0., violation_upper = 0.;
     double       error_lower = 0., error_upper = 0.;
-    double       gap_share   = 0.; ///< sum of eta over the gap
+    double       gap_share   = 0.; ///< CertifiedBounds::gap_share
     double       cpu_seconds = 0., mesh_seconds = 0.;
 
     bool
@@ -38,34 +39,35 @@ namespace geocone::GEOCONE_DIM
     state(StateRow &row);
   };
 
-  /** The best certified bounds of some levels, with their total cost: the
+  /** Best certified bounds over several levels, with the total cost of all levels: the
    *  bounds of every mesh are valid for the body. */
   LoadBracket
   best_of(const std::vector<BoundLevel> &levels);
 
   /**
-   * Order of convergence of the gap in the number of triangles: minus the slope of
-   * log(gap) over log(triangles) of the last three meshes with both bounds, by least
-   * squares. Empty if fewer than two meshes have both bounds.
+   * Order of convergence of the gap with the number of triangles: minus the slope of
+   * log(gap) over log(triangles), by least squares over the last three meshes with both
+   * bounds. Empty if fewer than two meshes have both bounds.
    */
   std::optional<double>
   order_of_gap(const std::vector<BoundLevel> &levels);
 
-  /** Output of a limit analysis: bounds.csv with a line per level, the fields of the
-   *  levels, and the summary. */
+  /** Output of a limit analysis: the table bounds.csv with a line per level, the fields
+   *  of each level, and the summary. */
   class LimitOutput : public TableOutput<BoundLevel>
   {
   public:
     using TableOutput::TableOutput;
 
-    /** @param unit of the load, e.g. "N/m"
-     *  @param reference or nothing */
+    /** Opens the output files. @param unit of the load, e.g. "N/m"
+     *  @param reference value of the load or factor of safety, if known */
     void
     prepare(const RunOptions           &options,
             const std::string          &unit,
             const std::optional<double> reference);
 
-    /** Writes the triangles with both mechanisms and their contributions to the gap. */
+    /** Writes the fields on the triangles: the mechanisms of both bounds, and the
+     *  triangles' contributions to the gap. */
     void
     write_fields(const double               number,
                  const Triangles           &triangles,
@@ -74,7 +76,7 @@ namespace geocone::GEOCONE_DIM
                  const Bound               &lower,
                  const std::vector<double> &gap);
 
-    /** Topic "bounds" of the summary, for at least one level. */
+    /** Returns the topic "bounds" of the summary; requires at least one level. */
     Json
     bounds(const LoadBracket &bracket) const;
 

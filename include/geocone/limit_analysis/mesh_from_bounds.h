@@ -13,14 +13,14 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Sizes of a mesh of about MeshParameters::number triangles for incremental analyses
-   * of the limit load: they equalise the triangles' contributions to the gap of strict
-   * bounds. Meshes double in size from the one of the other parameters until they have
-   * that many triangles; three more of that size follow and refine singularities
-   * further. Flow is assumed to be associated. Collective; the first rank computes and
-   * also returns the bracket of the load, with Davis's estimate for non-associated
-   * flow.
-   * @throws InputError for scenes without such bounds
+   * Computes cell sizes for a mesh of about MeshParameters::number triangles, for
+   * incremental analyses of the limit load: the sizes equalise the triangles'
+   * contributions to the gap between strict bounds. Starting from the mesh of the other
+   * parameters, the number of triangles is doubled until it is reached; three more meshes
+   * of this number refine singularities further. Flow is assumed to be associated.
+   * Collective; the first rank computes and also returns the bracket of the load, with
+   * Davis's estimate for non-associated flow.
+   * @throws InputError for scenes without finite bounds of the load
    */
   std::pair<CellSizes, LoadBracket>
   sizes_from_bounds(const MeshParameters &parameters,

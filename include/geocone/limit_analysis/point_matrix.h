@@ -13,27 +13,27 @@
 
 namespace geocone
 {
-  /** Matrix sum_p B_p' C_p B_p of the free dofs of some points, C_p symmetric 3 x 3,
-   *  with its Cholesky factors. */
+  /** Sparse matrix sum_p B_p' C_p B_p on the free dofs, with a symmetric 3 x 3 block C_p
+   *  for each point, and its Cholesky factorisation. */
   class PointMatrix
   {
   public:
-    /** @param is_prescribed by dof */
+    /** Creates the sparsity pattern. @param is_prescribed by dof */
     PointMatrix(const std::vector<bool> &is_prescribed,
                 const PointStrains      &strains);
 
-    /** C_p of all points. */
+    /** Blocks C_p of all points. */
     using Blocks = std::vector<Eigen::Matrix3d>;
 
     /**
-     * Assembles and factorises. A relative shift of the diagonal of 1e-15 regularises
-     * redundant equations.
+     * Assembles and factorises the matrix. A relative shift of the diagonal of 1e-15
+     * regularises redundant equations.
      * @return whether the matrix is positive definite
      */
     bool
     factorise(const Blocks &blocks);
 
-    /** Solves for the free dofs; all others are zero. */
+    /** Solves the linear system for the free dofs; prescribed dofs are set to zero. */
     Eigen::VectorXd
     solve(const Eigen::VectorXd &rhs) const;
 
@@ -41,16 +41,17 @@ namespace geocone
 
   private:
     const PointStrains         &strains;
-    std::vector<int>            row_of_dof; ///< or -1
-    std::vector<int>            place;      ///< of each entry, or -1
+    std::vector<int>            row_of_dof; ///< -1 for prescribed dofs
+    std::vector<int>            place;      ///< by for_entries(), or -1
     Eigen::SparseMatrix<double> matrix;     ///< lower triangle
 
-    /** Sets the sparsity pattern for rows in their present order. */
+    /** Creates the sparsity pattern for the current order of rows. */
     void
     set_pattern(const unsigned int n_rows);
 
-    /** Calls f(row, column) for each entry on or below the diagonal of a point, in the
-     *  order of `place`; negative where a dof is prescribed. */
+    /** Calls f(row, column) for each entry of the points' matrices on or below the
+     *  diagonal, in the order of `place`; row or column is negative for a prescribed
+     *  dof. */
     template <typename Function>
     void
     for_entries(const Function &f) const;
@@ -59,11 +60,12 @@ namespace geocone
       : public Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<double>>
     {
     public:
-      /** Position of each row in an elimination order with little fill. */
+      /** Computes the position of each row in a fill-reducing elimination order. */
       std::vector<int>
       fill_reducing_order(const Eigen::SparseMatrix<double> &matrix);
 
-      /** Analyses a matrix that is already in such an order. */
+      /** Performs the symbolic factorisation of a matrix that is already in
+       *  fill-reducing order. */
       void
       analyse_as_it_is(const Eigen::SparseMatrix<double> &matrix);
     };

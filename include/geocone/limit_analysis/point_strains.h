@@ -11,31 +11,32 @@
 
 namespace geocone
 {
-  /** B of a point: a column for each of its dofs. */
+  /** Strain matrix B of a point, with a column for each dof of the point. */
   using StrainMatrix = Eigen::Matrix<double, 3, Eigen::Dynamic>;
 
   /**
-   * Matrices B_p of the strain rates B_p q of points, restricted to the dofs that
-   * contribute: 6 of the 14 of a cell for the dual of linear stresses, 10 of 12 for
-   * quadratic velocities. They are contiguous, since loops over points are limited by
-   * memory bandwidth.
+   * Strain matrices B_p of all points, with strain rates B_p q, restricted to the dofs
+   * with nonzero columns: 6 of 14 dofs of a cell for the dual of linear stresses, 10 of
+   * 12 for quadratic velocities. The matrices are stored contiguously, since loops over
+   * points are limited by memory bandwidth.
    */
   class PointStrains
   {
   public:
     PointStrains() = default;
 
-    /** @param n_columns largest number of dofs of a point: 6 or 10, or with a
-     *  cut-off 9 or 13 */
+    /** Creates an empty list.
+     *  @param n_columns maximum number of dofs of a point: 6 or 10, or with a cut-off 9
+     *  or 13 */
     explicit PointStrains(const unsigned int n_columns);
 
     /**
-     * Adds a point. @param B a column for each of the dofs; zero columns are dropped
+     * Appends a point. @param B a column for each of the dofs; zero columns are omitted
      */
     void
     add(const StrainMatrix &B, const std::vector<unsigned int> &dofs);
 
-    /** Excludes a point from all sums. */
+    /** Excludes a point from all sums over points. */
     void
     remove(const unsigned int point);
 
@@ -43,7 +44,7 @@ namespace geocone
     bool
     is_removed(const unsigned int point) const;
 
-    /** Divides the normal-strain row of a point. */
+    /** Divides the row of the normal strain in B of a point by a number. */
     void
     divide_normal(const unsigned int point, const double by);
 
@@ -53,11 +54,12 @@ namespace geocone
       return n_columns == 0 ? 0 : dofs.size() / n_columns;
     }
 
-    /** B_p q of all points. */
+    /** Strain rates B_p q of all points. */
     std::vector<Eigen::Vector3d>
     rates(const Eigen::VectorXd &q) const;
 
-    /** Forces sum_p V_p B_p' s_p of the points from first_point on, in n_dofs dofs. */
+    /** Internal forces sum_p V_p B_p' s_p, by dof, of the points from @p first_point
+     *  on. */
     Eigen::VectorXd
     forces(const std::vector<double>          &volume,
            const std::vector<Eigen::Vector3d> &s,
@@ -79,7 +81,7 @@ namespace geocone
         f(std::integral_constant<int, 13>());
     }
 
-    /** B of a point. */
+    /** Strain matrix B of a point. */
     template <int n>
     Eigen::Map<const Eigen::Matrix<double, 3, n, Eigen::RowMajor>>
     matrix(const unsigned int point) const
@@ -88,8 +90,8 @@ namespace geocone
         &values[3 * n * point]);
     }
 
-    /** Dofs of a point, n_columns of them; for fewer, some are repeated with zeros in
-     *  B. */
+    /** Array of the n_columns dofs of a point; for points with fewer dofs, some dofs are
+     *  repeated with zero columns of B. */
     const unsigned int *
     dofs_of(const unsigned int point) const
     {

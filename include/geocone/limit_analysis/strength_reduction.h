@@ -13,12 +13,12 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Factor of safety F of a body: the divisor of c and tan(phi) of all its materials at
-   * the limit. Let lambda^-(F) and lambda^+(F) be the bounds of the factor of all
-   * loads. F is safe if lambda^- >= 1: the zero stress and the stresses in equilibrium
-   * with lambda^- times the loads are both admissible, and so are their convex
-   * combinations, one of which carries the loads. F fails if lambda^+ <= 1. Both are
-   * certificates that need no convergence.
+   * Strict bounds of the factor of safety F of a body, by which c and tan(phi) of all
+   * materials must be divided to reach the limit state. Let lambda^-(F) and lambda^+(F)
+   * be the bounds of the factor of all loads. F is safe if lambda^- >= 1: the zero stress
+   * and the stresses in equilibrium with lambda^- times the loads are both admissible,
+   * and so are their convex combinations, one of which carries the loads. The body fails
+   * for F if lambda^+ <= 1. Both are certificates that need no convergence.
    *
    * On each mesh the roots of both bounds are found by secants of log lambda over log
    * F, and each is confirmed by one more solution a thousandth on the safe side.
@@ -26,28 +26,30 @@ namespace geocone::GEOCONE_DIM
   class StrengthReduction
   {
   public:
-    /** Returns the scene with the strength divided by F, on the present mesh. */
+    /** Returns the input of the limit analysis on the current mesh, with the strength
+     *  divided by F. */
     using Reduced = std::function<BoundScene(const double F)>;
 
     struct Level
     {
-      /** Both bounds of the load at `factor`. */
+      /** Last factor F solved for, and both bounds of the load factor for this F. */
       double          factor = 1.;
       CertifiedBounds bounds;
 
-      /** Bounds of F certified on this mesh, if any. */
+      /** Bounds of the factor of safety certified on this mesh, if any. */
       std::optional<double> lower, upper;
 
-      /** Fields of these bounds, computed near their roots. */
+      /** Solutions that certify the bounds of the factor of safety. */
       CertifiedBounds::Side lower_proof, upper_proof;
 
-      /** All factorisations on the mesh, of either problem. */
+      /** Number of factorisations on the mesh, for the lower-bound and the upper-bound
+       *  problems. */
       unsigned int iterations_lower = 0, iterations_upper = 0;
     };
 
-    /** @param tolerance of the interior-point method, relative to the load
-     *  @throws StepFailure if the body does not fail for any factor, or fails
-     *  for all of them */
+    /** Computes both bounds of the factor of safety on a mesh.
+     *  @param tolerance of the interior-point method, relative to the load
+     *  @throws StepFailure if the body fails for no factor F, or for all factors */
     Level
     on_mesh(const Reduced &reduced, const double tolerance);
 
@@ -58,13 +60,14 @@ namespace geocone::GEOCONE_DIM
     }
 
   private:
-    /** Certifies factors near the root of each usable bound. */
+    /** Certifies bounds of the factor of safety near the root of each converged bound of
+     *  the load factor. */
     void
     prove_root(const Reduced &reduced,
                const double   tolerance,
                Level         &level) const;
 
-    double factor   = 1.; ///< initial value for the next mesh
+    double factor   = 1.; ///< initial guess for the next mesh
     double exponent = 1.; ///< -d log lambda/d log F
   };
 } // namespace geocone::GEOCONE_DIM

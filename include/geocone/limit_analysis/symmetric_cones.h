@@ -12,7 +12,7 @@
 #include <cmath>
 
 /**
- * Symmetric cones of an interior-point method, all with the same members:
+ * Symmetric cones for interior-point methods; all classes have the same members:
  *   size, degree  numbers of components and of eigenvalues that the product sums up,
  *   unit()        identity of the Jordan product, unit.unit = degree
  *   raised(x, e)  x with eigenvalues of at least e,
@@ -25,7 +25,7 @@
  */
 namespace geocone
 {
-  /** {|x_t| <= x_0} of N components; the half-line for N = 1. */
+  /** Second-order cone {|x_t| <= x_0} with N components; the half-line for N = 1. */
   template <int N>
   struct SecondOrderCone
   {
@@ -92,8 +92,8 @@ namespace geocone
     };
   };
 
-  /** Positive semidefinite 3 x 3 matrices as Mandel vectors, in the order of
-   *  base/types.h. */
+  /** Cone of positive semidefinite 3 x 3 matrices, stored as Mandel vectors in the
+   *  order of base/types.h. */
   struct SemidefiniteCone
   {
     static constexpr int size = 6, degree = 3;
@@ -110,7 +110,7 @@ namespace geocone
       return m;
     }
 
-    /** Of the symmetric part of a matrix. */
+    /** Mandel vector of the symmetric part of a matrix. */
     static V
     vector(const M &m)
     {
@@ -144,9 +144,10 @@ namespace geocone
     }
 
     /**
-     * R with R^-1 X R^-T = R' Z R = diag(l): for X = L_1 L_1', Z = L_2 L_2' and the
-     * singular values L_2' L_1 = U diag(l) V' it is R = L_1 V diag(l)^-1/2, and R^-1 =
-     * diag(l)^-1/2 U' L_2' needs no inverse.
+     * Nesterov-Todd scaling by a matrix R with R^-1 X R^-T = R' Z R = diag(l). For
+     * X = L_1 L_1', Z = L_2 L_2' and the singular value decomposition
+     * L_2' L_1 = U diag(l) V', R = L_1 V diag(l)^-1/2, and R^-1 = diag(l)^-1/2 U' L_2'
+     * requires no inversion.
      */
     struct Scaling
     {
