@@ -14,26 +14,26 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Accuracy with which the end of a step satisfies a flow law whose change of
-   * variable y maps the flow to the normals of its yield surface; zero if and
-   * only if it is satisfied. For one point, or the maximum over many. The
-   * quantities have units; their reference scales are included.
+   * Residuals of a plastic flow law at the end of a step, at one point or as maxima
+   * over several points; all residuals are zero if and only if the law is
+   * satisfied. The law has a change of variable y that maps plastic flow to normals
+   * of the yield surface. Residuals are dimensional; reference scales are included.
    */
   struct FlowCheck
   {
-    double natural_map = 0.; ///< |s - P_C(s - 2G y)| (Pa)
-    double violation = 0.; ///< violation of the yield function solved for (Pa)
+    double natural_map   = 0.; ///< residual |s - P_C(s - 2G y)| (Pa)
+    double violation     = 0.; ///< violation of the solved yield condition (Pa)
     double dual      = 0.; ///< violation of the dual cone by y (-)
-    double complementary = 0.; ///< |<y, s - apex>| (J/m^3)
-    double excess        = 0.; ///< violation of the exact law, no lag (Pa)
-    double exact_map     = 0.; ///< natural_map of the exact law (Pa)
+    double complementary = 0.; ///< product |<y, s - apex>| (J/m^3)
+    double excess        = 0.; ///< violation of the exact yield condition (Pa)
+    double exact_map     = 0.; ///< natural-map residual, exact law (Pa)
 
-    double stress     = 0.; ///< |s| (Pa)
-    double size       = 0.; ///< k, the strength at zero normal stress (Pa)
-    double flow       = 0.; ///< |y| (-)
+    double stress     = 0.; ///< scale |s| (Pa)
+    double size       = 0.; ///< scale k, strength at zero normal stress (Pa)
+    double flow       = 0.; ///< scale |y| (-)
     double compliance = 0.; ///< 1/2G (1/Pa)
 
-    /** All numbers, reduced over points and ranks by the maximum of each. */
+    /** Number of members, each reduced over points and ranks by its maximum. */
     static constexpr std::size_t n_numbers = 10;
     static constexpr std::array<double FlowCheck::*, n_numbers>
     numbers()
@@ -58,12 +58,11 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * Check of a cone law. The complementarity law assumes a cone without a cut-off: at
-     * a cut-off of the normal stress only the strength is checked, at Rankine's also the
-     * plastic strain, flow_at_cut_off().
-     * @param solved,exact cones at the end of the step
-     * @param z,s negative plastic strain increment, and the stress, in cone
-     * axes
+     * Evaluates the residuals of a cone law. The complementarity law assumes a cone
+     * without a cut-off: at a cut-off of the normal stress only the strength is checked;
+     * at Rankine's cut-off also the plastic strain, see flow_at_cut_off().
+     * @param solved,exact cones of the solved and the exact law at the end of the step
+     * @param z,s negative plastic strain increment, and stress, in cone axes
      */
     template <typename Vector>
     static FlowCheck
@@ -98,11 +97,11 @@ namespace geocone::GEOCONE_DIM
 
   private:
     /**
-     * Violation by z of the flow rule of a stress on Rankine's cut-off (-): negative
-     * multipliers of the cone and of the cut-off,
+     * Violation of the flow rule by z at a stress s on Rankine's cut-off (-): the sum of
+     * negative plastic multipliers of the cone and of the cut-off,
      *   g_1 + g_2 = -z_t.u,  b g_1 + g_2 = z_n,  u = s_t/|s_t|,
-     * a multiplier of the cone if s is inside it, or a strain rate orthogonal to u; at the
-     * tip |z_t| - z_n.
+     * of a nonzero multiplier of the cone if s is inside the cone, and of strain
+     * increments orthogonal to u; at the tip of the cut-off, |z_t| - z_n.
      */
     template <typename Vector>
     static double
@@ -126,13 +125,13 @@ namespace geocone::GEOCONE_DIM
     }
   };
 
-  /** A step of one point, with the full stress tensor and strain. */
+  /** Stresses and strain increment of one point in a step, as full tensors. */
   struct PointStep
   {
-    SpatialMandel strain;    ///< its increment
-    SpatialMandel stress_n;  ///< at t_n (Pa)
-    SpatialMandel stress;    ///< at t_{n+1} (Pa)
-    const double *history_n; ///< of the point at t_n
+    SpatialMandel strain;    ///< strain increment (-)
+    SpatialMandel stress_n;  ///< stress at t_n (Pa)
+    SpatialMandel stress;    ///< stress at t_{n+1} (Pa)
+    const double *history_n; ///< history variables at t_n
   };
 } // namespace geocone::GEOCONE_DIM
 

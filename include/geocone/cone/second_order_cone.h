@@ -12,11 +12,12 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Coordinates in which the yield surface is a circular cone: a vector x is
-   * split into x[0] = x.n along the axis n, the direction of compression, and
-   * the tangential part x_t = x[1..]. In plane strain, for a Mandel vector,
+   * Transforms a Mandel vector to cone axes, in which the yield surface is a
+   * circular cone: a vector x is split into x[0] = x.n along the axis n, the
+   * direction of isotropic compression, and the tangential part x_t = x[1..]. In
+   * plane strain
    *   n = -(1, 1, 0)/sqrt2, t1 = (1, -1, 0)/sqrt2, t2 = (0, 0, 1);
-   * in three dimensions they are the rows of spatial_axes(). The map is
+   * in three dimensions the axes are the rows of spatial_axes(). The map is
    * orthogonal and thus preserves scalar products.
    */
   inline Mandel
@@ -25,9 +26,9 @@ namespace geocone::GEOCONE_DIM
   inline Mandel
   from_cone_axes(const Mandel &x);
 
-  /** Cone axes of spatial vectors by rows: n = -(1, 1, 0, 1)/sqrt3, then (1,
-   *  -1, 0, 0)/sqrt2, (0, 0, 1, 0) and (1, 1, 0, -2)/sqrt6; further shears
-   *  unchanged. */
+  /** Cone axes of three-dimensional Mandel vectors, by rows: n = -(1, 1, 0, 1)/sqrt3,
+   *  then (1, -1, 0, 0)/sqrt2, (0, 0, 1, 0) and (1, 1, 0, -2)/sqrt6; all other shear
+   *  components are unchanged. */
   inline const SpatialMandelMatrix &
   spatial_axes()
   {
@@ -65,7 +66,8 @@ namespace geocone::GEOCONE_DIM
     return s;
   }
 
-  /** Transforms a linear map from cone axes to Mandel components. */
+  /** Transforms the matrix of a linear map, e.g. a tangent, from cone axes to Mandel
+   *  components. */
   inline MandelMatrix
   from_cone_axes(const MandelMatrix &C)
   {
@@ -78,15 +80,15 @@ namespace geocone::GEOCONE_DIM
     return result;
   }
 
-  /** Region of the return map in which a point ends. */
+  /** Mode: region of the yield cone in which the return map of a point ends. */
   enum class Mode : unsigned char
   {
     elastic, ///< inside the cone
-    cone,    ///< on its smooth surface
-    apex     ///< at its apex
+    cone,    ///< on the smooth part of the cone
+    apex     ///< at the apex
   };
 
-  /** Tensile strength of a cone without a cut-off (Pa). */
+  /** Tensile strength that represents a cone without a cut-off (Pa). */
   constexpr double infinite_tension = std::numeric_limits<double>::infinity();
 
   /**
@@ -105,16 +107,16 @@ namespace geocone::GEOCONE_DIM
     double b = 0.; ///< aperture of the flow cone, e.g. sin(theta)
     double k = 0.; ///< radius of the yield surface at s_n = 0 (Pa)
 
-    /** Cut-off s_n >= -tension (Pa), effective if it precedes the apex. */
+    /** Tensile cut-off s_n >= -tension (Pa), effective if the apex is beyond it. */
     double tension = infinite_tension;
 
-    /** Linear hardening h (Pa): the radius is k at t_n and k + h |z_t| at the
-     *  end of the step. */
+    /** Linear hardening modulus h (Pa): the radius at s_n = 0 is k at t_n and
+     *  k + h |z_t| at the end of the step. */
     double hardening = 0.;
 
     /**
-     * Rankine's cut-off: |s_t| <= s_n + opening also where the cone allows more (Pa), with
-     * flow along its normal. In the plane it limits the largest principal stress to
+     * Rankine's cut-off |s_t| <= s_n + opening (Pa), in addition to the cone, with
+     * associated flow. In plane strain it limits the largest principal stress to
      * opening/sqrt2.
      */
     double opening = infinite_tension;
@@ -125,7 +127,7 @@ namespace geocone::GEOCONE_DIM
       return opening < infinite_tension;
     }
 
-    /** The cone at the end of a step with |z_t| = slip, without further
+    /** Returns the cone at the end of a step with |z_t| = slip, without further
      *  hardening. */
     FlowCone
     hardened(const double slip) const
@@ -136,7 +138,8 @@ namespace geocone::GEOCONE_DIM
       return end;
     }
 
-    /** Excess of s over the cone and the cut-off (Pa); negative within both. */
+    /** Yield function: excess of s over the cone or Rankine's cut-off (Pa), the
+     *  larger one; negative inside both. */
     template <typename V>
     double
     yield_function(const V &s) const
@@ -152,7 +155,8 @@ namespace geocone::GEOCONE_DIM
       return tangential_norm(s) - s[0] - opening;
     }
 
-    /** Psi(z) = z + (a - b) |z_t| n: the change of variable of eq (25). */
+    /** De Saxce's change of variable, Psi(z) = z + (a - b) |z_t| n (Guillet et al.
+     *  2025, eq 25). */
     template <typename V>
     V
     psi(const V &z) const
@@ -162,7 +166,7 @@ namespace geocone::GEOCONE_DIM
       return y;
     }
 
-    /** An element of the generalised Jacobian of psi(). */
+    /** Returns an element of the generalised Jacobian of psi(). */
     MandelMatrix
     psi_slope(const Mandel &z) const
     {
@@ -174,12 +178,12 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * The cone with delayed friction: a part lambda of the normal stress in the
-     * strength is that of t_n,
+     * Returns the cone with delayed friction, whose strength takes a part lambda of
+     * the normal stress from t_n,
      *   |s_t| <= a ((1 - m) s_n + m s_n^n) + k,   m = lambda (a - b)/a,
-     * with the aperture a - lambda (a - b) >= b, the same flow, and no more
-     * tension than before. lambda = 0 is the exact law; associated laws do not
-     * change. The plastic work remains non-negative, because the radius of each
+     * with the aperture a - lambda (a - b) >= b, the same flow rule, and no larger
+     * tensile strength. lambda = 0 is the exact law; associated laws do not change.
+     * The plastic work remains non-negative, because the radius of each
      * cross-section does.
      */
     FlowCone
@@ -196,7 +200,7 @@ namespace geocone::GEOCONE_DIM
       return later;
     }
 
-    /** Violation of y in K*: max(0, a |y_t| - y_n). */
+    /** Violation of the dual-cone condition y in K*: max(0, a |y_t| - y_n). */
     template <typename V>
     double
     dual_violation(const V &y) const
@@ -205,8 +209,8 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * <y, s + (k/a) n>, in a form that has the limit a = 0 for y on the
-     * boundary of K* (there (k/a) y_n = k |y_t|).
+     * Complementarity product <y, s + (k/a) n> (J/m^3), in a form that includes the
+     * limit a = 0 for y on the boundary of K* (there (k/a) y_n = k |y_t|).
      */
     template <typename V>
     double
@@ -224,7 +228,7 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * return_map() of a cone without Rankine's cut-off.
+   * Return map of a cone without Rankine's cut-off, in closed form.
    *
    * Solution of the one-point problem
    *   s = t + D z with D = diag(K, 2G, ..., 2G),  z from the law of FlowCone
@@ -332,10 +336,10 @@ namespace geocone::GEOCONE_DIM
   }
 
   /**
-   * Part of return_map() for trial stresses that are beyond Rankine's cut-off
-   * after the return to the cone: returns them to the cut-off, which is an
-   * associated cone of aperture 1, or, if that is beyond the cone, to the
-   * circle where both meet,
+   * Return map to Rankine's cut-off, for trial stresses that are beyond it after the
+   * return to the cone. The stress is returned to the cut-off, which is an associated
+   * cone of aperture 1, or, if that stress is outside the cone, to the circle in which
+   * cone and cut-off intersect,
    *   s_n = (k + q T - (1 + q) opening)/(1 - a + q),  |s_t| = s_n + opening,
    * with q = h/2G.
    */
@@ -372,8 +376,8 @@ namespace geocone::GEOCONE_DIM
     return Mode::cone;
   }
 
-  /** Solution of the one-point problem of a cone, see return_map_uncut(), and of its
-   *  cut-off, return_to_cut_off(). */
+  /** Return map of a cone with all cut-offs, see return_map_uncut() and
+   *  return_to_cut_off(). */
   template <typename V, typename M>
   Mode
   return_map(const FlowCone &cone,
@@ -389,8 +393,9 @@ namespace geocone::GEOCONE_DIM
              : mode;
   }
 
-  /** Euclidean projection onto the admissible set of a cone with its cut-offs,
-   *  independent of its flow rule. @param[out] jacobian as below */
+  /** Euclidean projection onto the admissible set of a cone with cut-offs; the flow
+   *  rule has no influence.
+   *  @param[out] jacobian element of the generalised Jacobian, if not null */
   template <typename V,
             typename M =
               Eigen::Matrix<double, V::RowsAtCompileTime, V::RowsAtCompileTime>>
@@ -407,8 +412,8 @@ namespace geocone::GEOCONE_DIM
 
   /**
    * Euclidean projection onto C = {|s_t| <= a s_n + k}.
-   * @param[out] jacobian an element of Clarke's generalised Jacobian (paper,
-   * appendix C, with the polar cone as the third case), if not null
+   * @param[out] jacobian an element of Clarke's generalised Jacobian (Guillet et al.
+   * 2025, appendix C, with the polar cone as the third case), if not null
    */
   template <typename V,
             typename M =
@@ -419,7 +424,7 @@ namespace geocone::GEOCONE_DIM
     return project(FlowCone{a, a, k}, x, jacobian);
   }
 
-  /** Tangential unit vector x_t/|x_t|, or zero. */
+  /** Tangential unit vector x_t/|x_t|; zero if x_t = 0. */
   inline Mandel
   tangential_direction(const Mandel &x)
   {
@@ -431,8 +436,8 @@ namespace geocone::GEOCONE_DIM
   }
 
   /**
-   * Natural map F(s, y) = s - P_C(s - rho y), y = Psi(z): zero if and only if
-   * (s, z) satisfies the law, for any rho > 0 (paper, eqs 58, 59).
+   * Natural map F(s, y) = s - P_C(s - rho y) with y = Psi(z), zero if and only if
+   * (s, z) satisfies the cone law, for any rho > 0 (Guillet et al. 2025, eqs 58, 59).
    */
   template <typename V>
   V

@@ -13,17 +13,17 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * return_map() of a cone that depends, in any way, on the plastic shear
-   * g = |z_t| of the step itself: s and z satisfy the law of cone_of(g). The
-   * return map to a fixed cone_of(g) has the shear f(g); g is the root of
+   * Return map of a cone that depends nonlinearly on the plastic shear strain
+   * g = |z_t| of the step: s and z satisfy the law of cone_of(g). Let f(g) be the
+   * plastic shear strain of the return map to a fixed cone_of(g); g is the root of
    *   f(g) - g = 0   in [0, T/2G],
-   * where f(0) >= 0 and f(T/2G) <= T/2G. It is unique unless the soil softens
+   * where f(0) >= 0 and f(T/2G) <= T/2G. The root is unique unless the soil softens
    * faster than it unloads elastically. The tangent is extended by
    *   ds/dg (df/de) / (1 - df/dg),
    * where ds/dg is a difference quotient of return_map() at fixed t.
    *
    * @param cone_of the cone as a function of g, without FlowCone::hardening
-   * @param[out] slip g
+   * @param[out] slip plastic shear strain g
    */
   template <typename ConeOf>
   Mode
