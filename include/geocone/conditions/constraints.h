@@ -68,8 +68,8 @@ namespace geocone::GEOCONE_DIM
                   const Space          &space,
                   const MaterialPoints &points) const;
 
-    /** Checks that the nodes of an axisymmetric body on the axis cannot leave it.
-     *  @throws InputError if a node can */
+    /** Checks that the nodes on the axis of an axisymmetric body cannot leave the
+     *  axis. @throws InputError if a node can */
     void
     check_axis(const BackgroundMesh &mesh, const Space &space) const;
 
@@ -177,7 +177,7 @@ namespace geocone::GEOCONE_DIM
     {
       std::vector<unsigned int> conditions; ///< the last one governs
       std::vector<double>       size;       ///< int N_i, by condition (m)
-      unsigned int              first = 0;  ///< offset, see Part
+      unsigned int              first = 0;  ///< offset of Part::place
     };
 
     /** Integral int N_i n dA over the faces of a cell that belong to a

@@ -70,7 +70,7 @@ namespace geocone::GEOCONE_DIM
 
     const Scene             &scene;
     std::vector<LoadedPoint> loaded;
-    /** Nodal forces of each free water surface at full gravity (N/m). */
+    /** Nodal forces of each water surface at full gravity (N/m). */
     std::vector<Vector> of_water;
   };
 } // namespace geocone::GEOCONE_DIM

@@ -191,7 +191,7 @@ namespace geocone::GEOCONE_DIM
     {
       double             largest   = 0.; ///< maximum over all rows (-)
       unsigned int       condition = 0;  ///< condition of this row
-      dealii::Point<dim> place;          ///< node with the largest term (m)
+      dealii::Point<dim> place;          ///< position of main node (m)
     };
 
     /**
@@ -210,8 +210,8 @@ namespace geocone::GEOCONE_DIM
     mean_target(const unsigned int condition,
                 const unsigned int component) const;
 
-    /** Owned local dofs with nonzero coefficients; coefficients() has a column for
-     *  each of them. */
+    /** Owned local dofs with nonzero coefficients, in the order of the columns of
+     *  coefficients(). */
     const std::vector<unsigned int> &
     dofs() const
     {

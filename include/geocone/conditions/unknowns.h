@@ -13,8 +13,8 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Unknowns of an incremental problem: the free dofs, i.e. the dofs of nodes
-   * with mass that are not prescribed, and the linear constraints on them. The
+   * Unknowns of an incremental problem: the free dofs, i.e. the dofs of nodes with
+   * mass that are not prescribed, and linear constraints on the free dofs. The
    * incremental problem depends on the supports through this class only.
    */
   struct Unknowns

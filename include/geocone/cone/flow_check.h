@@ -31,7 +31,7 @@ namespace geocone::GEOCONE_DIM
     double stress     = 0.; ///< scale |s| (Pa)
     double size       = 0.; ///< scale k, strength at zero normal stress (Pa)
     double flow       = 0.; ///< scale |y| (-)
-    double compliance = 0.; ///< 1/2G (1/Pa)
+    double compliance = 0.; ///< scale 1/2G (1/Pa)
 
     /** Number of members, each reduced over points and ranks by its maximum. */
     static constexpr std::size_t n_numbers = 10;

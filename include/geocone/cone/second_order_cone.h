@@ -80,7 +80,7 @@ namespace geocone::GEOCONE_DIM
     return result;
   }
 
-  /** Mode: region of the yield cone in which the return map of a point ends. */
+  /** Plastic mode of a point: region of the yield cone in which the return map ends. */
   enum class Mode : unsigned char
   {
     elastic, ///< inside the cone
@@ -232,7 +232,7 @@ namespace geocone::GEOCONE_DIM
    *
    * Solution of the one-point problem
    *   s = t + D z with D = diag(K, 2G, ..., 2G),  z from the law of FlowCone
-   * for a trial value t, in closed form (doc/theory/laws.md): with T = |t_t|,
+   * for a trial value t (doc/theory/laws.md): with T = |t_t|,
    * f = T - a t_n - k, H = 2G + a b K + h, g = f/H = |z_t|, q = T - 2G g = a
    * s_n + k + h g,
    *   f <= 0            : s = t                                   (elastic)

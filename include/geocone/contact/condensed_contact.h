@@ -106,8 +106,9 @@ namespace geocone
     double
     tangential_rho(const Node &node) const;
 
-    /** Solves the contact problem of one node for its u, with u of all other nodes
-     *  fixed. @param b force r at the node for u = 0 there */
+    /** Solves the contact problem of one node, with u of all other nodes fixed.
+     *  @param b force r at the node for u = 0 at the node
+     *  @return u at the node */
     OfNode
     solve_node(const Node &node, const OfNode &b) const;
   };

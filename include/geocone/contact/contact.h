@@ -36,8 +36,8 @@ namespace geocone::GEOCONE_DIM
    *  normal in the free directions has at least this length (10 degrees). */
   const double along_support = std::cos(radians(10.));
 
-  /** A node that may be in contact with an obstacle or another body in a
-   *  step. */
+  /** Potential contact node: a node that may be in contact with an obstacle or
+   *  another body in a step. */
   struct ContactNode
   {
     unsigned int node; ///< local number, owned or ghost
@@ -95,7 +95,7 @@ namespace geocone::GEOCONE_DIM
       return !partners.empty();
     }
 
-    bool is_closed = false; ///< at the beginning of the step
+    bool is_closed = false; ///< gap closed at the beginning of the step
 
     double friction = 0.; ///< friction coefficient mu
     double adhesion = 0.; ///< shear strength at r_N = 0, if closed (N/m)
@@ -412,7 +412,7 @@ namespace geocone::GEOCONE_DIM
     std::array<Vector, dim>  row_A; ///< A by component of F, at the node's dofs
     ObstacleMotions          obstacles;
     bool                     has_pairs     = false; ///< ContactStep::has_pairs
-    double                   body_error    = 0.;    ///< free obstacles (N/m)
+    double                   body_error    = 0.;    ///< out of balance (N/m)
     bool                     with_friction = true;  ///< in the last replace()
     bool                     holds         = false; ///< in the last replace()
     bool                     relaxed       = false; ///< relax() since replace()

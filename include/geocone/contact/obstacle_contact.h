@@ -32,8 +32,8 @@ namespace geocone::GEOCONE_DIM
     double dissipation = 0.; ///< dissipation by friction and impact (J/m)
 
     /** Correction of the work of impact forces on rebounding nodes (J/m, not
-     *  positive): the work done over the mean of the velocities before and after
-     *  impact, minus the work done over the final velocity, which `work` and
+     *  positive): work computed with the mean of the velocities before and after
+     *  impact, minus work computed with the final velocity, which `work` and
      *  `dissipation` include. */
     double of_rebound = 0.;
 
@@ -129,7 +129,7 @@ namespace geocone::GEOCONE_DIM
     /** Adds the displacements in a step to @p supports: of each obstacle, then, for
      *  each contact between bodies, of the first body relative to the other one,
      *  averaged over active contact nodes.
-     *  @param first number of the first of these supports. Collective. */
+     *  Collective. @param first index of the first obstacle in @p supports */
     void
     add_displacements(const Contact                       &contact,
                       const Vector                        &v,

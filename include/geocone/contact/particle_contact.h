@@ -74,7 +74,7 @@ namespace geocone::GEOCONE_DIM
     check_start(const MaterialPoints &points, const Unknowns &unknowns) const;
 
   private:
-    /** Two bodies in contact, as layers of the mesh. */
+    /** Contact pair: two bodies, identified by layers of the mesh. */
     struct Pair
     {
       unsigned int contact;

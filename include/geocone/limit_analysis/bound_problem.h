@@ -100,7 +100,7 @@ namespace geocone::GEOCONE_DIM
     std::vector<unsigned int> cut;               ///< triangles with a cut-off
     unsigned int              first_cut_dof = 0; ///< nine dofs per cut-off
 
-    std::vector<bool> is_prescribed; ///< by dof
+    std::vector<bool> is_prescribed; ///< prescribed dofs
     std::vector<bool> has_no_force;  ///< prescribed dofs without stresses
     Eigen::VectorXd   prescribed;    ///< prescribed velocities; 0 elsewhere
     Eigen::VectorXd   dead, live;    ///< F0 and f; f = 0: no load factor
@@ -201,8 +201,8 @@ namespace geocone::GEOCONE_DIM
   dealii::Tensor<1, dim>
   weight_of_cell(const BoundScene &scene, const unsigned int cell);
 
-  /** Adds the nodal forces of a constant body force in a cell (per area) to F, in scaled
-   *  units. */
+  /** Adds a constant body force in a cell (per area) to the load vector F of a problem,
+   *  in scaled units. */
   void
   add_force_of_cell(const BoundScene             &scene,
                     const BoundSide               side,
@@ -210,7 +210,7 @@ namespace geocone::GEOCONE_DIM
                     const dealii::Tensor<1, dim> &force,
                     Eigen::VectorXd              &F);
 
-  /** Adds the nodal forces of a traction condition to F, in scaled units. */
+  /** Adds a traction condition to the load vector F of a problem, in scaled units. */
   void
   add_tractions(const BoundScene        &scene,
                 const BoundSide          side,

@@ -72,7 +72,7 @@ namespace geocone::GEOCONE_DIM
   Json
   topic_of(const std::vector<Gradient> &gradients);
 
-  /** Formats the elasticities as lines of text, in descending order. */
+  /** Formats the elasticities of both bounds as lines of text, in descending order. */
   std::string
   text_of(const std::vector<Gradient> &gradients, const std::string &bounded);
 } // namespace geocone::GEOCONE_DIM

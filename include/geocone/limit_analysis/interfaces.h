@@ -22,7 +22,7 @@ namespace geocone::GEOCONE_DIM
   {
     Triangles::HeldEdge    held;
     dealii::Tensor<1, dim> normal;        ///< into the body, unit length
-    int                    obstacle = -1; ///< obstacle index; -1: a side
+    int                    obstacle = -1; ///< index; -1: oblique side
 
     /**
      * Admissible set of r; r is in the intersection of all faces: Coulomb's cone, and
@@ -31,7 +31,7 @@ namespace geocone::GEOCONE_DIM
      */
     struct Face
     {
-      double a, k; ///< k in (Pa)
+      double a, k; ///< aperture (-), strength (Pa)
       bool   has_normal, has_tangential;
     };
     std::vector<Face> faces;

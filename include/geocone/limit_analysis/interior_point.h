@@ -16,7 +16,7 @@ namespace geocone::GEOCONE_DIM
   {
     Eigen::VectorXd              q; ///< velocities of all dofs
     std::vector<Eigen::Vector3d> s; ///< stress in cone axes
-    double                       load           = 0.; ///< lambda of s
+    double                       load           = 0.; ///< lambda, by stresses
     unsigned int                 factorisations = 0;
     bool                         converged      = false;
     std::string                  reason; ///< cause of non-convergence
@@ -48,7 +48,7 @@ namespace geocone::GEOCONE_DIM
     {
       double       tolerance      = 1e-4; ///< duality gap / load
       double       flow_tolerance = 1e-8; ///< |z + Bs q| relative to |Bs q|
-      double       flow_margin    = 0.;   ///< of -Bs q in K, over |Bs q|
+      double       flow_margin    = 0.;   ///< margin of -Bs q in K over |Bs q|
       double       equilibrium_tolerance = 1e-4; ///< residual / forces
       unsigned int max_iterations        = 60;
 
@@ -56,12 +56,12 @@ namespace geocone::GEOCONE_DIM
        *  bound). */
       bool stresses = false;
 
-      /** Safety margin of the stresses in their cones, as a reduction of k:
+      /** Safety margin of the stresses in the yield cones, as a reduction of k:
        *  stresses that cannot be scaled back then become admissible after fewer
        *  iterations. */
       double strength_margin = 0.;
 
-      unsigned int correctors = 2; ///< maximum per iteration
+      unsigned int correctors = 2; ///< maximum number per iteration
     };
 
     static BoundSolution

@@ -67,8 +67,8 @@ namespace geocone::GEOCONE_DIM
     void
     check_parameters() const;
 
-    /** Prepares the scene and checks that strict bounds exist for it.
-     *  @throws InputError if they do not */
+    /** Prepares the scene and checks that it admits strict bounds.
+     *  @throws InputError if it does not */
     void
     prepare_scene(const RunOptions &options);
 

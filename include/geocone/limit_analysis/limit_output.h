@@ -15,8 +15,8 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Results of one level of a limit analysis, i.e. a mesh: both bounds, in the unit of
-   *  the load, and their cost. */
+  /** Results of one level (mesh) of a limit analysis: both bounds, in the unit of the
+   *  load, and the computational cost. */
   struct BoundLevel
   {
     unsigned int number = 0; ///< level number, from 1

@@ -25,7 +25,8 @@ namespace geocone::GEOCONE_DIM
   class AbsorbingBoundary : public Term
   {
   public:
-    /** @param body points in the cells of the body, which determine the soil;
+    /** Computes the dashpots of all nodes on absorbing boundaries.
+     *  @param body points in the cells of the body, which determine the soil;
      *  null for moving points: then the regions determine the soil
      *  @throws InputError if a boundary part contains no face */
     AbsorbingBoundary(const Scene          &scene,
@@ -86,7 +87,7 @@ namespace geocone::GEOCONE_DIM
     incoming_force(const double t, Vector &force) const;
 
   private:
-    /** Adds C_i x_i, the product of each node's dashpot, to dst_i. */
+    /** Adds the products C_i x_i of all dashpots to dst. */
     void
     add_product(Vector &dst, const Vector &x) const;
 

@@ -108,15 +108,15 @@ namespace geocone::GEOCONE_DIM
     struct Condensed
     {
       std::vector<Mandel> left, right; ///< a_p/k_p, b_p/k_p, times the weight
-      std::vector<double> left_zz, right_zz; ///< hoop, if axisymmetric
+      std::vector<double> left_zz, right_zz; ///< hoop component
       Basis               basis;
     };
 
     /**
-     * Eliminates the t_p of a cell from its tangents,
+     * Eliminates the t_p of a cell from the tangents C_p,
      *   C_p <- C_p - a_p b_p'/k_p,   a_p = C_p I/n,   b_p = C_p' I/n,
-     * which then are independent of volume. The remainder is, with a column for
-     * each M_j,
+     * which then have no volumetric stiffness. The remainder of the stiffness is,
+     * with a column for each M_j,
      *   L G^-1 R',   L_j = sum_p B_p' (V/k M_j)_p a_p,   R_j = sum_p B_p' (V/k M_j)_p b_p.
      * @param C tangents, including the fluid's part, times a factor and the
      * weight V of their points; @p factor is that factor
@@ -135,9 +135,9 @@ namespace geocone::GEOCONE_DIM
     double
     pore_pressure(const unsigned int point) const;
 
-    /** Computes pi_p and k_p, with a lower bound on k_p, which is 0 at the apex
-     *  of a cone.
-     *  @param mean_stress pi_p without the part of the strain (Pa) */
+    /** Computes pi_p and k_p of a point; k_p is bounded from below, as it would be 0
+     *  at the apex of a cone.
+     *  @param mean_stress pi_p without the contribution of the strain (Pa) */
     void
     evaluate(const unsigned int  point,
              const double        mean_stress,
@@ -145,9 +145,9 @@ namespace geocone::GEOCONE_DIM
              const double        volumetric_strain);
 
     /**
-     * Chooses the points with M_j = 1 where the soil is softest. Then G does
-     * not mix large and small 1/k_p, and a t_p computed there from those of the
-     * others satisfies sum V M t = 0 to the last digit.
+     * Chooses a basis M_j, with M_j = 1 at the points where the soil is softest. Then
+     * G does not mix large and small 1/k_p, and sum V M t = 0 is satisfied to the last
+     * digit if the t_p of these points are computed from all others.
      * @param softness V/k of the points of the cell from the first
      */
     void
@@ -156,7 +156,8 @@ namespace geocone::GEOCONE_DIM
                  Basis                     &result) const;
 
     /** Fits the polynomial closest to the pi_p of a cell in the metric of G.
-     *  @return the largest difference of a pi_p from it (Pa); NaN if one is */
+     *  @return the largest difference between pi_p and the polynomial (Pa); NaN if
+     *  some pi_p is NaN */
     double
     fit(const unsigned int cell);
 
@@ -182,11 +183,11 @@ namespace geocone::GEOCONE_DIM
     std::vector<double>       k;             ///< k_p (Pa)
     std::vector<double>       growth;        ///< t_p (-)
     std::vector<double>       change;        ///< dt_p of the last Newton step
-    std::vector<double>       first_slope;   ///< slope() before it, by cell
+    std::vector<double>       first_slope;   ///< slope() before the step
     std::vector<double>       first_difference;
     std::vector<Mandel>       given;    ///< strains without t_p
     std::vector<unsigned int> unequal;  ///< cells not yet converged
-    Basis                     basis;    ///< of the cell fitted last
+    Basis                     basis;    ///< basis of the last cell
     Eigen::VectorXd           fitted;   ///< fitted polynomial, by point (Pa)
     std::vector<double>       softness; ///< V/k of the points of that cell
     double                    largest_difference = 0.;

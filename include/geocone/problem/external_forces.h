@@ -13,7 +13,8 @@ namespace geocone::GEOCONE_DIM
   class ExternalForces : public Term
   {
   public:
-    /** @param forces F at the end of the step, or null for none */
+    /** Sets the external forces of a step.
+     *  @param forces F at the end of the step, or null for none */
     void
     begin_step(const Vector *forces)
     {

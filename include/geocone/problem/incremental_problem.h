@@ -28,7 +28,7 @@ namespace geocone::GEOCONE_DIM
     double       force_norm = 0.; ///< largest norm of a term of R (N/m)
     unsigned int n_cone     = 0;  ///< points on the smooth part of the cone
     unsigned int n_apex     = 0;  ///< points at the apex
-    unsigned int n_switched = 0;  ///< points whose mode differs from the last R
+    unsigned int n_switched = 0;  ///< points whose mode has switched
 
     double local_error = 0.; ///< see InternalForces::local_error()
 
@@ -56,6 +56,7 @@ namespace geocone::GEOCONE_DIM
   {
   public:
     /**
+     * Creates the terms of the residual.
      * @param lumped_mass the diagonal of Inertia, or null for a quasi-static
      * problem
      * @param consistent_part c of Inertia, nonzero only for points with N and
@@ -95,7 +96,7 @@ namespace geocone::GEOCONE_DIM
       return bars != nullptr;
     }
 
-    /** Not copyable: its terms refer to each other's data. */
+    /** Copying is not possible, since the terms refer to data of the problem. */
     IncrementalProblem(const IncrementalProblem &) = delete;
 
     /**
@@ -250,7 +251,7 @@ namespace geocone::GEOCONE_DIM
     double
     merit(const Vector &residual);
 
-    /** Scalar product over the free dofs. */
+    /** Scalar product a.b over the free dofs of all ranks. */
     double
     free_dot(const Vector &a, const Vector &b) const;
 
@@ -276,8 +277,8 @@ namespace geocone::GEOCONE_DIM
     freeze(const Vector &start) const;
 
   private:
-    /** Reduction formulates the same problem for the stresses alone and uses
-     *  all of the data. */
+    /** Reduction, which formulates the problem for the stresses alone, accesses all
+     *  data. */
     friend class Reduction;
 
     const MaterialPoints                                            &points;

@@ -9,13 +9,14 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Inertia term of a step, M (v - vL)/h. The mass is M = (1 - c) diag(m) + c
-   * M_c, with M_c the sum of m_p N_p' N_p over the points.
+   * Inertia term of a step, M (v - vL)/h. The mass matrix is M = (1 - c) diag(m) +
+   * c M_c, with M_c the sum of m_p N_p' N_p over the points.
    */
   class Inertia : public Term
   {
   public:
     /**
+     * Creates the inertia term.
      * @param lumped_mass m, by dof
      * @param consistent_part c, nonzero only for points with N and mass
      */

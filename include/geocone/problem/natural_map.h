@@ -29,6 +29,7 @@ namespace geocone::GEOCONE_DIM
   {
   public:
     /**
+     * Starts from an initial guess of the stresses s.
      * @param step for Material::step_cone(), the cones of the points
      * @param rho as a multiple of 2G of each point
      * @param start initial guess of s, by point (Pa)
@@ -81,7 +82,7 @@ namespace geocone::GEOCONE_DIM
     std::vector<MandelMatrix>            compliance; ///< by material
     std::vector<Mandel>                  iterate;
     std::vector<MandelMatrix>            slope;
-    std::vector<Mandel>                  last_strain; ///< empty at first
+    std::vector<Mandel>                  last_strain; ///< empty before update()
   };
 } // namespace geocone::GEOCONE_DIM
 
