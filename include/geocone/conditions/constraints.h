@@ -219,7 +219,8 @@ namespace geocone::GEOCONE_DIM
     number_shared(
       const std::map<unsigned int, std::vector<unsigned int>> &of_dof);
 
-    /** Finds the faces adjacent to nodes with shared components. Collective. */
+    /** Finds the faces adjacent to nodes with components prescribed by several
+     *  conditions. Collective. */
     void
     find_shared(
       const BackgroundMesh                                    &mesh,
@@ -231,7 +232,8 @@ namespace geocone::GEOCONE_DIM
     exerted_on_faces(const MaterialPoints      &points,
                      const std::vector<Mandel> &stress) const;
 
-    /** Divides the nodal force of a shared component among the conditions. */
+    /** Divides a nodal force among the conditions that prescribe the same velocity
+     *  component. */
     void
     divide(const PrescribedNode      &node,
            const Shared              &among,

@@ -150,8 +150,8 @@ namespace geocone::GEOCONE_DIM
      */
     struct Factors
     {
-      Eigen::VectorXd root; ///< D^{1/2}, by dof of dofs()
-      Eigen::MatrixXd Q;    ///< rows by dof of dofs()
+      Eigen::VectorXd root; ///< D^{1/2}, in the order of dofs()
+      Eigen::MatrixXd Q;    ///< rows in the order of dofs()
       Eigen::MatrixXd U;
     };
 
@@ -190,8 +190,8 @@ namespace geocone::GEOCONE_DIM
     struct LightShare
     {
       double             largest   = 0.; ///< maximum over all rows (-)
-      unsigned int       condition = 0;  ///< condition of this row
-      dealii::Point<dim> place;          ///< position of main node (m)
+      unsigned int       condition = 0;  ///< condition of the row
+      dealii::Point<dim> place;          ///< of the largest term (m)
     };
 
     /**

@@ -71,7 +71,7 @@ namespace geocone::GEOCONE_DIM
       SidePart                  at_start; ///< initial, ordered as FacePlane
       std::vector<unsigned int> corners = {}; ///< nodes, ordered as FacePlane
       std::vector<unsigned int> nodes   = {}; ///< nodes on the face
-      std::vector<unsigned int> of_cell = {}; ///< number of each in the cell
+      std::vector<unsigned int> of_cell = {}; ///< numbers in the cell
 
       Eigen::VectorXd integrals = {}; ///< int N of each, on the initial face
 

@@ -75,7 +75,7 @@ namespace geocone::GEOCONE_DIM
      *  -e times the initial u_N, with the coefficient of restitution e, if the node
      *  rebounds. */
     double least    = 0.;
-    bool   rebounds = false; ///< whether e > 0
+    bool   rebounds = false; ///< whether the node rebounds (e > 0)
 
     /** Initial relative normal velocity u_N of a node that impacts and rebounds in
      *  this step (m/s). */

@@ -58,7 +58,7 @@ namespace geocone::GEOCONE_DIM
       n_motions + n_motions * n_motions + 1;
 
     /** Solves for the velocities of the free motions by Newton's method, with the
-     *  last velocities as initial guess. Collective if the sums are. */
+     *  last velocities as initial guess. Collective if @p sums is. */
     void
     find(const Sums &sums);
 

@@ -145,8 +145,8 @@ namespace geocone::GEOCONE_DIM
       return 3 * owner[cut_point / 3 - n_triangles] + cut_point % 3;
     }
 
-    /** Whether stresses multiplied by a factor < 1 are an admissible state for a smaller
-     *  load: without dead load, and with positive cohesion everywhere. */
+    /** Whether stresses can be scaled down to an admissible state for a smaller load: if
+     *  there is no dead load and cohesion is positive everywhere. */
     bool
     can_be_scaled() const;
     unsigned int

@@ -100,8 +100,8 @@ namespace geocone
 
   private:
     unsigned int              n_columns = 0;
-    std::vector<double>       values; ///< order: points, rows, columns
-    std::vector<unsigned int> dofs;   ///< order: points, columns
+    std::vector<double>       values; ///< all B_p: point, row, column
+    std::vector<unsigned int> dofs;   ///< of all points: point, column
   };
 } // namespace geocone
 

@@ -78,8 +78,8 @@ namespace geocone::GEOCONE_DIM
      *  forces are constant in a segment. */
     std::vector<PlatePoint> points;
 
-    /** Returns the plate point with the largest value; the first one of equal
-     *  values. */
+    /** Returns the plate point at which a quantity, e.g. size_of_moment(), is
+     *  largest; the first one of several. */
     template <typename Value>
     const PlatePoint &
     largest(const Value &value) const

@@ -104,7 +104,7 @@ namespace geocone::GEOCONE_DIM
       Eigen::LDLT<Matrix> compliance; ///< factorisation of G
     };
 
-    /** Data of a cell's tangent after elimination of the t_p, see condense(). */
+    /** Terms of a cell's stiffness after elimination of the t_p, see condense(). */
     struct Condensed
     {
       std::vector<Mandel> left, right; ///< a_p/k_p, b_p/k_p, times the weight
@@ -187,7 +187,7 @@ namespace geocone::GEOCONE_DIM
     std::vector<double>       first_difference;
     std::vector<Mandel>       given;    ///< strains without t_p
     std::vector<unsigned int> unequal;  ///< cells not yet converged
-    Basis                     basis;    ///< basis of the last cell
+    Basis                     basis;    ///< basis of the cell of the last fit()
     Eigen::VectorXd           fitted;   ///< fitted polynomial, by point (Pa)
     std::vector<double>       softness; ///< V/k of the points of that cell
     double                    largest_difference = 0.;

@@ -40,8 +40,8 @@ namespace geocone::GEOCONE_DIM
     std::vector<double> start;      ///< initial guess (m/s)
     /** @} */
 
-    /** Ghost stencils: three nodes each, and three coefficients and the stiffness
-     *  k (Pa) each. */
+    /** Data of all ghost stencils (GhostStencil): three nodes per stencil; three
+     *  coefficients and the stiffness k (Pa) per stencil. */
     std::vector<int>    ghost_nodes;
     std::vector<double> ghost_values;
 

@@ -29,7 +29,7 @@ namespace geocone::GEOCONE_DIM
   {
   public:
     /**
-     * Starts from an initial guess of the stresses s.
+     * Creates the natural map with an initial guess of the stresses s.
      * @param step for Material::step_cone(), the cones of the points
      * @param rho as a multiple of 2G of each point
      * @param start initial guess of s, by point (Pa)

@@ -22,7 +22,7 @@ namespace geocone::GEOCONE_DIM
 
     struct Turn
     {
-      unsigned int           node; ///< number in the cell
+      unsigned int           node; ///< node number in the cell
       dealii::Tensor<2, dim> axes; ///< unit vectors, by rows
     };
 
@@ -64,8 +64,8 @@ namespace geocone::GEOCONE_DIM
     void
     turn_forces(const unsigned int c, double *cell_f) const;
 
-    /** Rotated axes by cell: those of cell c begin at first_turn[c]. Empty without
-     *  rotated dofs. */
+    /** Rotated axes, ordered by cell; the entries of cell c begin at first_turn[c].
+     *  Empty without rotated dofs. */
     std::vector<Turn>         turns;
     std::vector<unsigned int> first_turn;
   };
