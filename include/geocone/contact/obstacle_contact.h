@@ -255,7 +255,7 @@ namespace geocone::GEOCONE_DIM
 
     using NearBodies = std::map<unsigned int, Near>; ///< by node
 
-    /** Point and normal of an obstacle's boundary nearest to a node.
+    /** Distance and normal of the part of an obstacle's boundary nearest to a node.
      *  @param approach displacement of the obstacle relative to the node (m) */
     Obstacle::Nearest
     nearest(const unsigned int            obstacle,

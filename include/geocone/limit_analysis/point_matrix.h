@@ -42,7 +42,7 @@ namespace geocone
   private:
     const PointStrains         &strains;
     std::vector<int>            row_of_dof; ///< -1 for prescribed dofs
-    std::vector<int>            place;      ///< by for_entries(), or -1
+    std::vector<int>            place;      ///< position of each entry, or -1
     Eigen::SparseMatrix<double> matrix;     ///< lower triangle
 
     /** Creates the sparsity pattern for the current order of rows. */

@@ -60,8 +60,8 @@ namespace geocone::GEOCONE_DIM
     }
 
   private:
-    /** Certifies bounds of the factor of safety near the root of each converged bound of
-     *  the load factor. */
+    /** Certifies bounds of the factor of safety near the root of each certified positive
+     *  bound of the load factor. */
     void
     prove_root(const Reduced &reduced,
                const double   tolerance,
