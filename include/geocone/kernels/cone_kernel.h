@@ -11,12 +11,13 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * An explicit step of a linear elastic material with a cone, for a block of
-   * points: return_map() of the rotated stress plus D e, without branches. With
-   * the mean m = (s_xx + s_yy)/2, the half difference d = (s_xx - s_yy)/2 and
-   * tau = sqrt(d^2 + s_xy^2), the cone is tau <= -a m + k/sqrt2. In three
-   * dimensions m = tr(s)/3, tau = |dev s|/sqrt3, and k/sqrt3 replaces k/sqrt2.
-   * A tension cut-off of the cone is ignored.
+   * Explicit stress update of a linear elastic material with a cone as yield
+   * surface, for a block of points. The trial stress, rotated stress plus D e,
+   * is returned as by return_map(), without branches. With the mean m = (s_xx +
+   * s_yy)/2, the half difference d = (s_xx - s_yy)/2 and tau = sqrt(d^2 +
+   * s_xy^2), the cone is tau <= -a m + k/sqrt2. In three dimensions m =
+   * tr(s)/3, tau = |dev s|/sqrt3, and k/sqrt3 replaces k/sqrt2. A tension
+   * cut-off of the cone is ignored.
    */
   void
   advance_cone(const FlowCone   &cone,
@@ -24,11 +25,11 @@ namespace geocone::GEOCONE_DIM
                const PointBlock &block);
 
   /**
-   * The same for friction with memory (MohrCoulomb): the cone of each point is
-   * cone.delayed(part, p), with its cut-off, and p becomes part p + (1 - part)
-   * s_n.
+   * Explicit stress update for friction with memory (MohrCoulomb): as above,
+   * with the cone cone.delayed(part, p) and its cut-off at each point; then p
+   * becomes part p + (1 - part) s_n.
    * @param cone with a > 0
-   * @param part lambda
+   * @param part memory factor lambda
    * @param place index of p (Pa) in the history
    */
   void

@@ -10,7 +10,7 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Constants of advance_cone(), in d dimensions. */
+  /** Material constants of advance_cone() in d dimensions. */
   struct ConeNumbers
   {
     double a, b;
@@ -22,18 +22,18 @@ namespace geocone::GEOCONE_DIM
 
     /** @name Friction with memory */
     /** @{ */
-    double   part  = 0.; ///< lambda of the step
+    double   part  = 0.; ///< memory factor lambda of the step
     unsigned place = 0;  ///< index of p in the history; 0: no memory
     /** @} */
   };
 
   /**
-   * Mean stress m and the other components d_i of several points, rotated by
-   * the spin, with the strain increment: m increases by K/d trace, d_i by 2 G
-   * part_i strain_i. The work of the strain is that of m on the trace and of
-   * the d_i on the strain_i; tau^2 = |s_t|^2/d is the sum of weight_i d_i^2. In
-   * the plane d is ((s_xx - s_yy)/2, s_xy), in space the deviator in the order
-   * of tensor_component.
+   * Mean stress m and deviatoric components d_i of several points, rotated by
+   * the spin increment, and their strain increments. Elastically, m increases
+   * by K/d trace and d_i by 2 G part_i strain_i. The stress work per volume is
+   * m trace + sum_i d_i strain_i, and tau^2 = |s_t|^2/d = sum_i weight_i d_i^2.
+   * In the plane d is ((s_xx - s_yy)/2, s_xy), in space the deviator in the
+   * order of tensor_component.
    */
   template <typename P>
   struct TurnedStress
@@ -46,7 +46,8 @@ namespace geocone::GEOCONE_DIM
 
     P m, trace, d[n], strain[n];
 
-    /** Stresses and strains of the points p, ... of a block. */
+    /** Loads stresses and strain increments of the points p, p + 1, ... of a
+     *  block. */
     TurnedStress(const PointBlock &block, const unsigned int p)
     {
       if constexpr (dim == 2)
@@ -128,7 +129,8 @@ namespace geocone::GEOCONE_DIM
     }
   };
 
-  /** advance_cone() for one architecture, with or without memory. */
+  /** Implements advance_cone() for one instruction set, with or without
+   *  friction with memory. */
   template <typename Arch, bool remembers>
   void
   advance_cone_block(const ConeNumbers &cone, const PointBlock &block)
@@ -203,7 +205,7 @@ namespace geocone::GEOCONE_DIM
       }
   }
 
-  /** Selects the version with or without memory. */
+  /** Selects the version with or without friction with memory. */
   template <typename Arch>
   void
   advance_cone_block(const ConeNumbers &cone, const PointBlock &block)

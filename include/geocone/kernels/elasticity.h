@@ -29,15 +29,15 @@ namespace geocone::GEOCONE_DIM
       , two_G(young_modulus / (1. + poisson_ratio))
     {}
 
-    /** E (Pa). */
+    /** Young's modulus E (Pa). */
     double
     young_modulus() const
     {
       return two_G * (3. * lambda + two_G) / (2. * lambda + two_G);
     }
 
-    /** Dimension times the bulk modulus for strains in that dimension, dim
-     *  lambda + 2G: the stiffness along the cone's axis (Pa). */
+    /** Stiffness along the axis of the cone, dim lambda + 2G (Pa): dim times
+     *  the bulk modulus in dim dimensions. */
     double
     normal_stiffness() const
     {
@@ -51,7 +51,8 @@ namespace geocone::GEOCONE_DIM
       return 3. * lambda + two_G;
     }
 
-    /** Stress lambda tr(e) I + 2G e. @param strain plane or spatial */
+    /** Elastic stress lambda tr(e) I + 2G e (Pa). @param strain in two or three
+     *  dimensions */
     template <int n>
     Eigen::Matrix<double, n, 1>
     stress(const Eigen::Matrix<double, n, 1> &strain) const
@@ -59,7 +60,7 @@ namespace geocone::GEOCONE_DIM
       return two_G * strain + (lambda * trace(strain)) * unit_tensor<n>();
     }
 
-    /** Elastic strain of a plane or spatial stress. */
+    /** Elastic strain of a stress in plane strain or in three dimensions. */
     template <int n>
     Eigen::Matrix<double, n, 1>
     strain(const Eigen::Matrix<double, n, 1> &stress) const
@@ -70,7 +71,7 @@ namespace geocone::GEOCONE_DIM
              two_G;
     }
 
-    /** Stiffness D of stress(), as a matrix (Pa). */
+    /** Stiffness matrix D of stress() in Mandel components (Pa). */
     template <int n = n_mandel>
     Eigen::Matrix<double, n, n, Eigen::RowMajor>
     stiffness() const

@@ -11,17 +11,17 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * A block of points of one material that an explicit step updates in place: a
-   * structure of arrays, with the same index for all quantities of a point.
-   * Tensor components (no Mandel factors), tension positive, SI units.
+   * Block of points of one material, updated in place by an explicit step.
+   * Structure of arrays: all quantities of a point have the same index. Tensor
+   * components (no Mandel factors), tension positive, SI units.
    *
    * The arrays are read and written up to the next multiple of
-   * PointBlock::lanes; entries beyond the last point are copies of it without
-   * mass. They need not be aligned.
+   * PointBlock::lanes; entries beyond the last point are copies of the last
+   * point without mass. The arrays need not be aligned.
    */
   struct PointBlock
   {
-    /** Points that a kernel updates at once. */
+    /** Number of points that a kernel updates at once (SIMD lanes). */
     static constexpr unsigned int lanes = 4;
 
     /** Maximum number of points per block; scratch arrays of this size stay in
@@ -30,36 +30,35 @@ namespace geocone::GEOCONE_DIM
 
     unsigned int n_points = 0;
 
-    /** Increment of the displacement gradient dt grad v: dt dv_i/dx_j at dim
-     *  i + j. */
+    /** Increment of the displacement gradient dt grad v: dt dv_i/dx_j is stored
+     *  at index dim i + j. */
     std::array<const double *, dim *dim> l = {};
 
-    /** @name State, updated in place: stress (Pa) in the order of
-     *  tensor_component, in the plane without zz; history; and the integral of
-     *  the norm of the plastic strain rate */
+    /** @name State variables, updated in place: stress (Pa) in the order of
+     *  tensor_component (without zz in two dimensions), history variables, and
+     *  accumulated plastic strain (integral of the norm of the rate) */
     /** @{ */
     std::array<double *, n_mandel> s       = {};
-    double *const                 *history = nullptr; ///< n_history() arrays
+    double *const                 *history = nullptr; ///< array per variable
     double                        *plastic_strain = nullptr;
     /** @} */
 
     /** @name Results */
     /** @{ */
     /** Stress work per volume (Pa): strain increment times the mean of the
-     *  stresses before (rotated) and after the step. */
+     *  rotated stress before the step and the stress after the step. */
     double *work = nullptr;
 
-    /** Modulus M of the elastic pressure wave after the step, c = sqrt(M/rho)
-     *  (Pa). */
+    /** P-wave modulus M after the step (Pa), wave speed c = sqrt(M/rho). */
     double *wave_modulus = nullptr;
     /** @} */
 
-    double step = 0.; ///< dt (s), for rate-dependent laws
+    double step = 0.; ///< time step dt (s), for rate-dependent laws
 
-    /** Out-of-plane strain increments of axisymmetric scenes; null: none. */
+    /** Hoop strain increments of axisymmetric scenes; null otherwise. */
     const double *l_zz = nullptr;
 
-    /** @name Values of one point */
+    /** @name Access to one point */
     /** @{ */
     std::array<double, dim * dim>
     gradient(const unsigned int p) const
@@ -87,16 +86,16 @@ namespace geocone::GEOCONE_DIM
     /** @} */
   };
 
-  /** Statistics of constitutive updates; sums and extremes over all points. */
+  /** Statistics of constitutive updates: totals and maximum over all points. */
   struct LawCounts
   {
-    unsigned long long updates  = 0; ///< points times steps
-    unsigned long long substeps = 0; ///< of laws with error control
-    unsigned long long forced   = 0; ///< accepted despite their error
-    unsigned long long limited  = 0; ///< states limited to keep a stiffness
-    unsigned int       most     = 0; ///< substeps of one point in one step
+    unsigned long long updates  = 0; ///< points updated, summed over steps
+    unsigned long long substeps = 0; ///< substeps of laws with error control
+    unsigned long long forced   = 0; ///< substeps accepted above the tolerance
+    unsigned long long limited  = 0; ///< states limited to retain a stiffness
+    unsigned int       most     = 0; ///< most substeps of a point in a step
 
-    /** Variables for checkpoints; Row: StateRow. */
+    /** Reads or writes the counts of a checkpoint. @tparam Row StateRow */
     template <typename Row>
     void
     state(Row &row)

@@ -10,8 +10,8 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Return map of SpatialMohrCoulomb for ordered principal stresses t, of one
-   * point or of several.
+   * Return map of SpatialMohrCoulomb for ordered principal trial stresses t, of
+   * one material point or of several.
    * @tparam P double or Pack
    */
   template <typename P>
@@ -50,7 +50,7 @@ namespace geocone::GEOCONE_DIM
         }
     }
 
-    /** f_ij */
+    /** Yield function f_ij of the principal stresses i and j (Pa). */
     template <typename V>
     P
     yield_function(const V &t, const int i, const int j, const P &size) const
@@ -58,14 +58,15 @@ namespace geocone::GEOCONE_DIM
       return more * t[i] + less * t[j] - size;
     }
 
-    /** Component k of D g_ij. */
+    /** Component k of D g_ij, the stiffness times the flow direction of plane
+     *  ij. */
     const P &
     stiff_flow(const int i, const int j, const int k) const
     {
       return k == i ? Dg[0] : k == j ? Dg[1] : Dg_third;
     }
 
-    /** Return to the plane f_13. @param f f_13 of t */
+    /** Return onto the plane f_13 = 0. @param f f_13 at t */
     template <typename V>
     void
     to_plane(const V &t, const P &f, V &s) const
@@ -74,8 +75,8 @@ namespace geocone::GEOCONE_DIM
         s[i] = t[i] - (f * per_H) * stiff_flow(0, 2, i);
     }
 
-    /** Return to the edge f_13 = f_12 = 0, s_2 = s_3 (e = 0), or f_13 = f_23 =
-     *  0, s_1 = s_2 (e = 1). */
+    /** Return onto an edge: e = 0 is f_13 = f_12 = 0 (s_2 = s_3), e = 1 is f_13
+     *  = f_23 = 0 (s_1 = s_2). */
     template <typename V>
     void
     to_edge(const int e, const V &t, const P &f, const P &size, V &s) const
@@ -91,7 +92,8 @@ namespace geocone::GEOCONE_DIM
       s[1 - e] = s[2 - e] = mean;
     }
 
-    /** Side of the trial stress: the edge e = 0 if positive, otherwise 1. */
+    /** Choice of the edge from the trial stress: e = 0 if the result is
+     *  positive, otherwise e = 1. */
     template <typename V>
     P
     side(const V &t) const
@@ -128,7 +130,7 @@ namespace geocone::GEOCONE_DIM
     }
 
     P per_H;            ///< 1/(f_13 D g_13)
-    P own[2], other[2]; ///< of the inverse of F' D G, for both edges
+    P own[2], other[2]; ///< entries of (F' D G)^-1, both edges
 
   private:
     P more, less, flow_more, flow_less; ///< 1 + sin(phi), sin(phi) - 1, ...

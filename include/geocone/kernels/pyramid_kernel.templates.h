@@ -11,14 +11,15 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Principal values in decreasing order, and their directions n: the
-   *  components of n n in the plane, those of n in three dimensions. */
+  /** Principal values in decreasing order and principal directions n of a
+   *  symmetric tensor; stored are the components of the dyad n n in two
+   *  dimensions, of n in three. */
   template <typename P>
   class PrincipalAxes
   {
   public:
-    /** Principal axes of a symmetric tensor, by its components in the order of
-     *  tensor_component. */
+    /** Computes the principal axes of a symmetric tensor from its components in
+     *  the order of tensor_component. */
     explicit PrincipalAxes(const std::array<P, n_spatial> &s)
     {
       if constexpr (dim == 2)
@@ -30,7 +31,7 @@ namespace geocone::GEOCONE_DIM
       sort(0, 1);
     }
 
-    /** The tensor with other principal values y in the same directions. */
+    /** Tensor with principal values y and the same principal directions. */
     std::array<P, n_spatial>
     tensor(const P (&y)[3]) const
     {
@@ -54,7 +55,7 @@ namespace geocone::GEOCONE_DIM
 
     P axis[3][n_axis];
 
-    /** Principal axes in plane strain, where z is one of them. */
+    /** Principal axes in plane strain; the z axis is principal. */
     void
     find_in_plane(const std::array<P, n_spatial> &s)
     {
@@ -81,8 +82,8 @@ namespace geocone::GEOCONE_DIM
       axis[2][3] = one;
     }
 
-    /** Principal axes by Jacobi rotations, each of which annihilates one
-     *  component. */
+    /** Principal axes by Jacobi rotations; each rotation annihilates one
+     *  off-diagonal component. */
     void
     find_by_rotations(const std::array<P, n_spatial> &s)
     {
@@ -108,7 +109,8 @@ namespace geocone::GEOCONE_DIM
           rotate((k + 1) % 3, (k + 2) % 3, k, off);
     }
 
-    /** Rotates i and j about k so that off[k] vanishes. */
+    /** Rotates axes i and j about axis k so that the off-diagonal component
+     *  off[k] vanishes. */
     void
     rotate(const int i, const int j, const int k, P (&off)[3])
     {
@@ -151,15 +153,16 @@ namespace geocone::GEOCONE_DIM
     }
   };
 
-  /** Stresses of several points, rotated by the spin, and strains with shears
-   *  gamma_ij = 2 e_ij. */
+  /** Stresses of several points, rotated by the spin increment, and strain
+   *  increments with engineering shears gamma_ij = 2 e_ij. */
   template <typename P>
   struct TurnedTensors
   {
     std::array<P, n_spatial> s, strain;
 
-    /** Stresses and strains of the points p, ... of a block. @param nu for s_zz
-     *  in the plane, see Material */
+    /** Loads stresses and strain increments of the points p, p + 1, ... of a
+     *  block. @param nu Poisson ratio, for s_zz in plane strain (see
+     *  Material) */
     TurnedTensors(const PointBlock &block, const unsigned int p, const P &nu)
     {
       std::array<P, dim * dim> l;
@@ -188,7 +191,7 @@ namespace geocone::GEOCONE_DIM
     }
   };
 
-  /** advance_pyramid() for one architecture. */
+  /** Implements advance_pyramid() for one instruction set. */
   template <typename Arch>
   void
   advance_pyramid_block(const PyramidNumbers &pyramid, const PointBlock &block)

@@ -12,15 +12,16 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Rotation of a spin increment w = (l_yx - l_xy)/2 by the Cayley transform,
-   * tan(angle/2) = w/2: exactly orthogonal, so that invariants are preserved.
-   * @tparam T a number, or several at once
+   * Rotation of tensors in the plane by a spin increment w = (l_yx - l_xy)/2.
+   * The Cayley transform, tan(angle/2) = w/2, is exactly orthogonal, so that
+   * stress invariants are preserved.
+   * @tparam T double, or Pack for several points
    */
   template <typename T>
   class PlaneSpin
   {
   public:
-    /** @param l the gradient, l_ij at 2 i + j */
+    /** @param l increment of the displacement gradient, l_ij at 2 i + j */
     explicit PlaneSpin(const std::array<T, 4> &l)
     {
       const T one(1.), two(2.);
@@ -46,19 +47,19 @@ namespace geocone::GEOCONE_DIM
     }
 
   private:
-    T cos2, sin2; ///< of the angle, doubled
+    T cos2, sin2; ///< of twice the rotation angle
   };
 
   /**
-   * The same in three dimensions: with half the axial vector g of the spin
-   * increment,
+   * Rotation of tensors in three dimensions by a spin increment (Cayley
+   * transform): with half the axial vector g of the increment,
    *   Q = c 1 + s (g g' + [g x]),  s = 2/(1 + g.g),  c = 1 - s g.g.
    */
   template <typename T>
   class SpatialSpin
   {
   public:
-    /** @param l the gradient, l_ij at 3 i + j */
+    /** @param l increment of the displacement gradient, l_ij at 3 i + j */
     explicit SpatialSpin(const std::array<T, 9> &l)
     {
       const T quarter(0.25), one(1.);

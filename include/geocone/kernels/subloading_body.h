@@ -12,11 +12,11 @@
 namespace geocone
 {
   /**
-   * Equations of the subloading model (doc/theory/subloading.md) for one point
-   * or for several at once.
+   * Constitutive equations of the subloading model (doc/theory/subloading.md)
+   * for one material point or for several at once.
    * @tparam State members stress, a, beta (vectors of n components with [] as
-   * in SubloadingState), pcb, Rb: numbers, either double or Pack. Conditions on
-   * numbers are selections (where_greater()), their results zero or one.
+   * in SubloadingState), pcb, Rb (scalars). Scalars are double or Pack;
+   * conditions are evaluated without branches (where_greater()) to zero or one.
    */
   template <typename State, int n>
   class SubloadingBody
@@ -32,9 +32,9 @@ namespace geocone
     /** Coefficients of fbar(a + x (sigma - a)) = C + B x + A x^2. */
     struct Quadratic
     {
-      Vector sa, sd; ///< sh at a, and its change to sigma (Pa)
+      Vector sa, sd; ///< sh at a; sh at sigma minus sh at a (Pa)
       Number pa, dp; ///< p of a; p - pa (Pa)
-      Number ph;     ///< of a (Pa)
+      Number ph;     ///< shifted pressure of a (Pa)
       Number A, B, C;
 
       /** Similarity ratio R. */
@@ -70,8 +70,8 @@ namespace geocone
       return f;
     }
 
-    /** Value with the sign of N:D:de, which is that of dA + R dB along the
-     *  elastic path. */
+    /** Loading criterion: a value with the sign of N:D:de, equal to the sign of
+     *  dA + R dB along the elastic path. */
     Number
     loading(const State     &y,
             const Quadratic &f,
@@ -87,8 +87,8 @@ namespace geocone
              volume * (two * (f.dp + R * f.ph) - R * y.pcb);
     }
 
-    /** Elastic path sigma + u e of the stress, with u from 0 to the integral
-     *  of K over the increment, and e = tr(de) I + 2 G/K dev(de). */
+    /** Elastic stress path sigma + u e with e = tr(de) I + 2 G/K dev(de); u
+     *  increases from 0 to the integral of K over the strain increment. */
     struct ElasticPath
     {
       Vector e;
@@ -148,7 +148,8 @@ namespace geocone
       return path;
     }
 
-    /** Increments of the state for de, at a state with the ratio R. */
+    /** Increments of the state for the strain increment de, at similarity ratio
+     *  R. */
     struct Rates
     {
       State                 increment;
@@ -158,7 +159,8 @@ namespace geocone
       Number plastic_strain;
     };
 
-    /** Rates, or with the type SubloadingRates all intermediate values. */
+    /** Computes the increments for a strain increment; with Result =
+     *  SubloadingRates also all intermediate quantities. */
     template <typename Result = Rates>
     Result
     rates(const State  &y,
@@ -305,7 +307,7 @@ namespace geocone
       State     end;
       Quadratic f; ///< at the end
       Number    R, pressure;
-      Number    error2;   ///< square of the error
+      Number    error2;   ///< squared relative error estimate
       Number    possible; ///< finite and admissible
       Number    plastic_strain;
     };
@@ -357,7 +359,7 @@ namespace geocone
       return result;
     }
 
-    /** 1 if a < b, otherwise 0. */
+    /** Comparison: 1 if a < b, otherwise 0. */
     static Number
     is_less(const Number &a, const Number &b)
     {
@@ -370,7 +372,7 @@ namespace geocone
       return Number(1. / 3.) * (a[0] + a[1] + a[2]);
     }
 
-    const SubloadingNumbers c; ///< a copy, which stores cannot alias
+    const SubloadingNumbers c; ///< copied, so that stores do not alias it
 
   private:
     /** Largest root of a x^2 + b x + c = 0 with a < 0 <= c, without
@@ -440,8 +442,8 @@ namespace geocone
     }
 
     /**
-     * cos t of the Lode angle t, 0 in triaxial extension and 60 degrees in
-     * triaxial compression, of a deviator with the norm r.
+     * Cosine of the Lode angle t of a deviator s with the norm r; t = 0 in
+     * triaxial extension, 60 degrees in triaxial compression.
      */
     static Number
     cos_lode(const Vector &s, const Number &r)
@@ -473,7 +475,8 @@ namespace geocone
         }
     }
 
-    /** Ratio eta_beta,cs of the deviator s with the norm norm_s.
+    /** Critical stress ratio eta_beta,cs in the direction of the deviator s
+     *  with the norm norm_s.
      *  @param[out] lode Willam and Warnke's h */
     Number
     critical_ratio(const Vector &s, const Number &norm_s, Number &lode) const

@@ -7,21 +7,21 @@
 namespace geocone
 {
   /**
-   * Constants of the subloading soil model of the STSM report by Pereira et
-   * al., called "the report"; numbers such as "(21)" are its equations. Any
-   * consistent unit of stress can be used; defaults are in Pa. Compression is
-   * positive here.
+   * Material constants of the subloading soil model of Pereira et al. (the STSM
+   * report); numbers such as "(21)" are equations of the report. Any consistent
+   * unit of stress can be used; defaults are in Pa. Compression is positive
+   * here.
    */
   struct SubloadingConstants
   {
     double kappa  = 0.01; ///< slope of swelling lines, ln v over ln p (-)
     double lambda = 0.08; ///< slope of compression lines, ln v over ln p (-)
     double nu     = 0.25; ///< Poisson ratio (-)
-    double pe     = 0.;   ///< K = (p + pe)/kappa (26) (Pa)
-    double xi     = 0.;   ///< tensile apex at p = -xi pcb (21) (-)
+    double pe     = 0.;   ///< pressure offset, K = (p + pe)/kappa (26) (Pa)
+    double xi     = 0.;   ///< tensile strength, apex at p = -xi pcb (21) (-)
     double M      = 1.2;  ///< slope of the yield ellipsoid (21) (-)
     double Mc     = 1.2;  ///< critical state slope q/p in compression (-)
-    double k      = 1.;   ///< strength in extension over compression (-)
+    double k      = 1.;   ///< strength ratio, extension to compression (-)
     double alpha  = 1.;   ///< slope of the plastic potential over M (28) (-)
     double cR     = 100.; ///< rate of the subloading ratio R (31) (-)
     double cbeta  = 0.;   ///< rate of rotational hardening (32) (-)
@@ -30,19 +30,20 @@ namespace geocone
     double ca     = 0.;   ///< rate of the similarity centre (38) (-)
 
     double patm  = 1e5;  ///< reference pressure of (32) (Pa)
-    double Rmin  = 0.01; ///< elastic below this R (31) (-)
+    double Rmin  = 0.01; ///< elastic range, R below Rmin (31) (-)
     double delta = 0.01; ///< margin of the similarity centre (38) (-)
 
-    /** Rotation of (24): sh = s - ph beta if true, s - p beta if not. */
+    /** Pressure in the rotation (24) of the surfaces: sh = s - ph beta if true,
+     *  otherwise s - p beta. */
     bool rotates_with_ph = false;
 
-    double tolerance        = 1e-4; ///< error per substep (STOL) (-)
-    double smallest_substep = 1e-4; ///< fraction of the increment
+    double tolerance        = 1e-4; ///< error tolerance per substep (STOL) (-)
+    double smallest_substep = 1e-4; ///< fraction of the strain increment
     double lowest_pressure  = 1.;   ///< lower limit of p + pe (Pa)
     double smallest_size    = 1e3;  ///< lower limit of pcb (Pa)
   };
 
-  /** Derived constants. */
+  /** Material constants with derived constants of the subloading model. */
   struct SubloadingNumbers : SubloadingConstants
   {
     SubloadingNumbers() = default;

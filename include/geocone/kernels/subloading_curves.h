@@ -12,8 +12,7 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Mandel vector with compression positive, from a tensor with tension
-   *  positive. */
+  /** Mandel vector, compression positive, of a tensor, tension positive. */
   template <int n>
   typename SubloadingModel<n>::Vector
   to_model(const Tensor6 &x)
@@ -24,7 +23,7 @@ namespace geocone::GEOCONE_DIM
     return y;
   }
 
-  /** Tensor of a Mandel vector. @param sign -1 for the opposite sign
+  /** Tensor of a Mandel vector times the sign. @param sign -1 reverses the sign
    *  convention */
   template <int n>
   Tensor6
@@ -36,7 +35,8 @@ namespace geocone::GEOCONE_DIM
     return y;
   }
 
-  /** Sections of the yield surface and, inside it, of the subloading surface. */
+  /** Plane sections of the yield surface and of the subloading surface inside
+   *  the yield surface. */
   template <int n>
   std::vector<YieldCurve>
   subloading_curves(const SubloadingModel<n> &model,

@@ -8,9 +8,9 @@
 
 namespace geocone
 {
-  /** States of the subloading model at four points, and strain increments:
-   *  component by component in the order of SubloadingState, compression
-   *  positive. */
+  /** State variables of the subloading model and strain increments at four
+   *  points, as a structure of arrays. Components in the order of
+   *  SubloadingState, compression positive. */
   template <int n>
   struct SubloadingLanes
   {
@@ -21,12 +21,12 @@ namespace geocone
 
     /** @name Results */
     /** @{ */
-    double plastic_strain[size]; ///< of the increment
-    bool   is_done[size];        ///< otherwise the state is unchanged
+    double plastic_strain[size]; ///< ||d eps_p|| of the increment (-)
+    bool   is_done[size];        ///< if false, the state is unchanged
     /** @} */
 
-    /** @param y a SubloadingState, a template argument for kernels without
-     *  it */
+    /** @param y a SubloadingState (a template argument, so that kernels need
+     *  not include the class) */
     template <typename State, typename Strain>
     void
     put(const State &y, const Strain &of_step, const int lane)
@@ -59,10 +59,10 @@ namespace geocone
 
   /**
    * Integrates four points over their strain increments in one substep each.
-   * This is done where SubloadingModel::integrate() would do the same: the
-   * point loads from the start, the error of the full increment is within the
-   * tolerance, and no limit is reached. In explicit steps this is the usual
-   * case. The other points are left to integrate().
+   * One substep is taken where SubloadingModel::integrate() would take only
+   * one: the loading is plastic from the start, the error of the full increment
+   * is within the tolerance, and no limit is reached. In explicit steps this is
+   * the usual case. The other points are left to integrate().
    */
   void
   take_single_substeps(const SubloadingNumbers &, SubloadingLanes<4> &);

@@ -12,7 +12,7 @@
 
 namespace geocone
 {
-  /** States of four points. */
+  /** State variables of the subloading model at four points. */
   template <typename P, int n>
   struct SubloadingPacks
   {
@@ -20,7 +20,8 @@ namespace geocone
     P                pcb, Rb;
   };
 
-  /** Integration of four points at once by one substep each. */
+  /** Integration of four points at once, one substep of the subloading model
+   *  each. */
   template <typename P, int n>
   class SubloadingSubstep
   {
@@ -29,7 +30,7 @@ namespace geocone
       : body(c)
     {}
 
-    /** See take_single_substeps(). */
+    /** Integrates the four points of the lanes; see take_single_substeps(). */
     void
     operator()(SubloadingLanes<n> &lanes) const
     {
@@ -86,7 +87,8 @@ namespace geocone
     using Body   = SubloadingBody<State, n>;
     using Vector = typename Body::Vector;
 
-    /** 1 if the full increment is one plastic substep, otherwise 0. */
+    /** Acceptance of a plastic substep over the full increment: 1 if the error
+     *  and all limits are respected, otherwise 0. */
     P
     is_good(const typename Body::Substep &next, const P &R) const
     {
@@ -105,7 +107,7 @@ namespace geocone
         to[i] = P::load(from[i]);
     }
 
-    /** Stores the lanes with good = 1. */
+    /** Stores the values of the lanes for which good is 1. */
     static void
     store(const P &good, const P &end, double (&to)[4])
     {
@@ -128,7 +130,7 @@ namespace geocone
     const Body body;
   };
 
-  /** take_single_substeps() for one architecture. */
+  /** Implements take_single_substeps() for one instruction set. */
   template <typename Arch, int n>
   void
   take_single_substeps_by(const SubloadingNumbers &c, SubloadingLanes<n> &lanes)

@@ -11,9 +11,9 @@
 namespace geocone
 {
   /**
-   * State of a point. Vectors have n components: xx, yy, zz, sqrt2 xy, for
-   * n = 6 also sqrt2 yz, sqrt2 zx, so that scalar products are double
-   * contractions.
+   * State variables of the subloading model at a material point. Vectors have n
+   * components: xx, yy, zz, sqrt2 xy, for n = 6 also sqrt2 yz, sqrt2 zx, so
+   * that scalar products are double contractions.
    */
   template <int n>
   struct SubloadingState
@@ -28,8 +28,9 @@ namespace geocone
   };
 
   /**
-   * Plastic rates at a state, for a strain increment de; h_x is dx/dLambda, and
-   * m = d gbar/d sy scales Lambda.
+   * Plastic rates of the subloading model for a strain increment de: h_x is
+   * dx/dLambda, with the plastic multiplier Lambda scaled by m = d gbar/d sy.
+   * Numbers in parentheses are equations of the report (SubloadingConstants).
    */
   template <int n>
   struct SubloadingRates
@@ -37,33 +38,33 @@ namespace geocone
     using Vector = Eigen::Matrix<double, n, 1>;
 
     double K = 0., G = 0.;            ///< elastic moduli (25), (26) (Pa)
-    double p_y = 0.;                  ///< p of sy, factor of beta in (24) (Pa)
-    Vector sy, st;                    ///< (20) and tilde sy of (38) (Pa)
+    double p_y = 0.;                  ///< p that multiplies beta in (24) (Pa)
+    Vector sy, st;                    ///< sy of (20), tilde sy of (38) (Pa)
     Vector sh;                        ///< sh of (21) at sy (Pa)
     Vector N, m;                      ///< gradients of fbar and gbar at sy (Pa)
     double trace_m = 0., norm_m = 0.; ///< (Pa)
-    double U     = 0.;                ///< (31) (-)
+    double U     = 0.;                ///< U of (31) (-)
     double lode  = 1.;                ///< Willam and Warnke's h, Mcs = Mc h (-)
     double eta_b = 0.;                ///< eta_beta,cs (-)
-    Vector h_a, h_beta;               ///< (38), (32)
-    double h_pc = 0., h_Rb = 0.;      ///< (37), (36)
+    Vector h_a, h_beta;               ///< rates of (38), (32)
+    double h_pc = 0., h_Rb = 0.;      ///< rates of (37), (36)
     double H              = 0.;       ///< plastic modulus
     double N_D_m          = 0.;       ///< N:D:m
     double N_D_strain     = 0.;       ///< N:D:de
     double d_lambda       = 0.;       ///< N:D:de/(N:D:m + H), 0 if negative
     double stable         = 1.;       ///< 1 if N:D:m + H > 0, otherwise 0
     double plastic_strain = 0.;       ///< ||d eps_p|| for de (-)
-    /** Increments of the state for de. */
+    /** Increments of the state variables for de. */
     SubloadingState<n> increment;
 
-    static constexpr bool has_all = true; ///< for SubloadingBody::rates()
+    static constexpr bool has_all = true; ///< rates() computes all members
   };
 
-  /** Statistics of an integration. */
+  /** Statistics of the integration of one strain increment. */
   struct SubloadingReport
   {
-    unsigned int substeps       = 0;     ///< plastic passes and elastic parts
-    unsigned int forced         = 0;     ///< accepted in spite of their error
+    unsigned int substeps       = 0;     ///< plastic substeps and elastic parts
+    unsigned int forced         = 0;     ///< substeps above the tolerance
     bool         limited        = false; ///< p or pcb reached its limit
     double       plastic_strain = 0.;    ///< integral of ||d eps_p|| (-)
   };
@@ -103,21 +104,23 @@ namespace geocone
     yield_function(const Vector &S, const Vector &beta, const double pcb) const;
 
     /**
-     * Size pc of the yield surface with inclination beta through the stress;
-     * not positive if there is none (Pa).
+     * Size pc (Pa) of the yield surface with inclination beta through the
+     * stress; <= 0 if no surface passes through the stress.
      */
     double
     size_through(const Vector &stress, const Vector &beta) const;
 
-    /** Plastic rates at a state with the ratio R. */
+    /** Plastic rates for a strain increment at a state with similarity ratio
+     *  R. */
     SubloadingRates<n>
     rates(const State &state, const double R, const Vector &strain) const;
 
-    /** Integrates a state over a strain increment (compression positive). */
+    /** Integrates the constitutive equations over a strain increment
+     *  (compression positive) and updates the state. */
     SubloadingReport
     integrate(State &state, const Vector &strain) const;
 
-    /** Wave modulus K + 4G/3 at the pressure p (Pa). */
+    /** P-wave modulus K + 4G/3 at the pressure p (Pa). */
     double
     wave_modulus(const double p) const
     {

@@ -13,21 +13,21 @@ namespace geocone
   /** Components xx, yy, zz, xy, yz, zx of a tensor (no Mandel factors). */
   using Tensor6 = std::array<double, 6>;
 
-  /** Section of a yield surface in the plane of p and q, for figures (Pa); p
-   *  compression positive. */
+  /** Section of a yield surface, for figures: points (p, q) in Pa, p positive
+   *  in compression. */
   using YieldCurve = std::vector<std::pair<double, double>>;
 
-  /** Plane of such a section, spanned by the hydrostatic axis and the deviator
-   *  of a stress. */
+  /** Section plane in stress space, spanned by the hydrostatic axis and the
+   *  deviator of a stress. */
   struct SectionPlane
   {
-    Tensor6 stress; ///< tension positive (Pa)
+    Tensor6 stress; ///< in the plane, tension positive (Pa)
 
-    /** 0 to 2: q is positive if this component is more compressed than the
-     *  others; otherwise the deviator points to positive q. */
+    /** Sign of q: if 0 to 2, q is positive where this normal component is the
+     *  most compressive; otherwise along the deviator of the stress. */
     unsigned int axis;
 
-    double largest_p; ///< limit of p for open surfaces (Pa)
+    double largest_p; ///< end of the curve if the surface is open (Pa)
   };
 } // namespace geocone
 
