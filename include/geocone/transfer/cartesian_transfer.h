@@ -11,19 +11,19 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Transfer on a uniform grid, where cells are found by a multiplication. Each
-   * rank owns a slab of columns (in space: of slices). Slabs are chosen anew in
-   * each sort() such that the numbers of points are about equal. Columns of
-   * nodes are contiguous, so that the nodes shared by two ranks are contiguous
-   * in memory. Only the nodes around the points are stored.
+   * Transfer between points and nodes on a uniform grid; cell indices are
+   * computed directly from positions. Each rank owns a slab of columns (slices
+   * in three dimensions). Each sort() selects slabs with about equal numbers of
+   * points. A column of nodes is contiguous in memory, and so are the nodes
+   * shared by two ranks. Only the nodes around the points are stored.
    */
   class CartesianTransfer : public GridTransfer
   {
   public:
     /**
-     * @param conditions the prescribed velocities, on sides of the grid
-     * @param first_stage whose conditions act
-     * @throws InputError for sides that are not sides of the grid
+     * @param conditions prescribed velocities on sides of the grid
+     * @param first_stage stage whose boundary conditions act first
+     * @throws InputError if a condition is not on a side of the grid
      */
     CartesianTransfer(const MPI_Comm            comm,
                       const CartesianGrid      &grid,
@@ -93,7 +93,7 @@ namespace geocone::GEOCONE_DIM
     description() const override;
 
   private:
-    /** A half-open range of cells or functions in a direction. */
+    /** Half-open range [begin, end) of cells or functions in one direction. */
     struct Range
     {
       int begin = 0, end = 0;
@@ -109,38 +109,41 @@ namespace geocone::GEOCONE_DIM
     void
     cut_slabs(const std::vector<PointArrays> &groups);
 
-    /** Sends points outside this rank's slab to their ranks. */
+    /** Sends points outside the slab of this rank to the ranks that own their
+     *  positions. */
     void
     migrate(std::vector<PointArrays> &groups) const;
 
     void
     sort_by_cell(std::vector<PointArrays> &groups);
 
-    /** Chooses the stored functions and finds the prescribed ones among
-     *  them. */
+    /** Selects the stored nodes and finds the stored nodes with prescribed
+     *  velocities. */
     void
     store_nodes();
 
-    /** Number of stored functions per column. */
+    /** Number of stored nodes per column. */
     std::size_t
     column_size() const;
 
-    /** Nodal values of all stored nodes, with their number per node. */
+    /** Array of nodal values, per_node values for each stored node. */
     struct Shared
     {
       double      *values;
       unsigned int per_node;
     };
 
-    /** Sums arrays over the ranks that share columns. Collective. */
+    /** Sums nodal arrays over the ranks that share columns of nodes.
+     *  Collective. */
     void
     sum_over_ranks(const std::vector<Shared> &arrays);
 
-    /** Numbers of functions along the axes. */
+    /** Number of basis functions along each axis. */
     GridIndex
     n_functions() const;
 
-    /** Index of a function among the stored ones. @pre it is one of them */
+    /** Index of a basis function among the stored functions. @pre the function
+     *  is stored */
     std::size_t
     stored_place_of(const std::array<unsigned int, dim> &function) const;
 
@@ -153,19 +156,19 @@ namespace geocone::GEOCONE_DIM
     const TransferKernels &kernels;
 
     const BoundaryConditions &conditions;
-    std::vector<bool>         acts; ///< per condition
+    std::vector<bool>         acts; ///< whether the condition acts
 
-    /** Components prescribed by conditions, and by which of them, for functions
-     *  of the whole grid, by number_in_grid(). */
+    /** Prescribed velocity components and their conditions for each basis
+     *  function of the whole grid, indexed by number_in_grid(). */
     std::vector<std::vector<PrescribedNode>> prescribed_functions;
 
-    std::vector<int>   slab_begin;     ///< first column of cells of each rank
-    Range              cells[dim];     ///< range of this rank's points
-    Range              stored[dim];    ///< functions; `read` etc. begin here
-    std::vector<Range> stored_columns; ///< of all ranks
+    std::vector<int>   slab_begin;     ///< first cell column of each rank
+    Range              cells[dim];     ///< cells with points of this rank
+    Range              stored[dim];    ///< nodes stored in `read` etc.
+    std::vector<Range> stored_columns; ///< stored node columns, all ranks
 
-    std::vector<unsigned int>        count, order;  ///< of sort_by_cell()
-    std::vector<std::vector<double>> receive, sent; ///< of exchange()
+    std::vector<unsigned int>        count, order;  ///< for sort_by_cell()
+    std::vector<std::vector<double>> receive, sent; ///< for exchange()
   };
 } // namespace geocone::GEOCONE_DIM
 

@@ -21,11 +21,11 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Nodes of an explicit step and the transfer between points and nodes. Three
-   * arrays hold for each node, at the same index, node_size doubles to read, as
-   * many to write, and a mass:
-   *   read:  velocity and its change in the step, for the points;
-   *   write: momentum and force, from the points;
+   * Nodes of an explicit step and transfer between material points and nodes.
+   * Each node has the same index in three arrays: node_size doubles to read,
+   * node_size doubles to write, and a mass.
+   *   read:  velocity and velocity increment of the step, read by the points;
+   *   write: momentum and force, written by the points;
    *   mass.
    * After exchange(), nodes stored by several ranks hold the sums of all ranks.
    * Points are sent to the rank that owns their position in sort() only: the
@@ -38,22 +38,23 @@ namespace geocone::GEOCONE_DIM
 
     /**
      * Sends points to their ranks, sorts them by cell and stores the nodes
-     * around them, with zero write and mass. Collective.
+     * around them, with `write` and `mass` set to zero. Collective.
      */
     virtual void
     sort(std::vector<PointArrays> &groups) = 0;
 
-    /** Lets the prescribed velocities of a stage act, from the next sort() on.
-     *  Collective. @return whether they are others than before */
+    /** Activates the prescribed velocities of a stage from the next sort() on.
+     *  Collective. @return whether the active conditions differ from the
+     *  previous stage */
     virtual bool
     begin_stage(const std::string &stage) = 0;
 
-    /** Whether the next step requires a sort(), for points moved to these
-     *  bounds on this rank (not collective). */
+    /** Whether the next step requires a sort(), given the bounding box of the
+     *  points of this rank in sums. Not collective. */
     virtual bool
     must_sort(const PassSums &sums) const = 0;
 
-    /** @name Blocks of points; see TransferKernels */
+    /** @name Transfer of blocks of points; see TransferKernels */
     /** @{ */
     virtual void
     gather(const TransferBlock &points, BlockScratch &scratch) = 0;
@@ -71,7 +72,7 @@ namespace geocone::GEOCONE_DIM
                    const bool           with_mass) = 0;
     virtual void
     scatter_affine(const TransferBlock &points, BlockScratch &scratch) = 0;
-    /** Finds the cells of the points, as numbers below n_stored_cells(). */
+    /** Computes the cell index of each point, less than n_stored_cells(). */
     virtual void
     find_cells(const TransferBlock &points, unsigned int *cells) const = 0;
     /** @} */
@@ -82,12 +83,13 @@ namespace geocone::GEOCONE_DIM
     clear_cells();
     void
     add_to_cells(const TransferBlock &points, const double *values);
-    /** Sums over the ranks if the points of a cell may be on several.
-     *  Collective. */
+    /** Sums cell values over the ranks if a cell can have points on several
+     *  ranks. Collective. */
     virtual void
     exchange_cells()
     {}
-    /** Means of the cells of the points; 0 if no point has a volume. */
+    /** Volume averages of the cells that contain the points; 0 if the volume in
+     *  the cell is zero. */
     void
     average(const TransferBlock &points, double *means) const;
     virtual std::size_t
@@ -95,9 +97,8 @@ namespace geocone::GEOCONE_DIM
     /** @} */
 
     /**
-     * Sums the nodal values written by the points over the ranks; masses only
-     * if
-     * @p with_mass. Collective.
+     * Sums the nodal values written by the points over all ranks, with the
+     * masses if @p with_mass. Collective.
      */
     virtual void
     exchange(const bool with_mass) = 0;
@@ -106,7 +107,7 @@ namespace geocone::GEOCONE_DIM
     virtual bool
     reaches(const dealii::Point<dim> &x) const = 0;
 
-    /** A position accepted by reaches(). */
+    /** Any position in the region covered by stored nodes. */
     virtual dealii::Point<dim>
     stored_place() const = 0;
 
@@ -117,7 +118,7 @@ namespace geocone::GEOCONE_DIM
       return false;
     }
 
-    /** Number of times that sort() has redistributed cells between ranks and
+    /** Number of calls of sort() that redistributed cells between ranks and
      *  renumbered nodes. */
     virtual unsigned int
     n_repartitions() const
@@ -133,12 +134,12 @@ namespace geocone::GEOCONE_DIM
       return false;
     }
 
-    /** Nearest position of the domain to x. */
+    /** Position in the domain nearest to x. */
     virtual dealii::Point<dim>
     nearest_in_domain(const dealii::Point<dim> &x) const = 0;
 
     /** Whether any rank accepts points at any position before sort(); otherwise
-     *  a point must be given to the rank that owns() its position. */
+     *  points must be created on the rank that owns() their position. */
     virtual bool
     takes_any_point() const
     {
@@ -154,32 +155,33 @@ namespace geocone::GEOCONE_DIM
     virtual double
     cell_size() const = 0;
 
-    /** Number of nodes of the whole grid, and of its cells. */
+    /** Numbers of nodes and of cells of the whole grid. */
     virtual unsigned long
     n_all_nodes() const = 0;
     virtual unsigned long
     n_cells() const = 0;
 
-    /** Memory of the nodes in bytes. */
+    /** Memory used by the nodes of this rank (bytes). */
     virtual std::size_t
     memory() const = 0;
 
-    /** Name of the kernels, for the log. */
+    /** Description of the transfer kernels, for the log. */
     virtual std::string
     description() const = 0;
 
-    /** Aligned, so that no node spans two cache lines. */
+    /** Nodal arrays, aligned so that no node spans two cache lines. */
     dealii::AlignedVector<double> read, write, mass;
 
-    /** Ranges [begin, end) of the nodes that this rank includes in sums. */
+    /** Index ranges [begin, end) of the nodes owned by this rank, for global
+     *  sums. */
     std::vector<std::array<unsigned int, 2>> mine;
 
     std::vector<PrescribedNode> prescribed;
 
-    /** Centre of the bounding box of all nodes of each condition. */
+    /** Centre of the bounding box of the nodes of each boundary condition. */
     std::vector<dealii::Point<dim>> centres;
 
-    /** Points (group, number) found outside the mesh by sort(). */
+    /** Points (group, index) located outside the mesh by sort(). */
     std::vector<std::array<unsigned int, 2>> lost;
 
     unsigned int
@@ -189,7 +191,7 @@ namespace geocone::GEOCONE_DIM
     }
 
   protected:
-    /** Volume, and volume times value, of the points of each cell. */
+    /** Sums over the points of each cell: volume, and volume times value. */
     std::vector<double> sums_of_cells;
   };
 } // namespace geocone::GEOCONE_DIM

@@ -15,10 +15,10 @@ namespace geocone::GEOCONE_DIM
   class Constraints;
 
   /**
-   * Transfer on an arbitrary mesh. Each step finds the cell of each point,
-   * first in its previous cell, then in those that share a vertex with it, then
-   * everywhere, and evaluates the functions there once. If the numbers of
-   * points on the ranks are too unequal, cells are redistributed.
+   * Transfer between points and nodes on an arbitrary mesh. In each step, the
+   * cell of each point is searched among its previous cell, the vertex
+   * neighbours, then all cells, and the basis functions are evaluated once.
+   * Load imbalance (points per rank) causes a redistribution of the cells.
    */
   class MeshTransfer : public GridTransfer
   {
@@ -88,7 +88,8 @@ namespace geocone::GEOCONE_DIM
     void
     exchange(const bool with_mass) override;
 
-    /** Always true: points may be anywhere until the next sort() finds them. */
+    /** Always true: points are located by the next sort() only, wherever they
+     *  are. */
     bool
     reaches(const dealii::Point<dim> &) const override
     {
@@ -128,7 +129,7 @@ namespace geocone::GEOCONE_DIM
   private:
     using Cell = BackgroundMesh::Cell;
 
-    /** Shape functions at points: local nodes, values, gradients. */
+    /** Basis functions at points: local node numbers, values and gradients. */
     struct Functions
     {
       std::vector<unsigned int> nodes;
@@ -137,21 +138,22 @@ namespace geocone::GEOCONE_DIM
       std::array<std::vector<double>, dim> slopes;
     };
 
-    /** Allocates the nodes of this rank and finds the prescribed ones. */
+    /** Allocates the nodes of this rank and finds the nodes with prescribed
+     *  velocities. */
     void
     store_nodes(const Constraints &constraints);
 
-    /** Redistributes cells between ranks. @param groups of points that store
-     *  their cells, or have none. Collective. */
+    /** Redistributes cells between ranks. @param groups of points with stored
+     *  cells, or without any cell. Collective. */
     void
     hand_over(const std::vector<PointArrays> &groups);
 
-    /** Evaluates the functions at all points of a group, including its
+    /** Evaluates the basis functions at all points of a group, including the
      *  padding. */
     void
     evaluate(const PointArrays &group, Functions &functions) const;
 
-    /** Functions at a point of a block. */
+    /** Basis functions at a point of a block. */
     PointFunctions
     functions_at(const TransferBlock &points, const unsigned int k) const;
 
@@ -172,10 +174,10 @@ namespace geocone::GEOCONE_DIM
     const unsigned int n; ///< nodes per cell
     const CellSearch   search;
 
-    std::string stage; ///< whose conditions act
+    std::string stage; ///< stage whose boundary conditions act
 
-    std::vector<unsigned int> cell_nodes; ///< n per active cell index
-    std::vector<Functions>    functions;  ///< per group
+    std::vector<unsigned int> cell_nodes; ///< n nodes per active cell
+    std::vector<Functions>    functions;  ///< per group of points
     Vector                    exchanged;
   };
 } // namespace geocone::GEOCONE_DIM

@@ -8,29 +8,30 @@
 #include <geocone/transfer/transfer_kernels.h>
 
 /*
- * Positions of four points on a grid and the values there of the functions with
- * support at them: the first part of every kernel of a transfer. P: Pack of an
- * architecture.
+ * Location of four points on a grid and evaluation of the basis functions with
+ * support at the points: the first part of every transfer kernel. P: Pack of an
+ * instruction set.
  */
 namespace geocone::GEOCONE_DIM
 {
-  /** One value per function and direction, at four points. */
+  /** Values of the one-dimensional basis functions per direction at four
+   *  points. */
   template <int p>
   using ValuesAtFour = double[dim][p + 1][4];
 
-  /** Data of one direction of a grid that is common to all points. */
+  /** Data of one grid direction, the same in all lanes of a vector. */
   template <typename P, int p>
   struct PackedAxis
   {
     P origin, inverse_size, last, first, stride;
 
-    /** Coefficients of the intervals p - 1 ... n_intervals - p, which are of
-     *  one type. */
+    /** Polynomial coefficients of the inner intervals, p - 1 ... n_intervals -
+     *  p, on which the basis functions are translates of each other. */
     P inner_first, inner_last, inner[2 * p + 1][p + 1];
   };
 
-  /** Grid data for finding functions of degree p; a copy, which stores to
-   *  points and nodes cannot alias. */
+  /** Grid data for the evaluation of basis functions of degree p; copied, so
+   *  that stores to points and nodes do not alias the data. */
   template <typename P, int p>
   struct PackedGrid : GridView
   {
@@ -65,13 +66,13 @@ namespace geocone::GEOCONE_DIM
     }
   };
 
-  /** The (p + 1)^dim functions with support at four points, k, k + 1, ... of a
-   *  block. */
+  /** The (p + 1)^dim basis functions with support at each of four points k,
+   *  ..., k + 3 of a block. */
   template <typename P, int p>
   struct NodesOfFour
   {
-    int             first[4];       ///< of them, among those that are stored
-    int             lowest[dim][4]; ///< functions per direction, among all
+    int             first[4];       ///< index of the lowest stored node
+    int             lowest[dim][4]; ///< lowest function, per direction
     ValuesAtFour<p> N, dN;
 
     NodesOfFour(const PackedGrid<P, p> &grid,
@@ -101,7 +102,7 @@ namespace geocone::GEOCONE_DIM
           find_each(grid.axes[d], lowest[d], xi[d], N[d], dN[d]);
     }
 
-    /** Address of the doubles of the first node of a point. */
+    /** Address of the data to read of the lowest node of a point. */
     const double *
     read(const GridView &grid, const int m) const
     {
@@ -114,8 +115,8 @@ namespace geocone::GEOCONE_DIM
     }
 
   private:
-    /** Evaluates value and slope at xi by two polynomials, whose coefficients
-     *  c(0), ... follow one another. */
+    /** Evaluates a basis function and its derivative at xi; c(0), c(1), ... are
+     *  the coefficients of the two polynomials in sequence. */
     template <typename Coefficients>
     static void
     evaluate(const Coefficients &c, const P &xi, P &value, P &slope)
@@ -128,8 +129,8 @@ namespace geocone::GEOCONE_DIM
         slope = slope * xi + c(power);
     }
 
-    /** For points on intervals with the same coefficients: function by
-     *  function. */
+    /** Evaluates the functions one by one, for four points on intervals with
+     *  the same coefficients. */
     static void
     find(const P (&c)[2 * p + 1][p + 1],
          const P &xi,
@@ -145,7 +146,8 @@ namespace geocone::GEOCONE_DIM
         }
     }
 
-    /** If some points are near an end of the grid: point by point. */
+    /** Evaluates the functions point by point, if some points are near the
+     *  boundary of the grid. */
     static void
     find_each(const GridAxis &axis,
               const int (&interval)[4],

@@ -9,8 +9,9 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * One direction of a uniform grid with splines (or hats) of degree p, in the
-   * layout of the kernels. On the interval i, with xi in [0, 1],
+   * One direction of a uniform grid with B-splines (or hat functions) of degree
+   * p, in the memory layout of the kernels. On the interval i, with xi in [0,
+   * 1],
    *   N_f = sum_k coefficients[type[i]][k][f] xi^k,   k = 0 ... p,
    *   dN_f/dx = sum_k coefficients[type[i]][p + 1 + k][f] xi^k,  k = 0 ... p - 1,
    * f = 0 ... p (padded by zeros to 4) for the functions i, ..., i + p.
@@ -23,76 +24,79 @@ namespace geocone::GEOCONE_DIM
     int                  first        = 0; ///< lowest stored function
     const unsigned char *type         = nullptr;
     const double        *coefficients = nullptr;
-    const double        *places = nullptr; ///< Greville abscissae (m), for APIC
+    const double        *places = nullptr; ///< Greville abscissae (m), APIC
   };
 
   /**
-   * Number of doubles of a node, for vectors of four: in the plane (v_x, v_y,
-   * dv_x, dv_y) to read and (m v, force) to write; in space (v, 0) and (dv, 0),
-   * (m v, 0) and (force, 0). The second quantity begins at change_of_node.
+   * Number of doubles stored per node, a multiple of the vector length four. In
+   * two dimensions: (v_x, v_y, dv_x, dv_y) to read, (m v, force) to write; in
+   * three: (v, 0, dv, 0) and (m v, 0, force, 0). The second quantity begins at
+   * change_of_node.
    */
   constexpr unsigned int node_size      = 4 * (dim - 1);
   constexpr unsigned int change_of_node = node_size / 2;
 
   /**
-   * Stored part of a grid: functions axes[d].first, ... per direction,
-   * contiguous in the last direction. A node has node_size doubles and a mass.
+   * Stored part of a grid: nodes from axes[d].first on in each direction d,
+   * contiguous in memory in the last direction. A node has node_size doubles
+   * and a mass.
    */
   struct GridView
   {
     GridAxis              axes[dim];
-    std::array<long, dim> stride = {}; ///< between the functions of a direction
+    std::array<long, dim> stride = {}; ///< memory stride per direction
     const double         *read   = nullptr;
     double               *write  = nullptr;
     double               *mass   = nullptr;
   };
 
-  /** Data of a block of points between the stages of a pass; fits into the
-   *  cache. */
+  /** Temporary data of a block of points during a pass over the points; fits
+   *  into the cache. */
   struct BlockScratch
   {
     static constexpr unsigned int size = PointBlock::capacity;
 
-    /** Values gathered at each point: the interpolated doubles of a node, then
-     *  for each direction the derivatives of the first four, which begin with
-     *  those of v. */
+    /** Values gathered at each point: the node_size interpolated nodal values,
+     *  then for each direction the derivatives of the first four nodal values
+     *  (the first dim are the derivatives of v). */
     static constexpr unsigned int n_gathered = node_size + 4 * dim;
     alignas(32) double gathered[n_gathered * size];
 
-    /** Values scattered to nodes: (m v, 0, ...), which is multiplied by N, then
-     *  for each direction d four values, which are multiplied by dN/dx_d and
-     *  contain -V s_d in the place of the force. */
+    /** Values scattered from each point to nodes: (m v, 0, ...), multiplied by
+     *  N; then for each direction d four values, multiplied by dN/dx_d, with -V
+     *  s_d at the position of the force. */
     static constexpr unsigned int n_given = 4 + 4 * dim;
     alignas(32) double given[n_given * size];
 
     alignas(32) double l[dim * dim][size];
 
-    /** Axisymmetric: hoop strain increment, and the force along x of the hoop
-     *  stress, -V s_zz/r (N). */
+    /** Axisymmetry: hoop strain increment and radial force of the hoop stress,
+     *  -V s_zz/r (N). */
     alignas(32) double l_zz[size];
     alignas(32) double hoop_force[size];
 
-    /** For B-bar: the divergence of v (1/s) and the mean stress tr s/dim (Pa),
-     *  of each point or averaged over the points of its cell. */
+    /** B-bar method: divergence of v (1/s) and mean stress tr s/dim (Pa) of
+     *  each point, before or after averaging over the points of a cell. */
     alignas(32) double divergence[size];
     alignas(32) double mean_stress[size];
     alignas(32) double work[size], wave_modulus[size];
   };
 
-  /** Arrays of a block of points and of their affine velocities (APIC). */
+  /** Arrays of a block of material points, with affine velocities (APIC). */
   struct TransferBlock
   {
-    unsigned int              n;     ///< a multiple of PointBlock::lanes
-    unsigned int              group; ///< the arrays that they are part of
-    unsigned int              first; ///< and the place of the first one there
+    unsigned int              n;     ///< multiple of PointBlock::lanes
+    unsigned int              group; ///< index of the group of points
+    unsigned int              first; ///< index of the first point in the group
     std::array<double *, dim> x, v;
-    std::array<double *, n_mandel>  s; ///< in the order of tensor_component
+    std::array<double *, n_mandel>  s; ///< stress, order of tensor_component
     double                         *volume, *mass;
     std::array<double *, dim * dim> c; ///< C_ij at dim i + j; null without APIC
     const unsigned int             *cell; ///< null if points do not store cells
   };
 
-  /** Sums and extrema of a pass, for the time stepper. */
+  /** Sums and extrema of a pass over the points, for the explicit time
+   *  stepper. */
   struct PassSums
   {
     double work         = 0.; ///< stress work (J/m)
@@ -100,11 +104,12 @@ namespace geocone::GEOCONE_DIM
     double speed2       = 0.; ///< largest v^2 ((m/s)^2)
     double strain       = 0.; ///< largest |dt dv_i/dx_j|
     double least_volume = 1.; ///< least det(I + dt grad v)
-    /** Bounds of the positions, of which there are dim (m). */
+    /** Bounding box of the positions; the first dim entries are used (m). */
     double lower[3] = {1e300, 1e300, 1e300};
     double upper[3] = {-1e300, -1e300, -1e300};
 
-    /** Sum of values, which is not finite if one of the points is not. */
+    /** Checksum of positions and velocities; not finite if the data of a point
+     *  are not finite. */
     double check = 0.;
 
     /** Reads or writes a checkpoint; Row: StateRow. */
@@ -121,7 +126,7 @@ namespace geocone::GEOCONE_DIM
     add(const PassSums &other);
   };
 
-  /** Options of update_points() for the gathered values. */
+  /** Quantities updated by TransferKernels::update_points(). */
   struct Update
   {
     bool strain, velocity, position;
@@ -135,16 +140,16 @@ namespace geocone::GEOCONE_DIM
    */
   struct TransferKernels
   {
-    const char *name; ///< of the instruction set
+    const char *name; ///< name of the instruction set
 
-    /** @name By the degree of the functions, 1 to 3 */
+    /** @name Kernels by the degree of the basis functions, 1 to 3 */
     /** @{ */
 
-    /** Gathers values and slopes from the nodes: sum_i q_i (N_i, dN_i/dx,
-     *  ...). */
+    /** Interpolates nodal values q_i and their gradients at the points: sum_i
+     *  q_i (N_i, dN_i/dx, ...). */
     void (*gather[4])(const GridView &, const TransferBlock &, BlockScratch &);
 
-    /** Gathers the values only. */
+    /** Interpolates nodal values at the points, without gradients. */
     void (*gather_values[4])(const GridView &,
                              const TransferBlock &,
                              BlockScratch &);
@@ -152,22 +157,24 @@ namespace geocone::GEOCONE_DIM
     /**
      * Computes the affine velocity of APIC: per direction d the column
      *   C_d = sum_i v_i N_i (x_i - x)_d / sum_i N_i (x_i - x)_d^2,
-     * for a tensor product the usual B D^{-1}; the gradient if the sum
-     * vanishes, as it does at the ends of the grid. Not for degree 1, where C
-     * is the gradient and noise of low-mass nodes grows from step to step.
+     * equal to the usual B D^{-1} for tensor-product functions. If the
+     * denominator vanishes, as at the ends of the grid, C_d is the velocity
+     * gradient. Not for degree 1, where C is the gradient and noise of low-mass
+     * nodes grows from step to step.
      */
     void (*gather_affine[4])(const GridView &,
                              const TransferBlock &,
                              BlockScratch &);
 
     /**
-     * Scatters the values (a | b_x | b_y ...) to the nodes, see BlockScratch:
+     * Scatters the point values (a | b_x | b_y ...) of BlockScratch::given to
+     * the nodes:
      *   node += N a + sum_d dN/dx_d b_d,
      * and N m to the masses unless they are null.
      */
     void (*scatter[4])(const GridView &, const TransferBlock &, BlockScratch &);
 
-    /** Scatters a and the masses only. */
+    /** Scatters the values a and the masses only, without the b_d. */
     void (*scatter_values[4])(const GridView &,
                               const TransferBlock &,
                               BlockScratch &);
@@ -179,8 +186,8 @@ namespace geocone::GEOCONE_DIM
     /** @} */
 
     /**
-     * Updates points from the gathered (v, dv), with v_p the velocity of a
-     * point:
+     * Updates points from the gathered velocity v and velocity increment dv;
+     * v_p is the velocity of the point, f the FLIP fraction:
      *   strain:   l = dt grad v
      *   velocity: v_p <- f (v_p + dv) + (1 - f) v
      *   position: x <- x + dt v.
@@ -191,35 +198,38 @@ namespace geocone::GEOCONE_DIM
                           const TransferBlock &,
                           BlockScratch &);
 
-    /** Computes BlockScratch::divergence from the gathered slopes. */
+    /** Computes BlockScratch::divergence from the gathered velocity
+     *  gradients. */
     void (*find_divergence)(const TransferBlock &, BlockScratch &);
 
-    /** Replaces the divergence by its mean (B-bar):
+    /** Replaces the volumetric part of l by the cell mean (B-bar method):
      *    l <- l + (dt BlockScratch::divergence - tr l)/dim I. */
     void (*replace_divergence)(const double dt,
                                const TransferBlock &,
                                BlockScratch &);
 
-    /** Updates volumes, V <- det(I + l) V, times 1 + l_zz around an axis,
+    /** Updates volumes, V <- det(I + l) V (times 1 + l_zz in axisymmetry),
      *  stress work and extrema. */
     void (*finish)(const TransferBlock &, BlockScratch &, PassSums &);
 
-    /** Bounds of positions and velocities. */
+    /** Updates the bounds of positions and velocities. */
     void (*bound)(const TransferBlock &, PassSums &);
 
-    /** Computes the values scattered by scatter(): (m v, -V s) and the hoop
-     *  force; momentum, force or both. */
+    /** Computes the values that scatter() transfers to the nodes: momentum m v,
+     *  force terms -V s and the hoop force, or only momentum or force. */
     void (*prepare_scatter)(const bool momentum,
                             const bool force,
                             const TransferBlock &,
                             BlockScratch &);
 
-    /** Replaces the mean stress in these values (B-bar):
+    /** Replaces the mean stress in the prepared values by the cell mean (B-bar
+     *  method):
      *    s <- s + (BlockScratch::mean_stress - tr s/dim) I. */
     void (*replace_mean_stress)(const TransferBlock &, BlockScratch &);
   };
 
-  /** Fastest version supported by this machine; see machine_has_avx2(). */
+  /** Fastest version of the kernels supported by the processor; see
+   *  machine_has_avx2(). */
   const TransferKernels &
   transfer_kernels();
 } // namespace geocone::GEOCONE_DIM

@@ -10,11 +10,12 @@
 #include <geocone/transfer/transfer_kernels.h>
 
 /*
- * Versions of the kernels: one unit per architecture includes this file and
- * instantiates make_transfer_kernels(). Vectors run over four points, or over
- * the four values of a node, which needs no lists of the points of a cell.
- * Everything here is a template over the architecture, or a member of one: the
- * linker might replace a plain inline function by that of another unit.
+ * Transfer kernels for several instruction sets: one translation unit per
+ * instruction set includes this file and instantiates make_transfer_kernels().
+ * A vector contains four points or the four values of a node, so that no lists
+ * of points per cell are necessary. Everything in this file is a template over
+ * the instruction set, or a member of a template: the linker might replace a
+ * plain inline function by the version of another translation unit.
  */
 namespace geocone::GEOCONE_DIM
 {
@@ -28,7 +29,8 @@ namespace geocone::GEOCONE_DIM
     template <int p>
     using Nodes = NodesOfFour<P, p>;
 
-    /** Sum over the functions of the directions 0 ... d, and its slopes. */
+    /** Interpolated value and gradient: sum over the basis functions of the
+     *  directions 0 ... d. */
     template <int d>
     struct Sum
     {
@@ -42,9 +44,9 @@ namespace geocone::GEOCONE_DIM
     };
 
     /**
-     * Computes sum q N over the functions of the directions 0 ... d at the mth
-     * of four points, with q four doubles of a node, and for each direction the
-     * same sum with dN instead of N.
+     * Interpolates nodal values at the mth of four points: the sum of q N over
+     * the functions of the directions 0 ... d, with q four doubles of a node,
+     * and for the derivative in each direction the sum with dN instead of N.
      */
     template <int p, int d, bool with_slopes>
     static Sum<d>
@@ -133,8 +135,8 @@ namespace geocone::GEOCONE_DIM
         }
     }
 
-    /** Weights N_i (x_i - x)/sum_i N_i (x_i - x)^2 of APIC, or dN_i/dx if the
-     *  sum vanishes. */
+    /** Computes the weights of the affine velocity (APIC), N_i (x_i - x)/sum_i
+     *  N_i (x_i - x)^2, or dN_i/dx if the denominator vanishes. */
     template <int p>
     static void
     find_moments(const GridView    &grid,
@@ -160,9 +162,9 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * Adds a N (if there is an a) and b_e dN for each direction e, of n points
-     * from the mth of four on, to the functions of the directions 0 ... d.
-     * Points with the same nodes read and write them once.
+     * Scatters values of n of four points, from the mth on, to the nodes of the
+     * directions 0 ... d: a N (if has_a) plus b_e dN for each direction e (if
+     * has_b). Nodes common to the points are read and written once.
      */
     template <int p, int d, int n, bool has_a, bool has_b>
     static void
@@ -245,7 +247,7 @@ namespace geocone::GEOCONE_DIM
         }
     }
 
-    /** Scatters n points with the same nodes. */
+    /** Scatters the values and masses of n points with the same nodes. */
     template <int p, bool with_slopes, int n>
     static void
     give(const GridView &grid,
@@ -280,8 +282,8 @@ namespace geocone::GEOCONE_DIM
         }
     }
 
-    /** Adds masses to the functions of the last direction in vectors of four,
-     *  padded with zeros after p + 1 functions. */
+    /** Adds masses to the nodes, in vectors of four nodes along the last
+     *  direction, padded with zeros after p + 1 nodes. */
     template <int p, int d, int n>
     static void
     add_masses(const GridView &grid,
@@ -437,7 +439,7 @@ namespace geocone::GEOCONE_DIM
         }
     }
 
-    /** det(I + l) at four points. */
+    /** Volume ratio det(I + l) at four points. */
     static P
     volume_ratio(const P (&l)[dim * dim])
     {
