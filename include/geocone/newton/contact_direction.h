@@ -9,74 +9,79 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Direction of Newton's method that linearises the momentum balance only and
-   * keeps the exact laws of contact (Josephy 1979): its end satisfies them
-   * exactly, whichever nodes come into contact, stick or slide. The body is
-   * condensed to the potential contact nodes, with one right-hand side for each
-   * of their components (CondensedContact); motions of free obstacles are
-   * eliminated there.
+   * Josephy-Newton direction (Josephy 1979): linearises the momentum balance
+   * only and retains the exact contact laws. The end point of the direction
+   * satisfies the contact laws exactly, whichever nodes are in contact, stick
+   * or slide. The body is condensed to the potential contact nodes, with one
+   * right-hand side per velocity component of these nodes (CondensedContact);
+   * the motions of free obstacles are eliminated.
    */
   class ContactDirection
   {
   public:
-    /** Largest number of components that is condensed. */
+    /** Maximum number of velocity components to be condensed. */
     static constexpr unsigned int most_components = 1500;
 
     /**
-     * Chooses the nodes and removes their laws from the Jacobian. Must be
-     * called before its factorisation. Collective.
+     * Selects the potential contact nodes and removes their contact laws from
+     * the Jacobian. Must be called before the Jacobian is factorised.
+     * Collective.
      */
     explicit ContactDirection(const StepWorkspace &work);
 
-    /** Whether the number of components is positive and not too large. */
+    /** Whether the contact direction applies: the number of components is
+     *  positive and at most most_components. */
     bool
     is_used() const
     {
       return n_components > 0;
     }
 
-    /** As StepWorkspace::solve(), by the factorised Jacobian. Omitted nodes
-     *  that would be penetrated are added to the contact set. */
+    /** Computes the direction as StepWorkspace::solve(), with exact contact
+     *  laws, from the factorised Jacobian. Nodes not selected that would
+     *  penetrate an obstacle are added to the contact set. */
     void
     solve(const Vector          *prescribed,
           const Eigen::VectorXd &defect,
           Vector                &direction);
 
     /**
-     * Slope: R.d at the iterate less the work of the contact forces at the end
-     * of the direction, which count as loads. For associated flow it is the
-     * slope of a convex function, with its minimum at the end if the balance is
-     * linear. Collective.
+     * Directional residual: R.d at the iterate minus the work of the contact
+     * forces at the end of the direction, which act as loads. For associated
+     * flow the derivative of a convex function, with its minimum at the end of
+     * the direction if the momentum balance is linear. Collective.
      */
     double
     slope(const Vector &direction) const;
 
   private:
-    /** A velocity component of a node of this rank. */
+    /** Velocity component of a contact node of this rank. */
     struct Component
     {
       unsigned int           node; ///< index in Contact::nodes()
       dealii::Tensor<1, dim> axis;
       bool                   is_normal;
-      unsigned int           number     = 0; ///< among those of all ranks
+      unsigned int           number     = 0; ///< index over all ranks
       bool                   is_relaxed = false;
     };
 
-    /** Adds the components of nodes of this rank. Collective. */
+    /** Appends the velocity components of the chosen nodes of this rank.
+     *  Collective. */
     void
     add(const std::vector<unsigned int> &chosen, const bool relaxed);
 
-    /** Solves the linear system with the residuals r at the nodes minus these
-     *  forces. */
+    /** Solves the linear system with the contact forces subtracted from the
+     *  residuals at the nodes. */
     void
     solve_with(const Eigen::VectorXd &force,
                const Vector          *prescribed,
                const Eigen::VectorXd &defect,
                Vector                &direction) const;
 
-    /** Forces for which the end of the direction satisfies the laws, and
-     *  changes of the motions of free obstacles. Collective.
-     *  @param without du of the direction without forces */
+    /** Contact forces for which the end of the direction satisfies the contact
+     *  laws, and increments of the motions of free obstacles. Collective.
+     *  @param without relative velocity increments du of the direction without
+     *  contact forces */
     struct End
     {
       Eigen::VectorXd force, motion;
@@ -84,21 +89,24 @@ namespace geocone::GEOCONE_DIM
     End
     end(const Eigen::VectorXd &without) const;
 
-    /** Nodes of this rank that were not chosen and would be penetrated. */
+    /** Nodes of this rank that were not selected and would penetrate an
+     *  obstacle. */
     std::vector<unsigned int>
     entered(Vector &direction) const;
 
-    /** Relative velocity change of a node of this rank, in a direction with
-     *  ghosts. */
+    /** Increment of the relative velocity between a contact node of this rank
+     *  and the obstacle. @param direction with ghost values */
     dealii::Tensor<1, dim>
     relative_change(const ContactNode &node, const Vector &direction) const;
 
-    /** Relative velocity changes of the nodes of this rank; zero for others.
-     *  @param direction receives ghosts */
+    /** Increments of the relative velocities of the contact nodes of this rank,
+     *  by component; zero for components of other ranks.
+     *  @param direction receives ghost values */
     Eigen::VectorXd
     relative_change(Vector &direction) const;
 
-    /** Compliance: du by component for unit forces. Collective. */
+    /** Compliance matrix of the contact nodes: relative velocity increments du
+     *  caused by unit contact forces. Collective. */
     Eigen::MatrixXd
     compliance() const;
 

@@ -9,13 +9,13 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** A line v + x d from an iterate along a Newton direction. */
+  /** Line v + x d from an iterate v along a Newton direction d. */
   class NewtonLine
   {
   public:
     NewtonLine(const StepWorkspace &work, const LocalLaw &law);
 
-    /** Starts at the present iterate. */
+    /** Sets the start v of the line to the current iterate. */
     void
     begin()
     {
@@ -26,8 +26,9 @@ namespace geocone::GEOCONE_DIM
     void
     move(const double x);
 
-    /** Slope R.d at the iterate: for associated flow the slope of a convex
-     *  function. A ContactDirection has its own. */
+    /** Directional residual R.d at the iterate; for associated flow the
+     *  derivative of a convex function along d. A ContactDirection defines its
+     *  own slope. */
     double
     slope() const
     {
@@ -45,8 +46,8 @@ namespace geocone::GEOCONE_DIM
     }
 
     Vector                  direction;         ///< d
-    const ContactDirection *contact = nullptr; ///< that made it, if one did
-    ResidualReport          state;             ///< at the iterate
+    const ContactDirection *contact = nullptr; ///< that computed d, or null
+    ResidualReport          state;             ///< R at the iterate
 
   private:
     const StepWorkspace &work;
@@ -55,9 +56,9 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Globalisation of Newton's method: the step length along its directions, and
-   * the part of the elastic stiffness blended into its tangent. This base class
-   * takes full steps with the unmodified tangent.
+   * Globalisation of Newton's method: step length along the Newton directions
+   * and fraction of the elastic stiffness blended into the tangent. This base
+   * class performs full steps with the unmodified tangent.
    */
   class Globalisation
   {
@@ -65,19 +66,19 @@ namespace geocone::GEOCONE_DIM
     virtual ~Globalisation() = default;
 
     /**
-     * Part w of the elastic stiffness in the tangent (1 - w) C + w D of the
-     * next direction.
-     * @param residual relative to the forces
+     * Fraction w of the elastic stiffness in the tangent (1 - w) C + w D used
+     * for the next direction.
+     * @param residual relative residual (by the norm of the forces)
      */
     virtual double
     blend(const double residual) const;
 
-    /** Moves the iterate. @return the length x of the step */
+    /** Moves the iterate along the line. @return the step length x */
     virtual double
     move(NewtonLine &line);
 
-    /** Whether directions must be descent directions, NewtonLine::slope() <
-     *  0. */
+    /** Whether only descent directions, NewtonLine::slope() < 0, are
+     *  acceptable. */
     virtual bool
     needs_descent() const
     {
@@ -85,7 +86,7 @@ namespace geocone::GEOCONE_DIM
     }
   };
 
-  /** Globalisation by line_search(). */
+  /** Globalisation by the line search line_search(). */
   class LineSearch : public Globalisation
   {
   public:
@@ -99,12 +100,12 @@ namespace geocone::GEOCONE_DIM
     }
   };
 
-  /** Globalisation by full steps with w = min(1/2, c |R_free| / |B'V s|), which
-   *  vanishes with the residual. */
+  /** Globalisation by blending the tangent with the elastic stiffness, full
+   *  steps: w = min(1/2, c |R_free| / |B'V s|) vanishes with the residual. */
   class ElasticBlend : public Globalisation
   {
   public:
-    /** Values of c that proved effective. */
+    /** Values of the factor c that proved effective. */
     static constexpr double with_return_map = 0.3, with_natural_map = 0.05;
 
     /** @param factor c */
@@ -119,9 +120,9 @@ namespace geocone::GEOCONE_DIM
     double factor;
   };
 
-  /** Globalisation by halving steps until the merit function decreases. If that
-   *  stalls, the tangent is blended, w = max(0.02, 3 w), until it succeeds
-   *  again. */
+  /** Globalisation by halving the step length until the merit function
+   *  decreases. While the merit function does not decrease, elastic stiffness
+   *  is blended into the tangent, w = max(0.02, 3 w). */
   class MeritSearch : public Globalisation
   {
   public:

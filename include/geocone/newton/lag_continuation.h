@@ -9,33 +9,33 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Continuation in the lag of friction. Lagged friction is easier to solve
-   * (its law is closer to associated flow, and explicit at lag 1). The exact
+   * Continuation in the friction lag. A law with lagged friction is easier to
+   * solve (closer to associated flow; explicit friction at lag 1). The exact
    * law is reached on a path of solutions with a lag that decreases to 0; each
-   * is the initial guess of the next, with the line search.
+   * solution is the initial guess of the next, with the line search.
    */
   struct LagContinuation
   {
-    double       tolerance          = 1e-10; ///< relative
-    double       absolute_tolerance = 1e-12; ///< (N/m)
-    unsigned int allowed            = 40;    ///< iterations for one lag
-    unsigned int allowed_on_path    = 60;    ///< for the whole path
-    bool         elastic_first      = false; ///< uses D as the first tangent
+    double       tolerance          = 1e-10; ///< relative, for |R_free|
+    double       absolute_tolerance = 1e-12; ///< for |R_free| (N/m)
+    unsigned int allowed            = 40;    ///< iterations per lag
+    unsigned int allowed_on_path    = 60;    ///< iterations on the path
+    bool         elastic_first      = false; ///< elastic tangent D first
 
-    /** Whether a step whose path does not reach lag 0 retains the least lag
-     *  reached; otherwise the step is not solved. */
+    /** Whether the smallest lag reached is accepted if the path ends before lag
+     *  0; otherwise the step fails. */
     bool keeps_lag = true;
 
-    /** Solves the law from the solution with explicit friction, a convex
-     *  problem. */
+    /** Solves the exact law with the solution for explicit friction, a convex
+     *  problem, as the initial guess. */
     void
     solve_from_explicit_friction(const StepWorkspace &work) const
     {
       from_explicit_friction(0., tolerance, work);
     }
 
-    /** Follows the solutions from first_lag down to 0, or as far as
-     *  possible. */
+    /** Follows the path of solutions from first_lag towards 0, as far as the
+     *  iterations converge. */
     void
     solve_on_path(const StepWorkspace &work) const;
 
@@ -47,12 +47,12 @@ namespace geocone::GEOCONE_DIM
                            const double         accuracy,
                            const StepWorkspace &work) const;
 
-    /** Solves the law with first_lag, starting from explicit friction if
-     *  necessary. */
+    /** Solves the law with first_lag; if necessary, the initial guess is the
+     *  solution for explicit friction. */
     void
     solve_first(const StepWorkspace &work) const;
 
-    /** A Newton iteration with one lag. */
+    /** Newton iteration with one friction lag. */
     NewtonLoop
     loop(const double       lag,
          const double       accuracy,

@@ -11,15 +11,15 @@ namespace geocone
   /**
    * Finds the step length x in (0, 1] along a Newton direction d from the
    * directional residual G(x) = R(v + x d).d. For associated flow G is the
-   * derivative of a convex function along d, so that its root is the minimum,
-   * of which the step needs only an approximation:
+   * derivative of a convex function along d, and the root of G is the minimum,
+   * needed only approximately:
    * - x = 1 if G(0) >= 0 (no descent direction: full step), or if G(1) <=
    *   reduction |G(0)|;
    * - otherwise regula falsi on [0, 1], with each trial at least 10 % of the
-   *   bracket inside of it, until |G| < reduction |G(0)| or the evaluations are
-   *   spent. Non-finite values count as too far.
+   * bracket away from the ends, until |G| < reduction |G(0)| or max_evaluations
+   * are reached. A non-finite G counts as G > 0.
    *
-   * @param G callable; the last evaluation is at the returned length
+   * @param G directional residual; last evaluated at the returned length
    */
   template <typename Function>
   double

@@ -18,10 +18,11 @@ namespace geocone::GEOCONE_DIM
   /**
    * Linear systems of Newton's method,
    *   [K -H'; H 0] (dv, dlambda) = (r, q),   K = dR/dv on the free dofs:
-   * their matrix, its factors, and the linear solver. Rows H are treated by the
-   * Schur complement H K^-1 H', with one more right-hand side for each row. The
-   * contribution of free obstacles to K, a part U W' of low rank, is inverted
-   * by Woodbury's formula, with one more right-hand side for each column of U.
+   * matrix, factorisation and linear solver. The constraint rows H are
+   * eliminated by the Schur complement H K^-1 H', with one additional
+   * right-hand side per row. The contribution of free obstacles to K, U W' of
+   * low rank, is inverted by Woodbury's formula, with one additional right-hand
+   * side per column of U.
    */
   class LinearSystem
   {
@@ -30,15 +31,16 @@ namespace geocone::GEOCONE_DIM
                  const MPI_Comm                comm,
                  const bool                    symmetric);
 
-    /** Sets the pattern to that of a problem's Jacobian, with a new ordering of
-     *  the unknowns if it differs from the previous one. Collective. */
+    /** Sets the sparsity pattern of the Jacobian of a problem; if the pattern
+     *  differs from the previous one, the unknowns are reordered.
+     *  Collective. */
     void
     set_pattern(IncrementalProblem &problem, dealii::TimerOutput &timer);
 
     /**
-     * Assembles and factorises dR/dv at the last residual(), with an elastic
-     * blend.
-     * @return whether it is regular; the same on all ranks
+     * Assembles and factorises dR/dv at the iterate of the last residual(),
+     * with a fraction of elastic stiffness blended in (elastic_blend).
+     * @return whether the matrix is regular; the same on all ranks
      */
     [[nodiscard]] bool
     factorise(const IncrementalProblem &problem,
@@ -46,7 +48,7 @@ namespace geocone::GEOCONE_DIM
               dealii::TimerOutput      &timer);
 
     /**
-     * Solves with the last factors.
+     * Solves the linear system with the last factorisation.
      * @param defect q
      * @param[in,out] x owned free rows: r in, dv out
      */
@@ -55,8 +57,8 @@ namespace geocone::GEOCONE_DIM
           const Eigen::VectorXd &defect,
           std::vector<double>   &x);
 
-    /** Solves with K, including the low-rank part, and without H. @param
-     *  columns of n_owned_rows(), one after another */
+    /** Solves K X = B without the constraints H, low-rank part of K included.
+     *  @param columns B in, X out, n_owned_rows() entries per column */
     void
     solve_columns(std::vector<double> &columns, const unsigned int n_columns);
 
@@ -66,7 +68,7 @@ namespace geocone::GEOCONE_DIM
       return matrix.n_owned;
     }
 
-    /** Number of entries stored on this rank. */
+    /** Number of matrix entries stored on this rank. */
     std::size_t
     n_nonzeros() const
     {
@@ -84,7 +86,7 @@ namespace geocone::GEOCONE_DIM
     MPI_Comm                      comm;
     SparseMatrix                  matrix;
     LowRank                       low_rank;
-    Eigen::MatrixXd               solved_U;  ///< K^-1 U, without low-rank part
+    Eigen::MatrixXd               solved_U;  ///< K^-1 U, K without U W'
     Eigen::MatrixXd               to_change; ///< (1 + W' K^-1 U)^-1
 
     bool has_pattern = false;

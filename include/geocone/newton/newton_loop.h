@@ -11,18 +11,18 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Semismooth Newton iteration for R(v) = 0 with one local law and its
+   * Semismooth Newton iteration for R(v) = 0 with one local law and a
    * generalised Jacobian. The change of the prescribed velocities and the
-   * defect of the constraints H v = q enter the first linear system, whose step
-   * is full. Convergence:
-   *   |R_free| <= max(tolerance x greatest norm of a part of R, absolute),
+   * defect of the constraints H v = q enter the first linear system, followed
+   * by a full step. Convergence criterion:
+   *   |R_free| <= max(tolerance x largest norm of a term of R, absolute),
    * or StepWorkspace::is_balanced() up to rounding.
    */
   struct NewtonLoop
   {
     /**
      * Relative residual below which an iterate is a useful initial guess for
-     * another law, or worth continuing beyond the allowed iterations.
+     * another law, or justifies iterations beyond the allowed number.
      */
     static constexpr double near = 1e-3;
 
@@ -30,32 +30,34 @@ namespace geocone::GEOCONE_DIM
     static constexpr double far = 0.1;
 
     LocalLaw     law;
-    double       tolerance          = 1e-10; ///< relative
-    double       absolute_tolerance = 1e-12; ///< (N/m)
+    double       tolerance          = 1e-10; ///< relative, for |R_free|
+    double       absolute_tolerance = 1e-12; ///< for |R_free| (N/m)
     unsigned int allowed            = 60;    ///< iterations; doubled if near
-    /** Allowed iterations while no point yields, so that only contact is
+    /** Allowed iterations while no point yields and only contact is
      *  nonlinear. */
     unsigned int allowed_without_flow =
       std::numeric_limits<unsigned int>::max();
-    /** Iterations after which an iterate far from a solution is abandoned. */
+    /** Number of iterations after which the loop terminates if the iterate is
+     *  far from a solution. */
     unsigned int allowed_if_far = std::numeric_limits<unsigned int>::max();
 
-    bool elastic_first = false; ///< uses D as the first tangent
-    bool moves         = false; ///< at least one iteration
-    bool exact_contact = false; ///< with ContactDirection
+    bool elastic_first = false; ///< starts with the elastic tangent D
+    bool moves         = false; ///< performs at least one iteration
+    bool exact_contact = false; ///< contact laws by ContactDirection
 
-    /** Iterates from the present iterate; adds its cost to the report. */
+    /** Iterates from the current iterate; adds iterations and factorisations to
+     *  the report. */
     void
     run(Globalisation &globalisation, const StepWorkspace &work) const;
 
   private:
-    /** Factorises with the given blend, or the least larger one that makes the
-     *  matrix regular.
-     *  @return the blend, or nothing if it remains singular */
+    /** Factorises the Jacobian with the wanted elastic blend, or the smallest
+     *  larger blend with a regular matrix.
+     *  @return the blend used; empty if the matrix remains singular */
     static std::optional<double>
     factorise(const double wanted, const StepWorkspace &work);
 
-    /** Records in the report why the iteration terminates. */
+    /** Reports the reason for terminating the iteration without convergence. */
     static void
     give_up(const ResidualReport &state, const StepWorkspace &work);
   };

@@ -18,19 +18,21 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Nonsmooth solver of a step, which runs the attempts of its plan() until one
-   * succeeds. NewtonLoop is the iteration; Globalisation and LagContinuation
-   * extend its convergence.
+   * Nonsmooth Newton solver of a step: runs the attempts of the plan() until
+   * one converges. NewtonLoop is the iteration; Globalisation and
+   * LagContinuation extend the range of convergence.
    *
-   * Friction, by name:
-   * - exact: the law at t_{n+1}; otherwise the step is not solved;
-   * - automatic: exact if the continuation succeeds, otherwise with the least
-   *   lag reached, which is reported.
+   * Values of the parameter for friction:
+   * - exact: the law with friction at t_{n+1}; without convergence, the step
+   * fails;
+   * - automatic: exact if the lag continuation converges, otherwise with the
+   * smallest lag reached (reported).
    */
   class NonsmoothNewton : public dealii::ParameterAcceptor
   {
   public:
-    /** @param others additional formulations in the stresses alone */
+    /** @param others additional formulations with stresses as the only
+     *  unknowns */
     explicit NonsmoothNewton(const StressMethods &others = {});
 
     /** Checks the consistency of the parameters. */
@@ -38,26 +40,28 @@ namespace geocone::GEOCONE_DIM
     prepare();
 
     /**
-     * Checks that the formulation applies to this problem, before a step is
-     * attempted. Collective.
+     * Checks that the formulation applies to the problem, before the first
+     * attempt at a step. Collective.
      * @throws InputError
      */
     void
     check(const IncrementalProblem &problem) const;
 
-    /** Hints of the time stepper for a solve. */
+    /** Hints of the time stepper for the solution of a step. */
     struct Hints
     {
-      bool elastic_first = false; ///< use the elastic tangent once
+      bool elastic_first = false; ///< elastic tangent in iteration 1
 
-      /** Largest SolverReport::excess_share of a solved step. */
+      /** Largest SolverReport::excess_share accepted for a converged step with
+       *  lagged friction. */
       double accepted_excess = std::numeric_limits<double>::infinity();
     };
 
     /**
-     * Solves a step.
+     * Solves the problem of a step.
      * @param[in,out] v in: initial guess, velocities of t_n; out: the solution
-     * @param[out] residual R(v) in all rows: reactions at prescribed dofs
+     * @param[out] residual R(v) at all degrees of freedom; at prescribed dofs
+     * the reactions
      */
     SolverReport
     solve(IncrementalProblem  &problem,
@@ -67,22 +71,23 @@ namespace geocone::GEOCONE_DIM
           Vector              &residual,
           const Hints         &hints) const;
 
-    /** Tolerances and numbers of iterations by the parameters. */
+    /** Tolerances and maximum number of iterations set by the parameters. */
     StepLimits
     limits() const
     {
       return {relative_tolerance, absolute_tolerance, max_iterations};
     }
 
-    /** Value of 'Newton/Formulation'. */
+    /** Value of the parameter 'Newton/Formulation'. */
     std::string
     formulation_name() const
     {
       return formulation.word();
     }
 
-    /** Whether only the exact law is acceptable: by parameter, or because a
-     *  formulation in stresses alone has no other. */
+    /** Whether lagged friction is excluded: by the parameter, or because a
+     *  formulation with stresses as the only unknowns admits the exact law
+     *  only. */
     bool
     wants_exact_friction() const
     {
@@ -126,7 +131,7 @@ namespace geocone::GEOCONE_DIM
 
     LinearSolverParameters linear;
 
-    /** Friction parameters, in the section of the time discretisation. */
+    /** Parameters of friction, in the section of the time discretisation. */
     struct Friction : dealii::ParameterAcceptor
     {
       Friction();
@@ -140,23 +145,27 @@ namespace geocone::GEOCONE_DIM
     };
     Friction friction;
 
-    /** Chosen formulation if the stresses are its only unknowns. */
+    /** Selected formulation with stresses as the only unknowns; null for other
+     *  formulations. */
     const StressFormulation *
     of_stresses() const;
 
-    /** Chosen first iterate if it solves for the stresses alone. */
+    /** Selected method for the first iterate with stresses as the only
+     *  unknowns; null for other methods. */
     const FirstIterate *
     first_iterate_of_stresses() const;
 
-    /** Newton iterations by a line of the plan, from the iterate.
-     *  @param start_of_s initial s of the natural map (Pa) */
+    /** Performs the Newton iterations of one attempt of the plan from the
+     *  current iterate.
+     *  @param start_of_s initial stresses s of the natural map (Pa) */
     void
     iterate(const Try                 &next,
             const bool                 elastic_first,
             const std::vector<Mandel> &start_of_s,
             const StepWorkspace       &work) const;
 
-    /** Lag continuation by a line of the plan, from the iterate.
+    /** Performs the lag continuation of one attempt of the plan from the
+     *  current iterate.
      *  @param accepted_excess see Hints */
     void
     continue_from_lag(const Try           &next,

@@ -13,7 +13,7 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Formulation of a step, a value of 'Newton/Formulation'. */
+  /** Formulation of the problem of a step, a value of 'Newton/Formulation'. */
   enum class Formulation
   {
     automatic,
@@ -31,19 +31,19 @@ namespace geocone::GEOCONE_DIM
     merit_search,
     lag_continuation,
     none,
-    explicit_friction ///< no word: the solution with explicit friction is the start
+    explicit_friction ///< no parameter value: starts from explicit friction
   };
 
-  /** Law of contact in an iteration. */
+  /** Treatment of the contact law in a Newton iteration. */
   enum class ContactLaw
   {
-    linearised, ///< with the rest of the step
+    linearised, ///< linearised, as the rest of the step
     without_friction,
     bilateral, ///< active contacts stay closed
-    exact      ///< solved by ContactDirection for each direction
+    exact      ///< solved exactly in each ContactDirection
   };
 
-  /** A Newton iteration, as a line of a plan. */
+  /** Attempt at solving a step by a Newton iteration; a line of a plan. */
   struct Try
   {
     static constexpr unsigned int unlimited =
@@ -51,51 +51,52 @@ namespace geocone::GEOCONE_DIM
 
     enum class Start
     {
-      of_step,        ///< velocities of t_n, or the first iterate
-      iterate,        ///< of the previous attempt, if finite
-      flowing_iterate ///< the same if points yield there
+      of_step,        ///< velocities at t_n, or the first iterate
+      iterate,        ///< last of the previous attempt, if finite
+      flowing_iterate ///< as iterate, if points yield there
     };
 
     GlobalisationMethod globalisation = GlobalisationMethod::line_search;
-    bool                natural_map   = false; ///< or the return map
-    unsigned int        iterations   = 60; ///< allowed; for a lag path in total
-    unsigned int        with_one_lag = 0;  ///< allowed, of the lag continuation
+    bool                natural_map   = false; ///< if false, return map
+    unsigned int        iterations    = 60; ///< maximum; of a lag path in total
+    unsigned int        with_one_lag  = 0;  ///< maximum per lag of a lag path
 
     ContactLaw contact = ContactLaw::linearised;
     Start      start   = Start::of_step;
 
-    unsigned int iterations_without_flow =
-      unlimited;                                ///< only contact is nonlinear
-    unsigned int iterations_if_far = unlimited; ///< NewtonLoop::far
+    unsigned int iterations_without_flow = unlimited; ///< if no point yields
+    unsigned int iterations_if_far = unlimited; ///< if above NewtonLoop::far
 
-    bool prepares = false; ///< only provides the start of the next one
-    bool is_rough = false; ///< only up to NewtonLoop::near
-    /** Uses the elastic tangent first, if the time stepper hints at it. */
+    bool prepares = false; ///< provides the next initial guess
+    bool is_rough = false; ///< only to residual NewtonLoop::near
+    /** Uses the elastic tangent in the first iteration, if the hints of the
+     *  time stepper request it. */
     bool elastic_first = true;
   };
 
-  /** Parameters on which a plan depends. */
+  /** User parameters that determine a plan. */
   struct PlanOptions
   {
     Formulation         formulation   = Formulation::automatic;
     GlobalisationMethod globalisation = GlobalisationMethod::automatic;
-    /** Maximum number of iterations of each attempt; 0: that of the plan. */
+    /** Maximum number of iterations of each attempt; 0: default of the plan. */
     unsigned int max_iterations = 0;
   };
 
   /**
-   * Attempts at a step in order; the first that converges completes the step,
-   * unless it only provides the initial guess of the next. A pure function. For
-   * theta >= phi/2 the return map with the line search is tried first.
-   * Otherwise, or if it fails, the natural map with the elastic blend follows:
-   * its stresses satisfy the law at the end only, which avoids cycles of points
-   * between modes. For non-associated flow the lag continuation is the last.
-   * doc/performance.md compares them.
+   * Sequence of attempts at solving a step. The first converged attempt
+   * completes the step, unless the attempt only provides the initial guess of
+   * the next. A pure function. For theta >= phi/2 the return map with the line
+   * search is tried first. Otherwise, or if it fails, the natural map with the
+   * elastic blend follows: the stresses of the natural map satisfy the law only
+   * at convergence, which prevents points from cycling between modes. For
+   * non-associated flow the lag continuation is the last attempt.
+   * doc/performance.md compares the attempts.
    */
   std::vector<Try>
   plan(const StepTraits &step, const PlanOptions &options = {});
 
-  /** Plans of typical steps, a paragraph each. */
+  /** Description of the plans of typical steps, one paragraph per plan. */
   std::string
   text_of_plans();
 } // namespace geocone::GEOCONE_DIM

@@ -12,42 +12,45 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** A line of the Newton table: a state and the step that led to it. */
+  /** Line of the table of Newton iterations: an iterate and the step that led
+   *  to this iterate. */
   struct NewtonIteration
   {
     double       relative_residual = 0.; ///< norm / force norm
-    double       step_length       = 0.; ///< of the step that led here
-    double       elastic_blend     = 0.; ///< w in its tangent
-    double       friction_lag      = 0.; ///< of the law that was linearised
+    double       step_length       = 0.; ///< of the step to this iterate
+    double       elastic_blend     = 0.; ///< blend w in the tangent of the step
+    double       friction_lag      = 0.; ///< lag of the linearised law
     unsigned int n_cone            = 0;
     unsigned int n_apex            = 0;
     unsigned int n_switched        = 0;
   };
 
-  /** Result of a solve. */
+  /** Result of solving the problem of a step. */
   struct SolverReport
   {
     bool         converged      = false;
-    unsigned int iterations     = 0; ///< linear systems solved, or sweeps
+    unsigned int iterations     = 0; ///< linear solves, or sweeps
     unsigned int factorisations = 0;
-    unsigned int regularised    = 0;  ///< made regular by an elastic blend
-    double       residual       = 0.; ///< relative, at the end
-    double       friction_lag   = 0.; ///< of the law that was solved; 0: exact
+    unsigned int regularised    = 0;  ///< regular by an elastic blend only
+    double       residual       = 0.; ///< relative, of the last iterate
+    double       friction_lag   = 0.; ///< lag of the solved law; 0: exact
 
-    /** InternalForces::excess_share() of the solution, for lagged friction. */
+    /** Share of the plastic work caused by lagged friction,
+     *  InternalForces::excess_share(). */
     double excess_share = 0.;
 
-    /** Whether the law that was solved differs too much from the exact one. */
+    /** Whether the solved law with lagged friction differs too much from the
+     *  exact law. */
     bool exceeds = false;
 
     /** Whether rounding prevents the residual from reaching the tolerance. */
     bool at_rounding_floor = false;
 
     std::vector<NewtonIteration> table;
-    std::string                  reason; ///< of failure
-    std::string                  remedy; ///< if known
+    std::string                  reason; ///< reason of failure
+    std::string                  remedy; ///< remedy, if known
 
-    /** Reads or writes everything except the table, for checkpoints. */
+    /** Reads or writes all members except the table of a checkpoint. */
     void
     state(StateRow &row)
     {
@@ -62,7 +65,7 @@ namespace geocone::GEOCONE_DIM
           at_rounding_floor);
     }
 
-    /** Prepends the report of earlier attempts. */
+    /** Prepends the report of earlier attempts at the same step. */
     void
     add_earlier(const SolverReport &earlier);
   };

@@ -12,7 +12,7 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Data shared by all attempts at a step, and their common operations. */
+  /** Data and operations common to all attempts at solving a step. */
   struct StepWorkspace
   {
     IncrementalProblem  &problem;
@@ -28,9 +28,9 @@ namespace geocone::GEOCONE_DIM
     evaluate(const LocalLaw &law = {}) const;
 
     /**
-     * Adds a line to the table of iterations.
-     * @param length of the step to this state
-     * @param blend in its tangent
+     * Appends a line to the table of iterations.
+     * @param step length that led to this state
+     * @param blend elastic blend in the tangent of the step
      */
     void
     record(const ResidualReport &state,
@@ -39,25 +39,26 @@ namespace geocone::GEOCONE_DIM
            const double          friction_lag) const;
 
     /**
-     * Whether |R_free| <= max(tolerance x force norm, absolute, c N), with N
-     * the estimate InternalForces::rounding_floor() of the rounding error, and
-     * the same for contact nodes relative to their own forces. N counts only if
-     * it is small itself, and is included in the report.
+     * Whether the momentum balance is satisfied: |R_free| <= max(tolerance x
+     * force norm, absolute, c N), with the estimate N of the rounding error,
+     * InternalForces::rounding_floor(); likewise at contact nodes relative to
+     * the contact forces. N is used only if it is small itself, and is
+     * reported.
      */
     bool
     is_balanced(const ResidualReport &state,
                 const double          tolerance,
                 const double          absolute) const;
 
-    /** Reports that R or the law is NaN, with a remedy. */
+    /** Reports a NaN in the residual or in the law, with a remedy. */
     void
     report_not_a_number() const;
 
-    /** Changes of the iterate that the prescribed velocities and H v = q
-     *  require. */
+    /** Increments of the iterate required by the prescribed velocities and by
+     *  the constraints H v = q. */
     struct Jump
     {
-      Vector          prescribed; ///< values at the step's end minus v
+      Vector          prescribed; ///< end values minus v
       Eigen::VectorXd defect;     ///< q - H v
 
       bool
@@ -67,8 +68,8 @@ namespace geocone::GEOCONE_DIM
     jump() const;
 
     /**
-     * Factorises dR/dv with an elastic blend.
-     * @return whether it is regular
+     * Factorises dR/dv with a fraction of elastic stiffness blended in.
+     * @return whether the matrix is regular
      */
     bool
     factorise(const double elastic_blend) const;
@@ -76,8 +77,8 @@ namespace geocone::GEOCONE_DIM
     /**
      * Solves [K -H'; H 0] (dv, dlambda) = (-R - K jump, defect) with the last
      * factorisation.
-     * @param prescribed the jump of the prescribed velocities, or null for none
-     * @param[out] direction dv in all rows
+     * @param prescribed increment of the prescribed velocities, or null if zero
+     * @param[out] direction dv at all degrees of freedom
      */
     void
     solve(const Vector          *prescribed,

@@ -12,50 +12,53 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Accuracy and cost limits of a step. */
+  /** Tolerances and maximum number of iterations for a step. */
   struct StepLimits
   {
     double relative_tolerance = 1e-10; ///< on |R_free|
-    double absolute_tolerance = 1e-12; ///< on |R_free| (N/m)
-    /** Iterations or sweeps; 0: default of the formulation. */
+    double absolute_tolerance = 1e-12; ///< for |R_free| (N/m)
+    /** Maximum number of iterations or sweeps; 0: default of the
+     *  formulation. */
     unsigned int max_iterations = 0;
   };
 
   /**
-   * A formulation of a step with its stresses as the only unknowns, an
-   * alternative in NonsmoothNewton.
+   * Formulation of a step with stresses as the only unknowns, an alternative
+   * within NonsmoothNewton.
    */
   struct StressFormulation
   {
-    const char *name; ///< a word of 'Newton/Formulation'
+    const char *name; ///< value of 'Newton/Formulation'
 
-    /** Rejects problems that it cannot solve. @throws InputError */
+    /** Rejects problems outside the scope of the formulation. @throws
+     *  InputError */
     std::function<void(const IncrementalProblem &problem)> check;
 
     std::function<void(const StepLimits &limits, const StepWorkspace &work)>
       solve;
   };
 
-  /** Iterations for the first iterate of a step. */
+  /** Method that computes the first iterate of a step. */
   struct FirstIterate
   {
-    const char *name; ///< a word of 'Newton/First iterate'
+    const char *name; ///< value of 'Newton/First iterate'
 
-    /** Rejects problems that it does not apply to. @throws InputError */
+    /** Rejects problems outside the scope of the method. @throws InputError */
     std::function<void(const IncrementalProblem &problem)> check;
 
-    /** Changes v. @return the stresses at the iterate (Pa) */
+    /** Computes the first iterate v in the workspace. @return the stresses at v
+     *  (Pa) */
     std::function<std::vector<Mandel>(const unsigned int   n_iterations,
                                       const StepWorkspace &work)>
       make;
   };
 
-  /** Methods in the stresses alone, for a NonsmoothNewton. */
+  /** Methods with stresses as the only unknowns, for a NonsmoothNewton. */
   struct StressMethods
   {
     std::vector<StressFormulation> formulations;
     std::vector<FirstIterate>      first_iterates;
-    std::string                    formulation_help; ///< text on these words
+    std::string                    formulation_help; ///< help on the values
     std::string                    first_iterate_help;
   };
 } // namespace geocone::GEOCONE_DIM
