@@ -14,37 +14,37 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Boundary forces in explicit steps: tractions T on segments of the body,
-   * which move with it, and dashpots on absorbing boundaries of the mesh
+   * Boundary forces in explicit steps: tractions T on boundary segments that
+   * move with the body, and dashpots on absorbing boundaries of the mesh
    * (AbsorbingBoundary). A dashpot uses the mean velocity of the step,
    *   m (v' - v)/dt = f + T + 2 C v_in - C (v + v')/2,
-   * which is stable for steps of any size. The nodes are those of MeshTransfer.
+   * which is unconditionally stable. The nodes of MeshTransfer are used.
    */
   class BoundaryForces
   {
   public:
-    /** @throws InputError for sides that the body or the mesh does not have, or
-     *  that are oblique and absorbing */
+    /** @throws InputError for sides that do not exist in the body or the mesh,
+     *  and for oblique absorbing sides */
     BoundaryForces(const Scene          &scene,
                    const BackgroundMesh &mesh,
                    const Space          &space);
 
-    /** Updates the data after BackgroundMesh::repartition() and
-     *  Space::follow_ranks(). Collective. */
+    /** Redistributes the data over the ranks after
+     *  BackgroundMesh::repartition() and Space::follow_ranks(). Collective. */
     void
     follow_ranks();
 
-    /** Evaluates the boundary forces in the middle of a step, at time t.
+    /** Evaluates the boundary forces at time t, the midpoint of a step.
      *  Collective.
      *  @throws StepFailure if a loaded segment has left the mesh */
     void
     begin_step(const double t);
 
-    /** Adds the tractions to the forces written by the points. */
+    /** Adds the tractions to the nodal forces written by the points. */
     void
     add_tractions(GridTransfer &nodes) const;
 
-    /** Work and impulse of tractions and dashpots in a step, of this rank. */
+    /** Work and impulse of tractions and dashpots on this rank in a step. */
     struct Done
     {
       double                 work = 0.; ///< (J/m)
@@ -52,10 +52,10 @@ namespace geocone::GEOCONE_DIM
     };
 
     /**
-     * Adds the dashpot forces to all other forces, by the velocities that
-     * points will read.
-     * @param least_mass nodes with this mass or less have no velocity
-     * @param is_held per node and component
+     * Adds the dashpot forces to the complete nodal forces and computes the
+     * work from the velocities to be read by the points.
+     * @param least_mass nodes with this mass or less are skipped (kg/m)
+     * @param is_held whether the velocity is prescribed, per node and component
      */
     Done
     add_dashpots(GridTransfer                     &nodes,
@@ -63,11 +63,12 @@ namespace geocone::GEOCONE_DIM
                  const double                      least_mass,
                  const std::vector<unsigned char> &is_held) const;
 
-    /** Moves the loaded segments with the nodes over a step. Collective. */
+    /** Moves the loaded segments with the velocities of the nodes over a step
+     *  dt. Collective. */
     void
     move(const GridTransfer &nodes, const double dt);
 
-    /** Positions of the segments, for a checkpoint. */
+    /** Reads or writes the positions of the segments of a checkpoint. */
     void
     state(StateRow &row)
     {

@@ -26,23 +26,24 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** State of the points at one time, over all ranks. Its reactions are those
-   *  of the ExplicitReport of the step. */
+  /** Global state of the material points at the end of a step of the loading
+   *  programme. Reactions are copied from the ExplicitReport of the step. */
   struct ExplicitState : StepEnd
   {
     unsigned long          n_points = 0;
     double                 mass     = 0.; ///< (kg/m)
     double                 volume   = 0.; ///< (m^2)
     dealii::Tensor<1, dim> momentum;      ///< (N s/m)
-    /** About the axes of n_rotations through the origin. */
+    /** Angular momentum about the axes through the origin (n_rotations). */
     dealii::Tensor<1, n_rotations> angular_momentum;
-    dealii::Point<dim> lower, upper; ///< bounds of the positions (m)
-    /** Positions x to the left of which lie 1 and 99 % of the mass (m). */
+    dealii::Point<dim> lower, upper; ///< bounding box of positions (m)
+    /** Fronts of the body: positions x with 1 % and 99 % of the mass on the
+     *  left (m). */
     double left_front = 0., right_front = 0.;
     double largest_speed = 0.; ///< (m/s)
 
-    /** Point with the fastest elastic wave, which limits the step: its number,
-     *  position and wave speed. */
+    /** Point with the largest elastic wave speed, which limits the time step:
+     *  number, position and wave speed. */
     unsigned int       limiting_id = 0;
     dealii::Point<dim> limiting_place;
     double             limiting_wave_speed = 0.;
@@ -67,7 +68,8 @@ namespace geocone::GEOCONE_DIM
     }
   };
 
-  /** Statistics of the explicit steps between two records. */
+  /** Statistics of the explicit steps within one step of the loading
+   *  programme. */
   struct ExplicitReport
   {
     unsigned int n_steps       = 0;
@@ -76,10 +78,11 @@ namespace geocone::GEOCONE_DIM
     /** Largest unbalanced force of a free node in the last step (N/m). */
     double unbalanced_force = 0.;
 
-    /** Mean force on the body per condition, and mean moment. */
+    /** Mean force and mean moment on the body per boundary condition. */
     std::vector<Reaction> reactions;
 
-    /** Checkpoint data of an incomplete step: without reactions. */
+    /** Reads or writes the statistics of an incomplete step, without
+     *  reactions. */
     void
     state(StateRow &row)
     {
@@ -88,22 +91,23 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * The explicit material point method of the STSM report (section 2): many
-   * small steps, each as long as the elastic wave allows,
+   * Explicit material point method of the STSM report (section 2) with time
+   * steps limited by the elastic wave speed (Courant condition),
    *   dt = C h/(c + v),  c^2 = max M V/m,  v = max |v_p|.
-   * With N at the start of the step, and conditions on the sides of the grid,
-   * the three orders of operations are
+   * With basis functions N at the start of the step and boundary conditions on
+   * the sides of the grid, the three orders of operations are
    *   MUSL: a = F/m; v_p += dt sum N a; v = sum m_p v_p N/m; stress; x_p += dt
    *         sum N v   (the report's eleven steps);
    *   USL:  a = F/m; v = sum m_p v_p N/m + dt a; v_p += dt sum N a; stress; x_p;
    *   USF:  v = sum m_p v_p N/m; stress; a = F/m; v_p += dt sum N a; x_p.
-   * The mass of a node is a divisor only in bounded quotients or if the
+   * Division by a nodal mass occurs only in bounded quotients, or if the
    * quotient is multiplied by N again. Nodes with less than 1e-14 of the
-   * largest point's mass are skipped and counted.
+   * largest point mass are skipped and counted.
    *
-   * Passes over the points process blocks that stay in cache, with the points
-   * occasionally sorted by cell. Each step writes the data for the next in its
-   * last pass: USL makes one pass per step, the others two.
+   * Passes over the points process blocks of points that fit into the cache;
+   * the points are occasionally sorted by cell. The last pass of a step also
+   * scatters the data of the next step: USL requires one pass per step, MUSL
+   * and USF two.
    */
   class ExplicitMPM : public dealii::ParameterAcceptor
   {
@@ -111,23 +115,24 @@ namespace geocone::GEOCONE_DIM
     ExplicitMPM(const MPI_Comm comm, const ParameterFile &file);
 
     /**
-     * Seeds the body.
-     * @return remarks on findings and changes
+     * Seeds the material points of the body.
+     * @return remarks on the scene and on changed parameters
      * @throws InputError
      */
     std::vector<std::string>
     prepare(const Scene &scene, const Method &method);
 
     /**
-     * Begins a stage: resets quantities and selects points to be removed.
+     * Begins a stage: resets displacements and other accumulated quantities,
+     * and selects the points to be removed.
      * @return remarks
-     * @throws StepFailure if it removes no point, or all of them
+     * @throws StepFailure if the stage removes no point, or all points
      */
     std::vector<std::string>
     begin_stage(const Stage &stage, const double t);
 
     /**
-     * Advances from t, or from where it was stopped, to t + h.
+     * Advances from t, or from the time of an interruption, to t + h.
      * @throws Stopped, at the end of an explicit step
      * @throws StepFailure if points leave the grid, volumes vanish, values are
      * not finite, or a prescribed step is unstable
@@ -135,7 +140,8 @@ namespace geocone::GEOCONE_DIM
     ExplicitReport
     advance(const Stage &stage, const double t, const double h);
 
-    /** @throws StepFailure if a stage that must end in equilibrium does not */
+    /** @throws StepFailure if a stage required to end in equilibrium does
+     *  not */
     void
     check_equilibrium(const Stage          &stage,
                       const ExplicitState  &state,
@@ -151,7 +157,7 @@ namespace geocone::GEOCONE_DIM
     law_counts() const;
     /** @} */
 
-    /** Points of this rank, a group per material. */
+    /** Points of this rank, one group per material. */
     const std::vector<PointArrays> &
     points() const
     {
@@ -180,20 +186,20 @@ namespace geocone::GEOCONE_DIM
       return space.element();
     }
 
-    /** Name of the order of operations. */
+    /** Order of operations by name: MUSL, USL or USF. */
     std::string
     order_name() const
     {
       return order.word();
     }
 
-    /** @name State, as part of a checkpoint. Collective. */
+    /** @name State of the method as part of a checkpoint. Collective. */
     /** @{ */
     void
     save(Archive &archive);
 
-    /** Replaces the points seeded by prepare().
-     *  @throws RunError if it does not fit */
+    /** Replaces the points seeded by prepare() by the points of a checkpoint.
+     *  @throws RunError if the checkpoint does not match the scene */
     void
     load(const Archive &archive);
     /** @} */
@@ -202,7 +208,7 @@ namespace geocone::GEOCONE_DIM
     std::size_t
     memory() const;
 
-    /** Wall time of the parts of the steps in seconds. */
+    /** Wall time of the phases of the explicit steps (s). */
     struct Seconds
     {
       double passes = 0., grid = 0., exchange = 0., refresh = 0.;
@@ -213,12 +219,12 @@ namespace geocone::GEOCONE_DIM
       return clock;
     }
 
-    /** Number of explicit steps, and of points times steps, since the start on
-     *  this rank. */
+    /** Number of explicit steps since the start, and number of point updates
+     *  (points times steps) of this rank. */
     unsigned long n_steps       = 0;
     double        n_point_steps = 0.;
 
-    /** Background mesh, and seeding of the points. */
+    /** Access to the background mesh and to the seeding of the points. */
     BackgroundMesh &
     background_mesh()
     {
@@ -238,7 +244,7 @@ namespace geocone::GEOCONE_DIM
       usf
     };
 
-    /** Data transferred to the nodes in a pass. */
+    /** Data scattered from the points to the nodes in a pass. */
     enum class Gives
     {
       nothing,
@@ -251,28 +257,30 @@ namespace geocone::GEOCONE_DIM
     void
     check_parameters() const;
 
-    /** Creates the transfer (on a uniform grid if possible and if no forces act
-     *  on sides, otherwise on a mesh) and its points. */
+    /** Creates the transfer and the points: on a uniform grid if possible and
+     *  without boundary forces, otherwise on a mesh. */
     void
     make_transfer(const Method &method, std::vector<std::string> &remarks);
 
-    /** Seeds the points of a uniform grid on the ranks that own their
-     *  positions. */
+    /** Seeds the points on a uniform grid; each point is created on the rank
+     *  that owns its position. */
     void
     seed_columns(const CartesianGrid &grid, std::vector<std::string> &remarks);
 
-    /** Allocates points of a material. */
+    /** Creates an empty group of points of a material. */
     PointArrays
     make_group(const unsigned int material) const;
 
-    /** Creates the points. @param n their numbers on this rank by material
-     *  @param for_each calls its argument with each seed of this rank */
+    /** Creates the points of this rank from the seeds. @param n number of
+     *  points per material
+     *  @param for_each calls a function for each seed of this rank */
     void
     seed_points(const std::vector<std::size_t>                   &n,
                 const std::function<void(const Seeding::Take &)> &for_each,
                 std::vector<std::string>                         &remarks);
 
-    /** Removes points by a stage, or begins their removal. */
+    /** Removes the points selected by a stage, or starts to ramp down their
+     *  mass. */
     std::string
     remove_points(const Stage &stage, const double t);
 
@@ -282,13 +290,13 @@ namespace geocone::GEOCONE_DIM
     TransferBlock
     block(const unsigned int group, const unsigned int first);
 
-    /** A pass over all points, which gather from the nodes and scatter to
-     *  them. */
+    /** Performs a pass over all points: gathers from the nodes, updates the
+     *  points and scatters to the nodes. */
     void
     pass(const Update update, const Gives gives, const double dt);
 
-    /** Gathers velocities and strains from the nodes for a block of points, and
-     *  updates stresses and positions. */
+    /** Gathers velocities and strain increments from the nodes for a block of
+     *  points; updates stresses and positions. */
     void
     take(const Update update, const double dt, const TransferBlock &points);
     void
@@ -296,8 +304,8 @@ namespace geocone::GEOCONE_DIM
                const double         dt,
                const TransferBlock &points);
 
-    /** Updates the bounds of positions, and treats points outside the stored
-     *  nodes. */
+    /** Updates the bounding box of the positions and treats points outside the
+     *  region of stored nodes. */
     void
     bound_positions(const TransferBlock &points);
 
@@ -310,7 +318,8 @@ namespace geocone::GEOCONE_DIM
 
     /** @name B-bar */
     /** @{ */
-    /** Averages values of points over the cells. Collective. */
+    /** Averages point values over the points of each cell, weighted by volume.
+     *  Collective. */
     void
     average_in_cells(
       const std::function<const double *(const TransferBlock &)> &values_at);
@@ -320,8 +329,8 @@ namespace geocone::GEOCONE_DIM
     find_mean_stress(const TransferBlock &points);
     /** @} */
 
-    /** @name Axisymmetric: hoop strain, in a pass after points may have moved,
-     *  and the force of the hoop stress */
+    /** @name Axisymmetry: hoop strain increment (the points may have moved in
+     *  the pass) and force of the hoop stress */
     /** @{ */
     /** Hoop strain rate v_r/r at a point of a block, from the gathered velocity
      *  (1/s). */
@@ -336,36 +345,38 @@ namespace geocone::GEOCONE_DIM
     force_around_axis(const TransferBlock &points);
     /** @} */
 
-    /** Reduces mass and volume of a block of points that are being removed. */
+    /** Reduces mass and volume of the points of a block that are being removed
+     *  gradually. */
     void
     fade_points(const TransferBlock &points);
 
-    /** Message that a point has left the mesh. */
+    /** Error message for a point that has left the mesh. */
     std::string
     has_left(const PointArrays &group, const unsigned int p) const;
 
-    /** Treats points that have left the stored nodes. */
+    /** Treats points that have left the region of stored nodes. */
     void
     mend_positions(const TransferBlock &points);
 
-    /** Whether the scene has tractions or absorbing boundaries: then points are
-     *  located in the cells of a mesh with sides. */
+    /** Whether the scene has tractions or absorbing boundaries, which require a
+     *  transfer on a mesh with boundary segments. */
     bool
     acts_on_sides() const;
 
-    /** Transfers the points to the nodes at the start of a step. */
+    /** Scatters the data of the points to the nodes at the start of a step. */
     void
     start_nodes();
 
-    /** Performs an explicit step. @param measures_force whether to compute the
-     *  unbalanced force */
+    /** Performs one explicit step of size dt. @param measures_force whether to
+     *  compute the unbalanced force */
     void
     step(const Stage &stage,
          const double t,
          const double dt,
          const bool   measures_force);
 
-    /** Refreshes the transfer and the nodal values at the start of a step. */
+    /** Sorts the points by cell and recomputes the nodal values at the start of
+     *  a step. */
     void
     refresh();
 
@@ -373,28 +384,30 @@ namespace geocone::GEOCONE_DIM
     double
     current_mass() const;
 
-    /** Position with the given mass on its left (m), within a range. */
+    /** Position x with the given mass on the left (m), searched between left
+     *  and right. */
     double
     mass_quantile(const double wanted, double left, double right) const;
 
-    /** Largest stable step, for Courant number 1 (s). */
+    /** Critical time step, Courant number 1 (s). */
     double
     stability_limit() const;
 
     void
     stop_at_peak();
 
-    /** Sets the velocity of all points to zero, and adds the kinetic energy to
-     *  that removed by kinetic damping. */
+    /** Sets the velocity of all points to zero and adds their kinetic energy to
+     *  Exchange::stopped_energy. */
     void
     stop_points();
 
-    /** Sums the results of the last pass over all ranks; decides whether to
-     *  refresh. */
+    /** Reduces the results of the last pass over all ranks and decides whether
+     *  a refresh is necessary. */
     void
     gather_sums();
 
-    /** Counts a point as removed and sets its mass to zero. */
+    /** Sets the mass of a point to zero and adds mass, momentum and energy to
+     *  the removed totals. */
     void
     take_away(PointArrays &group, const unsigned int p);
 
@@ -405,7 +418,7 @@ namespace geocone::GEOCONE_DIM
     double
     kinetic_energy(const PointArrays &group, const unsigned int p) const;
 
-    /** As Geometry::unit(). */
+    /** Unit of a quantity in the scene, by Geometry::unit(). */
     std::string
     unit(const std::string &in_plane_strain) const
     {
@@ -437,28 +450,28 @@ namespace geocone::GEOCONE_DIM
     bool                            axisymmetric = false;
     const TransferKernels          *kernels      = nullptr;
     std::unique_ptr<GridTransfer>   transfer;
-    std::unique_ptr<BoundaryForces> boundary; ///< or null
+    std::unique_ptr<BoundaryForces> boundary; ///< boundary forces, or null
     std::unique_ptr<NodalUpdate>    nodes;
     std::vector<PointArrays>        groups;
     BlockScratch                    scratch = {};
-    std::vector<double *>           history;       ///< pointers for the law
-    std::vector<double>             point_history; ///< of one point
+    std::vector<double *>           history;       ///< arrays passed to the law
+    std::vector<double>             point_history; ///< history of one point
 
     dealii::Point<dim>     datum;
-    dealii::Tensor<1, dim> gravity; ///< in the last step
+    dealii::Tensor<1, dim> gravity; ///< of the last step (m/s^2)
     double                 least_mass   = 0.;
-    double                 body_mass    = 0.; ///< of this rank's points (kg/m)
-    double                 hoop_force   = 0.; ///< last one, of this rank (N)
+    double                 body_mass    = 0.; ///< mass of this rank (kg/m)
+    double                 hoop_force   = 0.; ///< last force, this rank (N)
     double                 least_radius = 0.;
-    double                 fade         = 1.; ///< of the last pass of this step
+    double                 fade         = 1.; ///< mass ratio, last pass
     double                 fade_end     = 0.;
     double                 last_step    = 0.;
-    PassSums     sums; ///< of the last pass; after gather_sums() of all
-    bool         must_refresh  = true;
-    unsigned int since_refresh = 0;
-    bool         some_left     = false; ///< some points have no mass
-    int          asked_to_stop = 0;     ///< signal, after gather_sums()
-    std::string  obstacle;              ///< error of this rank
+    PassSums               sums; ///< last pass; global after gather_sums()
+    bool                   must_refresh  = true;
+    unsigned int           since_refresh = 0;
+    bool                   some_left     = false; ///< points without mass exist
+    int         asked_to_stop = 0; ///< signal or 0, after gather_sums()
+    std::string obstacle;          ///< error message of this rank
 
     /** Progress within a step of the loading programme. */
     struct Progress
@@ -469,24 +482,26 @@ namespace geocone::GEOCONE_DIM
     };
     Progress progress;
 
-    /** Points of a checkpoint for this rank. Collective. */
+    /** Values of a checkpoint for the points of this rank. Collective. */
     std::vector<double>
     points_of_rank(const Archive     &archive,
                    const std::string &name,
                    const std::size_t  size) const;
 
-    /** All numbers of the state except the points. */
+    /** Reads or writes the checkpoint data other than points: per rank, and
+     *  common to all ranks. */
     void
     state_of_ranks(StateRow &row);
     void
     state_of_all(StateRow &row);
 
-    /** Kinetic damping: kinetic energy of the previous steps. */
+    /** Kinetic damping: kinetic energy of the previous step, and whether the
+     *  energy increases. */
     double energy_n = 0.;
     bool   rising   = false;
 
     Exchange  sum;
-    Exchange  stage_start; ///< over all ranks
+    Exchange  stage_start; ///< sum at the start, global
     LawCounts counts;
     Seconds   clock;
   };

@@ -15,14 +15,15 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Momentum, energy and mass exchanged by the body since the start: sums over
-   * all explicit steps, over all ranks after ExplicitMPM::exchange().
+   * Momentum, energy and mass exchanged between the body and the environment:
+   * sums over all explicit steps since the start; global sums are returned by
+   * ExplicitMPM::exchange().
    */
   struct Exchange
   {
-    double stress_work  = 0.; ///< sum of s : de V (J/m)
-    double gravity_work = 0.; ///< sum of m g dx (J/m)
-    double damping_work = 0.; ///< taken by local damping (J/m)
+    double stress_work  = 0.; ///< stress work, sum of s : de V (J/m)
+    double gravity_work = 0.; ///< work of gravity, sum of m g dx (J/m)
+    double damping_work = 0.; ///< dissipated by local damping (J/m)
     /** Work of prescribed velocities, tractions and absorbing boundaries
      *  (J/m). */
     double support_work = 0.;
@@ -30,16 +31,17 @@ namespace geocone::GEOCONE_DIM
     /** Impulse of gravity, damping and the supports (N s/m). */
     dealii::Tensor<1, dim> impulse;
 
-    /** Removed points (Stage::removes()), or points that left the grid. */
+    /** Mass, momentum and energy of points removed by a stage
+     *  (Stage::removes()) or that left the grid. */
     double                 removed_mass = 0.;      ///< (kg/m)
     dealii::Tensor<1, dim> removed_momentum;       ///< (N s/m)
     double                 removed_energy    = 0.; ///< kinetic (J/m)
     double                 removed_potential = 0.; ///< from the lower corner
 
-    /** Kinetic energy set to zero by kinetic damping (J/m). */
+    /** Kinetic energy removed by kinetic damping (J/m). */
     double stopped_energy = 0.;
 
-    unsigned long small_masses = 0; ///< nodes skipped as massless
+    unsigned long small_masses = 0; ///< nodes skipped, mass too small
 
     void
     state(StateRow &row)
@@ -59,19 +61,20 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Explicit step at the nodes: computes velocities and their changes, which
-   * the points read, from momentum, force and mass, which they write; with
-   * gravity, local damping and prescribed velocities. Clears its input.
+   * Explicit step at the nodes: computes velocities and velocity increments,
+   * read by the points, from momentum, force and mass, written by the points.
+   * Includes gravity, local damping and prescribed velocities. Sets the input
+   * to zero.
    */
   class NodalUpdate
   {
   public:
     /**
-     * @param flip_part FLIP part of the points' velocity, which determines the
-     * momentum that they receive from conditions
+     * @param flip_part FLIP fraction in the velocity update of the points,
+     * which determines the momentum received from prescribed velocities
      * @param least_mass nodes with this mass or less are skipped (kg/m)
-     * @param boundary forces on sides, or null
-     * @param sum to which impulses and works of this rank are added
+     * @param boundary boundary forces, or null
+     * @param sum totals to which the impulses and work of this rank are added
      */
     NodalUpdate(GridTransfer             &transfer,
                 const BoundaryConditions &conditions,
@@ -80,7 +83,7 @@ namespace geocone::GEOCONE_DIM
                 const BoundaryForces     *boundary,
                 Exchange                 &sum);
 
-    /** Data of a step at the nodes. */
+    /** Parameters of an explicit step at the nodes. */
     struct Step
     {
       double                 t, dt; ///< (s)
@@ -89,45 +92,47 @@ namespace geocone::GEOCONE_DIM
       bool                   measures_force; ///< for unbalanced_force()
     };
 
-    /** Marks prescribed components; must be called after
+    /** Marks velocity components with prescribed values. Must be called after
      *  GridTransfer::sort(). */
     void
     mark_held();
 
-    /** Computes the velocity before the step, v = p/m, with conditions at t;
-     *  keeps the masses. */
+    /** Computes the velocity before the step, v = p/m, with prescribed
+     *  velocities at t; retains the nodal masses. */
     void
     velocity_before(const double t);
 
-    /** Computes the velocity from the points' new momentum, with conditions at
-     *  the end of the step, for the motion of the points. */
+    /** Computes the nodal velocity for the motion of the points from their
+     *  updated momentum, with prescribed velocities at the end of the step. */
     void
     velocity_after(const Step &step);
 
     /**
-     * Computes the velocity at the end of the step and its change from the
-     * forces.
-     * @param velocity_is_read whether `read` holds the velocity before it,
-     * rather than `write` the momentum
-     * @param moves whether the points are moved with it
+     * Computes the nodal velocity at the end of the step and the velocity
+     * increment from the nodal forces.
+     * @param velocity_is_read whether `read` contains the velocity before the
+     * step; otherwise `write` contains the momentum
+     * @param moves whether the points move with the computed velocity
      */
     void
     accelerate(const Step &step, const bool velocity_is_read, const bool moves);
 
-    /** Largest force on a free component of a node of this rank, before
-     *  damping, at its last evaluation (N/m). */
+    /** Largest unbalanced force on a free nodal component of this rank, before
+     *  damping, when last computed (N/m). */
     double
     unbalanced_force() const
     {
       return unbalanced;
     }
 
-    /** Impulses of this rank per condition since the last call (N s/m), and
-     *  their moments about GridTransfer::centres (N m s/m). */
+    /** Returns the support impulses of this rank per boundary condition since
+     *  the last call (N s/m), with moments about GridTransfer::centres (N m
+     *  s/m). */
     std::vector<Reaction>
     take_support_impulses();
 
-    /** Sums of this rank since then, for a checkpoint. */
+    /** Reads or writes the support impulses and the unbalanced force of this
+     *  rank in a checkpoint. */
     void
     state(StateRow &row)
     {
@@ -137,41 +142,45 @@ namespace geocone::GEOCONE_DIM
     }
 
   private:
-    /** Nodal force written by the points (N/m). */
+    /** Component of the nodal force written by the points (N/m). */
     double &
     force_at(const unsigned int node, const unsigned int component)
     {
       return transfer.write[node_size * node + change_of_node + component];
     }
 
-    /** Sets read = write/mass, and no change. */
+    /** Sets the velocity to read = write/mass and the velocity increment to
+     *  zero. */
     void
     divide_momentum();
 
     double
     prescribed_velocity(const PrescribedNode &node, const double t) const;
 
-    /** Sets the prescribed velocities; the reaction is the momentum transferred
-     *  to the points beyond the forces. */
+    /** Imposes the prescribed velocities. The reaction is the momentum
+     *  transferred to the points in excess of the momentum due to the nodal
+     *  forces. */
     void
     hold_prescribed(const Step &step);
 
-    /** Adds an impulse to the condition of a node. */
+    /** Adds a nodal impulse to the reaction of the boundary condition at the
+     *  node. */
     void
     add_impulse(const PrescribedNode &node, const double impulse);
 
-    /** Adds the work of gravity on points that move by `read`. */
+    /** Adds the work of gravity on points that move with the velocities in
+     *  `read`. */
     void
     count_gravity_work(const Step &step);
 
     void
     measure_unbalanced_force();
 
-    /** Adds local damping to the forces in write. */
+    /** Adds local damping forces to the forces in `write`. */
     void
     damp(const Step &step);
 
-    /** Clears write, and mass unless it is kept. */
+    /** Sets `write` to zero, and `mass` as well unless keep_mass. */
     void
     clear(const bool keep_mass);
 
@@ -181,7 +190,7 @@ namespace geocone::GEOCONE_DIM
     const BoundaryForces     *boundary;
     Exchange                 &sum;
 
-    /** A nodal component with prescribed velocity in this step. */
+    /** Velocity component of a node that is prescribed in the current step. */
     struct Held
     {
       unsigned int node, component;
@@ -189,7 +198,7 @@ namespace geocone::GEOCONE_DIM
     };
     std::vector<Held>          held;
     std::vector<unsigned char> is_held;         ///< per node and component
-    std::vector<Reaction>      support_impulse; ///< per condition
+    std::vector<Reaction>      support_impulse; ///< per boundary condition
     double                     unbalanced = 0.;
   };
 } // namespace geocone::GEOCONE_DIM
