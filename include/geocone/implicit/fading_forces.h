@@ -13,11 +13,13 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Ramps the change of nodal forces caused by a change of the body linearly
-   * over a time T: with n = F - sum V B's before and after the change,
+   * Ramped nodal forces after a change of the body: the change of the nodal
+   * forces is applied linearly over a time T. With n = F - sum V B's before and
+   * after the change,
    *   F(t) += (n_before - n_after) (1 - (t - t_0)/T),   t_0 <= t <= t_0 + T.
-   * For removed material these are the forces that it exerted, its weight and
-   * its support of the rest; for added material, minus its weight.
+   * For removed material, the ramped forces are its weight and the forces by
+   * which it supported the remaining body; for added material, minus the weight
+   * of the added material.
    */
   class FadingForces
   {
@@ -26,11 +28,11 @@ namespace geocone::GEOCONE_DIM
     void
     add(Vector difference, const double begin, const double duration);
 
-    /** Adds the remaining forces at time t. */
+    /** Adds the ramped forces at time t to the nodal forces. */
     void
     add_to(Vector &force, const double t) const;
 
-    /** @name State, as part of a checkpoint. Collective. */
+    /** @name State of the ramped forces as part of a checkpoint. Collective. */
     /** @{ */
     void
     save(Archive              &archive,

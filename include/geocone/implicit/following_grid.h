@@ -10,33 +10,33 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * A tensor grid that follows a moving boundary segment: its lines move
-   * between steps, while the state is stored on the points only. Along each
-   * axis, the lines at the segment move with it, and the others are stretched
-   * or compressed between the segment and the ends of the grid, which are
-   * fixed:
+   * Tensor-product grid that follows a moving boundary segment: the grid lines
+   * move between steps, while the state is stored at the material points only.
+   * Along each axis, the lines at the segment move with the segment; the other
+   * lines are stretched or compressed between the segment and the fixed ends of
+   * the grid:
    *   x_l = b + (x_l^0 - b) (s - b)/(s^0 - b)
    * for a line below the segment, with the end b of the grid and the initial
    * and current positions s^0 and s of the segment; above likewise. The lines
-   * depend on the position of the segment only: the grid has no history.
+   * depend only on the current position of the segment, not on the history.
    */
   class FollowingGrid
   {
   public:
-    /** @throws InputError for a mesh that is no grid, or a condition without a
-     *  moving segment */
+    /** @throws InputError for a mesh that is not a tensor-product grid, or a
+     *  boundary condition without a moving segment */
     FollowingGrid(const std::string      &condition,
                   const Scene            &scene,
                   const MovingConditions &sides,
                   BackgroundMesh         &mesh,
                   Space                  &space);
 
-    /** Moves the lines with the segment. @throws StepFailure at the end of the
-     *  grid */
+    /** Moves the grid lines with the segment. @throws StepFailure if the
+     *  segment reaches the end of the grid */
     void
     follow(const MovingConditions &sides);
 
-    /** Name of the parameter. */
+    /** Name of the parameter that selects the boundary condition. */
     static constexpr const char *parameter =
       "Material point method/Grid follows";
 

@@ -10,8 +10,8 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Implicit steps of the finite element method with fixed quadrature points
-   * (small strains).
+   * Implicit time stepping of the finite element method with fixed quadrature
+   * points (small strains).
    */
   class ImplicitFEM : public ImplicitStepper, public dealii::ParameterAcceptor
   {
@@ -47,7 +47,8 @@ namespace geocone::GEOCONE_DIM
     void
     take_points(const Archive &archive, MaterialPoints &points) override;
 
-    /** Rejects a scene in which no stress can arise. Collective. */
+    /** Rejects a scene without any resistance, in which no stress can develop.
+     *  Collective. */
     void
     check_resistance(const MaterialPoints &points, const MPI_Comm comm) const;
 
@@ -108,7 +109,8 @@ namespace geocone::GEOCONE_DIM
                  Kinematics              &kinematics,
                  Vector                  &difference) const override;
 
-    /** Removes the points outside these cells and creates the missing ones. */
+    /** Removes points outside the given cells and creates points in given cells
+     *  without points. */
     void
     take_cells(const std::vector<bool> &is_there, MaterialPoints &points) const;
 

@@ -16,18 +16,18 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * The implicit material point method. In a step the particles transfer mass
-   * and momentum to the nodes of the background mesh,
+   * Implicit material point method. In a step the particles transfer mass and
+   * momentum to the nodes of the background mesh,
    *   m_i = sum_p m_p N_i,   vL_i = sum_p m_p v_p N_i / m_i,
    * the incremental problem is solved for the velocities v of the nodes, and
    * the particles are updated by
    *   v_p += sum_i N_i (v_i - vL_i)   (FLIP),   x_p += h sum_i N_i v_i,
    *   V_p *= det(I + h grad v),
-   * while their stress is rotated by the spin h curl(v)/2. Then they are sorted
-   * into cells again, and the mesh is reset.
+   * and the particle stresses are rotated by the spin h curl(v)/2. Then the
+   * particles are sorted into cells again, and the mesh is reset.
    *
-   * Options: PIC and APIC instead of FLIP, advection with the velocity of the
-   * particle, a partly consistent mass, and the time integration of
+   * Options: PIC and APIC instead of FLIP, advection with the particle
+   * velocity, a partly consistent mass matrix, and the schemes of
    * TimeIntegration.
    */
   class ImplicitMPM : public ImplicitStepper, public dealii::ParameterAcceptor
@@ -84,7 +84,7 @@ namespace geocone::GEOCONE_DIM
       return balance.n_repartitions();
     }
 
-    /** Seeding of its particles. */
+    /** Seeding of the particles. */
     Seeding &
     seeding()
     {
@@ -98,12 +98,12 @@ namespace geocone::GEOCONE_DIM
     /** Initial guess of Newton's method. */
     enum class Start
     {
-      automatic, ///< both, one after the other
-      nodes,     ///< the velocities of the nodes after the last step
+      automatic, ///< both, tried in turn
+      nodes,     ///< nodal velocities after the last step
       particles  ///< vL, with the elastic tangent first
     };
 
-    /** Velocity by which particles move. */
+    /** Velocity that advects the particles. */
     enum class Advection
     {
       grid_velocity,
@@ -111,40 +111,42 @@ namespace geocone::GEOCONE_DIM
       none
     };
 
-    /** A particle after the step. */
+    /** Trial state of a particle at the end of the step. */
     struct Moved
     {
       dealii::Point<dim>             position;
-      dealii::Tensor<1, dim>         displacement; ///< of the step
+      dealii::Tensor<1, dim>         displacement; ///< in the step (m)
       dealii::Tensor<1, dim>         velocity;
       dealii::Tensor<2, dim>         affine;
       double                         volume;
       dealii::Tensor<1, n_rotations> spin; ///< angles of rotation (rad)
     };
 
-    /** Sets up the data that depend on the distribution of cells over ranks.
+    /** Allocates the data that depend on the distribution of cells over ranks.
      *  Collective. */
     void
     set_up(const NonsmoothNewton &newton);
 
-    /** Whether the imbalance of the numbers of points on the ranks exceeds the
-     *  tolerance. Collective. */
+    /** Whether the load imbalance (points per rank) exceeds the tolerance.
+     *  Collective. */
     bool
     is_unbalanced(const MaterialPoints &points) const;
 
-    /** Redistributes cells between the ranks; must be followed by set_up().
+    /** Redistributes the cells over the ranks. Must be followed by set_up().
      *  Collective. */
     void
     hand_over(MaterialPoints &points);
 
-    /** Redistributes cells during a run, including all state. Collective. */
+    /** Redistributes the cells and all state over the ranks during a run.
+     *  Collective. */
     void
     hand_over_state(const NonsmoothNewton &newton,
                     dealii::TimerOutput   &timer,
                     Kinematics            &kinematics,
                     MaterialPoints        &points);
 
-    /** @name State of nodes, boundary segments and obstacles. Collective. */
+    /** @name State of nodes, boundary segments and obstacles as part of a
+     *  checkpoint. Collective. */
     /** @{ */
     void
     save_grid(Archive &archive) const;
@@ -158,7 +160,7 @@ namespace geocone::GEOCONE_DIM
     void
     begin(MaterialPoints &points, dealii::TimerOutput &timer) override;
 
-    /** Stencils of ghost stiffness for the present points. Collective. */
+    /** Stencils of the ghost stiffness for the current points. Collective. */
     std::vector<GhostStencil>
     ghost_stencils(const MaterialPoints &points);
 
@@ -166,7 +168,7 @@ namespace geocone::GEOCONE_DIM
     void
     begin_to_follow();
 
-    /** Moves the grid with its segment. Collective. */
+    /** Moves the grid with the boundary segment that it follows. Collective. */
     void
     follow_side();
 
@@ -180,7 +182,8 @@ namespace geocone::GEOCONE_DIM
     void
     check_bodies() const;
 
-    /** Reason for rejection of a solved step, or empty. */
+    /** Reason for rejection of a solved step because of low-mass functions, or
+     *  empty. */
     std::string
     rejection(const Multipliers::LightShare &share) const;
 
@@ -197,7 +200,7 @@ namespace geocone::GEOCONE_DIM
                    const Stage          *stage,
                    const bool            raised) override;
 
-    /** Adds the hydrostatic forces of water on the soil. Collective. */
+    /** Adds the hydrostatic forces of water on the soil to dst. Collective. */
     void
     add_water(const MaterialPoints &points, const double t, Vector &dst) const;
 
@@ -235,9 +238,9 @@ namespace geocone::GEOCONE_DIM
       return scene->gravity.at(t);
     }
 
-    /** External work. Fixed particles keep their potential energy, whatever
-     *  moves the nodes: as in FEM, their weight is an external force. Changing
-     *  gravity does work on points at rest. */
+    /** External work in a step (J/m). The potential energy of fixed particles
+     *  does not change with the motion of the nodes: as in FEM, the weight is
+     *  an external force. A change of gravity does work on points at rest. */
     double
     external_work(const WorksOnNodes   &works,
                   const TimeStep       &step,
@@ -274,12 +277,14 @@ namespace geocone::GEOCONE_DIM
                  Kinematics              &kinematics,
                  Vector                  &difference) const override;
 
-    /** Computes vL from momentum with the partly consistent mass. */
+    /** Computes vL from the nodal momentum with the partly consistent mass
+     *  matrix. */
     void
     solve_mass(Vector &velocity) const;
 
-    /** Reason for rejection of the move of a particle to trial.moved, or empty.
-     *  @param ratio of its volumes @param extent of its cell (m) */
+    /** Reason for rejection of the trial motion of a particle (trial.moved), or
+     *  empty. @param ratio volume ratio of the step @param extent size of the
+     *  cell (m) */
     std::string
     objection_to_move(const MaterialPoints          &points,
                       const unsigned int             p,
@@ -288,8 +293,8 @@ namespace geocone::GEOCONE_DIM
                       const std::array<double, dim> &extent) const;
 
     /**
-     * Computes the new state trial.moved of particles from the node velocities
-     * v (at t_n + h), vL, and the advection velocity v_mean.
+     * Computes the trial states trial.moved of the particles from the nodal
+     * velocities v (at t_n + h) and vL, and the advection velocity v_mean.
      * @return reason for rejection, or empty
      */
     std::string
@@ -298,7 +303,8 @@ namespace geocone::GEOCONE_DIM
              const Vector         &v_mean,
              const double          h);
 
-    /** Solves from each initial guess until one converges. */
+    /** Solves the incremental problem from each initial guess in turn until
+     *  convergence. */
     SolverReport
     solve(const TimeStep   &step,
           const Kinematics &kinematics,
@@ -306,19 +312,19 @@ namespace geocone::GEOCONE_DIM
           Vector           &v,
           Vector           &residual) override;
 
-    /** Work of changing gravity in the step on points at rest (J/m). */
+    /** Work done by a change of gravity in the step on points at rest (J/m). */
     double
     work_of_changing_gravity(const TimeStep       &step,
                              const MaterialPoints &points) const;
 
-    /** Work of the weight on fixed quadrature points in a run with particles;
-     *  their potential energy does not change, as in FEM (J/m). */
+    /** Work done by the weight of fixed quadrature points in a run with
+     *  particles (J/m); as in FEM, not included in the potential energy. */
     double
     work_on_fixed_points(const TimeStep       &step,
                          const MaterialPoints &points) const;
 
-    /** Returns penetrated points to prescribed boundary segments,
-     *  MovingConditions::put_back(). */
+    /** Returns points that have penetrated prescribed boundary segments to the
+     *  segments, MovingConditions::put_back(). */
     void
     put_points_back(const MaterialPoints &points);
 
@@ -326,7 +332,7 @@ namespace geocone::GEOCONE_DIM
     dealii::Point<dim>
     front_of(const MaterialPoints &points) const;
 
-    /** Condition imposed on an individual particle, or null. */
+    /** Boundary condition imposed on an individual particle, or null. */
     const BoundaryCondition *
     holder_of(const MaterialPoints &points, const unsigned int p) const;
 
@@ -343,10 +349,10 @@ namespace geocone::GEOCONE_DIM
                                   {"grid velocity", Start::nodes},
                                   {"particle velocity", Start::particles}}};
 
-    /** Selection of the low-mass functions with ghost stiffness. */
+    /** Selection of the low-mass basis functions with ghost stiffness. */
     enum class Ghosts
     {
-      loaded, ///< those at a loaded or prescribed segment
+      loaded, ///< at loaded or prescribed segments
       all
     };
     Choice<Ghosts> ghosts = {
@@ -357,31 +363,31 @@ namespace geocone::GEOCONE_DIM
     double ghost_part             = 1e-5; ///< gamma of GhostStiffness
     double largest_move           = 3.;
 
-    std::string                  grid_follows; ///< a condition, or nothing
+    std::string                  grid_follows; ///< condition, or empty
     std::optional<FollowingGrid> following;
-    bool nodes_moved = false; ///< since the setup of constraints
-    std::string present_stage;       ///< whose conditions act
+    bool        nodes_moved = false; ///< since constraints were set up
+    std::string present_stage;       ///< active stage
 
     Particles   particles;
     RankBalance balance;
 
-    unsigned int n_light = 0; ///< low-mass functions of these points
+    unsigned int n_light = 0; ///< low-mass basis functions
 
-    std::vector<Start> starts; ///< in the order of attempts
-    dealii::Point<dim> datum;  ///< of the potential energy
+    std::vector<Start> starts; ///< initial guesses in order
+    dealii::Point<dim> datum;  ///< datum of the potential energy
 
     std::unique_ptr<MovingConditions> moving;
-    std::optional<ParticleBodies>     bodies; ///< where there are contacts
-    std::optional<GhostPlaces>        ghost_places; ///< of splines that move
-    std::vector<bool>                 had_mass;     ///< nodes, in the last step
-    std::vector<unsigned int>         added;        ///< materials, so far
+    std::optional<ParticleBodies>     bodies;       ///< if in contact
+    std::optional<GhostPlaces>        ghost_places; ///< null if not used
+    std::vector<bool>                 had_mass;     ///< nodal, in the last step
+    std::vector<unsigned int>         added;        ///< materials added so far
 
-    /** State of the step that is being attempted. */
+    /** Trial state of the current attempt at a step. */
     struct Trial
     {
       std::vector<Moved>      moved;
       Multipliers::LightShare share;
-      unsigned int            n_put_back = 0;  ///< points of all ranks
+      unsigned int            n_put_back = 0;  ///< returned points, all ranks
       double                  put_back   = 0.; ///< largest distance (m)
     };
     Trial trial;

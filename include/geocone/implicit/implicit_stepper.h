@@ -16,9 +16,9 @@ namespace geocone::GEOCONE_DIM
 {
   /**
    * Implicit step with fixed quadrature points (ImplicitFEM) or material points
-   * (ImplicitMPM): it sets up the IncrementalProblem, has it solved, and
-   * computes the balances of an accepted step. Derived classes define points,
-   * mass, loads and the motion of points.
+   * (ImplicitMPM): sets up the IncrementalProblem, calls the solver, and
+   * computes the momentum and energy balances of an accepted step. Derived
+   * classes define points, mass, loads and the motion of points.
    */
   class ImplicitStepper : public TimeStepper
   {
@@ -65,7 +65,7 @@ namespace geocone::GEOCONE_DIM
     }
 
   protected:
-    /** @param section of the timer: loads, and the update after a solved
+    /** @param section timer section for loads and for the update after a
      *  step */
     explicit ImplicitStepper(const char *section)
       : section(section)
@@ -80,31 +80,32 @@ namespace geocone::GEOCONE_DIM
       const double           accepted_excess; ///< see NonsmoothNewton::Hints
     };
 
-    /** Works of a step on the nodes (J/m). */
+    /** Work on the nodes in a step, by contribution (J/m). */
     struct WorksOnNodes
     {
-      double of_weight; ///< of points with a potential energy
+      double of_weight; ///< weight with a potential energy
       double of_others; ///< loads, supports, dashpots, contact
     };
 
     /** @name Steps */
     /** @{ */
 
-    /** Lets the conditions of a stage act. Collective. */
+    /** Activates the boundary conditions of a stage. Collective. */
     virtual void
     begin_stage(const Stage &stage);
 
-    /** Sets up mass, unknowns, problem and pattern, which depend on t_n only.
-     *  Collective.
-     *  @throws InputError or StepFailure if there is no such problem */
+    /** Sets up the mass, the unknowns, the incremental problem and the sparsity
+     *  pattern; all depend on the state at t_n only. Collective.
+     *  @throws InputError or StepFailure if the problem cannot be set up */
     virtual void
     begin(MaterialPoints &points, dealii::TimerOutput &timer) = 0;
 
-    /** Whether there are any external forces. */
+    /** Whether external forces act. */
     virtual bool
     has_force() const = 0;
 
-    /** Evaluates external forces at time t, along x and y, except ramped ones.
+    /** Evaluates the external nodal forces at time t along x and y, without
+     *  ramped forces.
      *  @param dst overwritten @param stage,raised as in Loads::evaluate() */
     virtual void
     evaluate_force(Vector               &dst,
@@ -113,21 +114,22 @@ namespace geocone::GEOCONE_DIM
                    const Stage          *stage  = nullptr,
                    const bool            raised = false) = 0;
 
-    /** Sets vL and the rows H v = q of the step. @param prescribed
-     *  velocities */
+    /** Sets the initial velocity vL and the constraints H v = q of the step.
+     *  @param prescribed velocities */
     virtual void
     begin_motion(const TimeStep       &step,
                  const Kinematics     &kinematics,
                  const MaterialPoints &points,
                  const Vector         &prescribed) = 0;
 
-    /** Candidates for contact in the step. Collective. */
+    /** Finds the potential contacts of the step. Collective. */
     virtual ContactStep
     find_contact(const TimeStep       &step,
                  const Kinematics     &kinematics,
                  const MaterialPoints &points) = 0;
 
-    /** Solves the step. @param[out] v velocities @param[out] residual R(v) */
+    /** Solves the incremental problem of the step. @param[out] v velocities
+     *  @param[out] residual R(v) */
     virtual SolverReport
     solve(const TimeStep   &step,
           const Kinematics &kinematics,
@@ -135,7 +137,8 @@ namespace geocone::GEOCONE_DIM
           Vector           &v,
           Vector           &residual) = 0;
 
-    /** Computes the motion of points by v, with the velocities v_end at t + h.
+    /** Computes a trial motion of the points with v, and with the velocities
+     *  v_end at t + h.
      *  @return reason for rejection of the solved step, or empty */
     virtual std::string
     try_move(const TimeStep & /* step */,
@@ -146,21 +149,22 @@ namespace geocone::GEOCONE_DIM
       return "";
     }
 
-    /** Moves boundaries with the points after a step is accepted. */
+    /** Moves boundary segments with the points after a step is accepted. */
     virtual void
     accept_move(const TimeStep & /* step */,
                 const MaterialPoints & /* points */,
                 const Vector & /* v */)
     {}
 
-    /** Whether obstacles change their position. */
+    /** Whether obstacles move with the steps. */
     virtual bool
     moves_obstacles() const
     {
       return true;
     }
 
-    /** Gravity (m/s^2) whose work is a change of potential energy. */
+    /** Gravity (m/s^2) included in the potential energy, not in the external
+     *  work. */
     virtual dealii::Tensor<1, dim>
     gravity_of_potential(const double /* t */) const
     {
@@ -181,16 +185,16 @@ namespace geocone::GEOCONE_DIM
     virtual double
     update_points(const TimeStep &step, MaterialPoints &points) = 0;
 
-    /** Updates the nodes. @return energy dissipated by
-     *  ObstacleContact::settle() (J/m) */
+    /** Updates the nodal quantities to the end of the step. @return energy
+     *  dissipated by ObstacleContact::settle() (J/m) */
     virtual double
     update_nodes(const TimeStep &step,
                  const Vector   &v_end,
                  const Vector   &v,
                  Kinematics     &kinematics) = 0;
 
-    /** Completes an accepted step, after which points may have changed cells or
-     *  left. */
+    /** Completes an accepted step; points may change cells or leave the
+     *  mesh. */
     virtual void
     finish(const TimeStep & /* step */,
            const NonsmoothNewton & /* newton */,
@@ -201,7 +205,8 @@ namespace geocone::GEOCONE_DIM
     {}
     /** @} */
 
-    /** @name Changes of the body, with remarks as results. Collective. */
+    /** @name Removal and addition of material, with remarks for the log.
+     *  Collective. */
     /** @{ */
     virtual void
     remove(const Stage              &stage,
@@ -212,15 +217,17 @@ namespace geocone::GEOCONE_DIM
         MaterialPoints           &points,
         std::vector<std::string> &remarks) = 0;
 
-    /** Updates the nodes after a change of the body, and restricts the change
-     *  of forces to its nodes. @param had_mass before it, by dof */
+    /** Updates the nodal quantities after a change of the body, and restricts
+     *  the force difference to nodes of the body. @param had_mass by dof,
+     *  before the change */
     virtual void
     change_nodes(const std::vector<bool> &had_mass,
                  Kinematics              &kinematics,
                  Vector                  &difference) const = 0;
     /** @} */
 
-    /** Initial velocity of the problem's step: vL, or Newmark's prediction. */
+    /** Initial velocity of the incremental problem: vL, or Newmark's
+     *  predictor. */
     const Vector &
     start_velocity() const
     {
@@ -239,21 +246,21 @@ namespace geocone::GEOCONE_DIM
     std::unique_ptr<LinearSystem>       system;
     unsigned int                        unknowns = 0;     ///< of the last step
     bool                                begun    = false; ///< for the next step
-    bool                                has_pattern = false; ///< of begin()
+    bool                                has_pattern = false; ///< set by begin()
     FadingForces                        fading;              ///< along x and y
     Vector                              lumped_mass;
     Vector                              velocity_L; ///< along rotated dofs
     Vector                              force;      ///< along rotated dofs
 
   private:
-    /** External less internal forces at time t, along x and y, except ramped
-     *  ones. */
+    /** External minus internal nodal forces at time t along x and y, without
+     *  ramped forces. */
     Vector
     net_force(const MaterialPoints &points, const double t);
 
-    /** Sets up the step of the problem: loads, prescribed velocities, potential
-     *  contacts.
-     *  @return the loads controlled by a load factor. Collective. */
+    /** Sets up the loads, prescribed velocities and potential contacts of a
+     *  step in the incremental problem.
+     *  @return loads controlled by a load factor. Collective. */
     RaisedLoads
     begin_step(const TimeStep       &step,
                const Kinematics     &kinematics,
@@ -265,8 +272,9 @@ namespace geocone::GEOCONE_DIM
                    const Vector   &v,
                    const Vector   &residual) const;
 
-    /** Adds the works of a solved step to the report, except dissipation and
-     *  contact, and the defect of the energy identity, with points at t_n. */
+    /** Adds the work of a solved step by contribution (without dissipation and
+     *  contact) and the defect of the energy identity to the report; the points
+     *  are still at t_n. */
     void
     take_works(const TimeStep       &step,
                const MaterialPoints &points,
@@ -274,8 +282,8 @@ namespace geocone::GEOCONE_DIM
                const Vector         &residual,
                StepReport           &report) const;
 
-    /** Updates displacements of supports, and reactions of conditions imposed
-     *  on the body. */
+    /** Updates the displacements of supports and the reactions of boundary
+     *  conditions on the body. */
     void
     update_supports(const TimeStep        &step,
                     const Vector          &v,
@@ -283,7 +291,7 @@ namespace geocone::GEOCONE_DIM
                     std::vector<Reaction> &reactions) const;
 
     const char *const section;
-    Vector            predicted; ///< by Newmark, from vL
+    Vector            predicted; ///< Newmark's predictor from vL
   };
 } // namespace geocone::GEOCONE_DIM
 

@@ -12,20 +12,21 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Loads F of a stage with load stepping, in one step of FEM or MPM. During
-   * the solution they are a constraint whose multiplier is the load factor
-   * (doc/theory/stages.md); afterwards they are ordinary loads.
+   * Loads F controlled by a load factor in a step of a stage with load stepping
+   * (FEM or MPM). During the solution a constraint represents the loads, with
+   * the load factor as multiplier (doc/theory/stages.md); after the solution F
+   * acts as an ordinary load.
    */
   class RaisedLoads
   {
   public:
-    /** @throws InputError for a stage with load stepping and obstacles */
+    /** @throws InputError if a stage has load stepping and obstacles */
     static void
     check(const Scene &scene);
 
     /**
-     * Adds the row. Collective.
-     * @param force F @param prescribed the prescribed velocities
+     * Adds the constraint row of the loads F. Collective.
+     * @param force loads F @param prescribed velocities
      * @throws StepFailure if F cannot move the body
      */
     void
@@ -35,9 +36,9 @@ namespace geocone::GEOCONE_DIM
             Constraints  &constraints);
 
     /**
-     * Adds the loads to the force, and subtracts them from the reactions of
-     * supports.
-     * @param lambda the multipliers of the solved step
+     * Adds the loads times the load factor to the force, and subtracts this
+     * part from the reactions of supports.
+     * @param lambda multipliers of the solved step
      * @return the load factor; 1 without load stepping
      */
     double
@@ -47,7 +48,7 @@ namespace geocone::GEOCONE_DIM
          Vector                &residual) const;
 
   private:
-    Vector raised; ///< empty: none
+    Vector raised; ///< loads F; empty without load stepping
   };
 } // namespace geocone::GEOCONE_DIM
 

@@ -15,39 +15,42 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Time integration of a step from t to t + h. */
+  /** Time integration scheme of a step from t to t + h. */
   enum class Integration
   {
     backward_euler,
 
-    /** Theta-scheme with theta = 1/2: of order two, without loss of energy in
-     *  elastic motion. Nodes in contact stay at u_mid = -g/h, whose force does
-     *  no positive work: energy never grows. */
+    /** Theta-scheme with theta = 1/2: second order, energy-conserving in
+     *  elastic motion. Nodes in contact remain at u_mid = -g/h, where the
+     *  contact force does no positive work: the energy does not increase. */
     midpoint,
 
-    /** Backward Euler over theta h, with linear extrapolation of all quantities
-     *  to t + h. */
+    /** Theta-scheme: backward Euler over theta h, then linear extrapolation of
+     *  all quantities to t + h. */
     theta_scheme,
 
-    /** Newmark's formulas for displacement and velocity; the law holds at t + h. */
+    /** Newmark scheme for displacement and velocity; the law is satisfied at t
+     *  + h. */
     newmark
   };
 
-  /** A step from t to t + h, and the problem solved for it: backward Euler for
-   *  a velocity v, by which points move h v. */
+  /** Parameters of a time step from t to t + h and of the incremental problem
+   *  of the step: backward Euler for a velocity v, with displacement h v of the
+   *  points. */
   struct TimeStep
   {
     double t, h;
-    double solved_h;      ///< strain increments: theta h, or h
+    double solved_h;      ///< step of the problem: theta h, or h
     double solved_at;     ///< time of loads and stresses
     double prescribed_at; ///< time of prescribed velocities
 
     double extrapolation; ///< e of TimeIntegration::end_velocity()
     double predictor;     ///< h (1/2 - beta) by Newmark, or 0 (s)
     double corrector;     ///< h (1/2 - gamma + beta) by Newmark, or 0 (s)
-    double start_part; ///< of s^n in the stress that dissipates: 1/2 by Newmark
+    double start_part;    ///< weight of s^n in the dissipation
 
-    /** Extrapolation of stresses, strains and dissipation: 1/theta, or 1. */
+    /** Extrapolation factor of stresses, strains and dissipation: 1/theta, or
+     *  1. */
     double
     stress_extrapolation() const
     {
@@ -56,13 +59,14 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Time integration of the steps of FEM and implicit MPM.
+   * Time integration schemes of FEM and implicit MPM.
    *
    * Theta-scheme, theta in [1/2, 1] (1: backward Euler, 1/2: midpoint rule):
    * the problem is solved over theta h from v^n, s^n, and v^{n+1} = v^n + (v -
    * v^n)/theta.
    *
-   * Newmark (gamma, beta): with M a = F - sum V B's at t_n and t_{n+1},
+   * Newmark (gamma, beta): with accelerations from M a = F - sum V B's at t_n
+   * and t_{n+1},
    *   h v = u^{n+1} - u^n = h v^n + h^2 ((1/2 - beta) a^n + beta a^{n+1}),
    *   v^{n+1} = v^n + h ((1 - gamma) a^n + gamma a^{n+1}).
    * The problem is solved over h with the mass M/beta from vL = v^n + h (1/2 -
@@ -72,12 +76,13 @@ namespace geocone::GEOCONE_DIM
   class TimeIntegration
   {
   public:
-    /** Declares its parameters in the section of an acceptor. */
+    /** Declares the parameters of the time integration in the section of an
+     *  acceptor. */
     void
     declare(dealii::ParameterAcceptor &acceptor,
             const std::string         &documentation);
 
-    /** @param section of the parameters, with a slash @throws InputError */
+    /** @param section parameter section, with a slash @throws InputError */
     void
     check(const Scene &scene, const std::string &section) const;
 
@@ -93,7 +98,7 @@ namespace geocone::GEOCONE_DIM
       return rule == Integration::newmark;
     }
 
-    /** Value of the parameter. */
+    /** Value of the parameter that selects the scheme. */
     std::string
     word() const
     {
@@ -103,15 +108,15 @@ namespace geocone::GEOCONE_DIM
     TimeStep
     step(const double t, const double h) const;
 
-    /** Mass of the problem that is solved: M, or M/beta, which is stored
-     *  here. */
+    /** Lumped mass in the incremental problem: M, or by Newmark M/beta (stored
+     *  in this object). */
     const Vector &
     mass_of_problem(const Vector &lumped_mass);
 
     /**
-     * Newmark's prediction: v += h (1/2 - beta) a, a = M^-1 f; prescribed
-     * velocities have their mean acceleration in the step.
-     * @param net_force f at t_n, external less internal forces, along rotated
+     * Newmark's predictor: v += h (1/2 - beta) a, a = M^-1 f. At prescribed
+     * dofs, a is the mean acceleration in the step.
+     * @param net_force f at t_n, external minus internal forces, in rotated
      * dofs
      */
     void
@@ -121,7 +126,8 @@ namespace geocone::GEOCONE_DIM
             const Constraints &constraints,
             Vector            &velocity);
 
-    /** Velocity at t + h: vL + e (v - vL) + h (1/2 - gamma + beta) a. */
+    /** Velocity at t + h from the solution v: vL + e (v - vL) + h (1/2 - gamma
+     *  + beta) a. */
     Vector
     end_velocity(const TimeStep &step,
                  const Vector   &velocity_L,
@@ -133,7 +139,7 @@ namespace geocone::GEOCONE_DIM
     void
     check_theta_scheme(const Scene &scene, const std::string &section) const;
 
-    /** Theta: 1 for backward Euler, 1/2 for the midpoint rule. */
+    /** Theta of the scheme: 1 for backward Euler, 1/2 for the midpoint rule. */
     double
     theta_of_rule() const;
 
@@ -145,22 +151,23 @@ namespace geocone::GEOCONE_DIM
     double theta = 0.5, gamma = 0.5, beta = 0.25;
 
     Vector scaled_mass;  ///< M/beta by Newmark
-    Vector acceleration; ///< a^n of the last predict()
+    Vector acceleration; ///< a^n of the last predict() (m/s^2)
   };
 
-  /** A point at the end of a step. */
+  /** State of a point at the end of a step. */
   struct EndOfStep
   {
     Mandel stress;
-    Mandel plastic;     ///< strain increment of the step
-    double slip;        ///< its norm, including out-of-plane parts
-    double dissipation; ///< of the step, per volume (J/m^3)
+    Mandel plastic;     ///< plastic strain increment
+    double slip;        ///< norm of plastic, with out-of-plane part
+    double dissipation; ///< dissipation per volume (J/m^3)
   };
 
   /**
-   * State of the points at the end of the step from the solution. In the
-   * theta-scheme the extrapolated stress is returned to the admissible set, by
-   * plastic strain. Updates only the histories of the points.
+   * Computes the state of the points at the end of a step from the solution. In
+   * the theta-scheme, the extrapolated stress is returned onto the admissible
+   * set by additional plastic strain. Of the points, only the history variables
+   * are updated.
    */
   std::vector<EndOfStep>
   end_step(const TimeStep       &step,
