@@ -16,10 +16,11 @@
 namespace geocone
 {
   /**
-   * Files checkpoint-NNNNNN.h5 in the folder of a run, NNNNNN the number of completed
-   * steps: the full state, from which `geocone --resume FOLDER` continues. They are
-   * written at a cadence, and when a signal stops the run. Each is complete and on the
-   * disk, with the tables that it refers to, before an older one is deleted.
+   * Checkpoint files of a run: checkpoint-NNNNNN.h5 in the folder of the run contains the
+   * full state after NNNNNN completed steps, from which `geocone --resume FOLDER`
+   * continues. Checkpoints are written at regular intervals, and if a signal stops the
+   * run. A checkpoint and the corresponding tables are complete on the disk before an
+   * older checkpoint is deleted.
    */
   class Checkpoint : public dealii::ParameterAcceptor
   {
@@ -29,24 +30,25 @@ namespace geocone
     void
     prepare(const MPI_Comm comm);
 
-    /** Whether a checkpoint is due after this step. Collective. */
+    /** Whether a checkpoint is due after a completed step. Collective. */
     bool
     is_due(const unsigned int step);
 
-    /** Writes a checkpoint. Deletes surplus ones, and those that became invalid because
-     *  the run went back to an earlier one. Collective. @throws StepFailure */
+    /** Writes a checkpoint. Deletes surplus checkpoints, and checkpoints of later steps
+     *  that are invalid because the run was resumed from an earlier checkpoint.
+     *  Collective. @throws StepFailure */
     void
     write(const std::string                    &folder,
           const unsigned int                    step,
           const std::function<void(Archive &)> &save);
 
     /**
-     * Reads the latest valid checkpoint of a folder, with warnings about invalid ones.
-     * Collective.
-     * @param load returns, on all ranks, why the run cannot continue from it, or
-     * nothing
-     * @param parameter that names the folder
-     * @throws InputError if there is none
+     * Reads the latest valid checkpoint of a folder, with warnings about invalid
+     * checkpoints. Collective.
+     * @param load loads a checkpoint; returns on all ranks the reason why the run cannot
+     * continue from the checkpoint, or an empty string
+     * @param parameter name of the parameter for the folder
+     * @throws InputError if the folder contains no valid checkpoint
      */
     void
     read(const std::string                                 &folder,

@@ -12,8 +12,8 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Run of the explicit material point method. Each step of the loading programme is a
-   *  line of statistics.csv; the stepper subdivides it into explicit steps. */
+  /** Run of the explicit material point method. Each step of the loading programme is one
+   *  line of statistics.csv, and is subdivided into many explicit steps. */
   class ExplicitSimulation : public SceneSimulation
   {
   public:
@@ -61,8 +61,8 @@ namespace geocone::GEOCONE_DIM
     ExplicitMPM    stepper;
     ExplicitOutput explicit_output;
 
-    ExplicitState  state;  ///< at the last record
-    ExplicitReport report; ///< of the last step
+    ExplicitState  state;  ///< state at the last record
+    ExplicitReport report; ///< statistics of the last step
   };
 } // namespace geocone::GEOCONE_DIM
 

@@ -17,8 +17,9 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Substep sizes. A step of the loading programme is reached in substeps: a failed
-   * substep is halved; after an easy one the next grows by half, up to the full step.
+   * Control of the substep size. A step of the loading programme is subdivided into
+   * substeps: a failed substep is halved; after a substep with few iterations, the size
+   * increases by half, up to the full step.
    */
   class StepControl : public dealii::ParameterAcceptor
   {
@@ -33,22 +34,23 @@ namespace geocone::GEOCONE_DIM
     double       accepted_excess = 0.01; ///< see NonsmoothNewton::Hints
   };
 
-  /** Initial points taken from another run, besides InitialStress. */
+  /** Initial state of the points from another run, an alternative to InitialStress. */
   class StartOfRun : public dealii::ParameterAcceptor
   {
   public:
     StartOfRun();
 
-    std::string folder; ///< of the other run, or empty
+    std::string folder; ///< results of the other run, or empty
   };
 
   /** Run of the finite element method or the implicit material point method. A step of
-   *  the loading programme is reached in substeps (StepControl). */
+   *  the loading programme is subdivided into substeps (StepControl). */
   class ImplicitSimulation : public SceneSimulation
   {
   public:
-    /** Returns the sizes of a mesh "from the bounds" of a scene, and the bounds, known
-     *  to the first rank. Implemented by limit analysis. Collective. */
+    /** Function that returns the cell sizes of a mesh adapted by limit analysis ("from
+     *  the bounds") and the bounds of the load; both are valid on the first rank.
+     *  Collective. */
     using SizesOfScene = std::function<std::pair<CellSizes, LoadBracket>(
       const MeshParameters &, const Scene &, const MPI_Comm, Log &)>;
 
@@ -64,11 +66,12 @@ namespace geocone::GEOCONE_DIM
     }
 
   private:
-    /** Creates the mesh, and rejects a run that is too large. */
+    /** Creates the mesh and rejects a run that would exceed the available memory. */
     void
     prepare_mesh(const RunOptions &options);
 
-    /** Enables friction with memory where the exact law is unlikely to converge. */
+    /** Enables friction with memory in scenes for which the exact law is unlikely to
+     *  converge. */
     void
     remember_friction();
 
@@ -95,27 +98,29 @@ namespace geocone::GEOCONE_DIM
     void
     finish(const double t) override;
     void
-    state(StateRow &row) override; ///< except fields
+    state(StateRow &row) override; ///< except nodal and point values
     void
     save(Archive &archive) override;
     void
     load(const Archive &archive) override;
 
-    /** Largest substep of a step h. Friction with memory limits it to tau/2, where its
-     *  tangent is nearly elliptic (doc/theory/friction_memory.md). */
+    /** Largest substep of a step h (s). Friction with memory limits the substep to tau/2,
+     *  for which the tangent is nearly elliptic (doc/theory/friction_memory.md). */
     double
     largest_substep(const double h) const;
 
-    /** Substep size of a step h below which the step has failed. */
+    /** Smallest substep of a step h (s); if a smaller substep is necessary, the step
+     *  fails. */
     double
     smallest_substep(const double h) const;
 
-    /** Solves from t to t + h in substeps. @throws StepFailure */
+    /** Solves a step of the loading programme from t to t + h in substeps. @throws
+     *  StepFailure */
     void
     solve_step(const unsigned int step, const double t, const double h);
 
-    /** Halves the substep after a failed one of this size.
-     *  @throws StepFailure if it has been halved too often */
+    /** Halves the substep size after a failed substep of the given size.
+     *  @throws StepFailure if the substep has been halved too often */
     void
     cut(const unsigned int  step,
         const double        t,
@@ -126,8 +131,8 @@ namespace geocone::GEOCONE_DIM
     Json
     cost() const;
 
-    /** Maximum number of them: where the exact law has no solution nearby, smaller
-     *  steps do not help. */
+    /** Maximum of halved_for_excess: if the exact law has no solution near the iterate,
+     *  smaller substeps do not help. */
     static constexpr unsigned int most_halved_for_excess = 3;
 
     const SizesOfScene sizes_of_scene;
@@ -137,7 +142,7 @@ namespace geocone::GEOCONE_DIM
     NonsmoothNewton newton{stress_methods()};
     ImplicitFEM     implicit_fem;
     ImplicitMPM     implicit_mpm;
-    TimeStepper    *stepper = nullptr; ///< of the method
+    TimeStepper    *stepper = nullptr; ///< time stepper of the method
     StepControl     step_control;
     StartOfRun      start_of_run;
     Freezer         freezer;
@@ -148,15 +153,15 @@ namespace geocone::GEOCONE_DIM
     /** @{ */
     Kinematics     kinematics;
     MaterialPoints points;
-    double         substep    = 0.;    ///< size of the next attempt (s)
-    double         last_size  = 0.;    ///< of the present or last step (s)
-    double         done       = 0.;    ///< part of the present step (s)
-    bool           is_in_step = false; ///< whether the step has begun
-    /** Substeps halved in a row because of SolverReport::exceeds. */
+    double         substep    = 0.; ///< size of the next substep (s)
+    double         last_size  = 0.; ///< size of the current or last step (s)
+    double         done       = 0.; ///< completed part of the current step (s)
+    bool           is_in_step = false; ///< whether a step has begun
+    /** Number of consecutive substeps halved because of SolverReport::exceeds. */
     unsigned int   halved_for_excess = 0;
-    ImplicitRecord present;      ///< the present or last step
+    ImplicitRecord present;      ///< record of the current or last step
     double         reached = 0.; ///< time of the last converged substep (s)
-    double         raised  = 0.; ///< path under load control since a reset (m)
+    double         raised  = 0.; ///< displacement path under load control (m)
     /** @} */
 
     dealii::TimerOutput timer;

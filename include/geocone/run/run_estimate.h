@@ -14,39 +14,39 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Estimated size of a run, from its parameters alone, before anything is built. It is
-   * printed, and runs that would exhaust the memory are refused.
+   * Estimated size of a run, computed from the parameters before any data are allocated.
+   * The estimate is printed; runs that would exceed the memory are rejected.
    *
    * Nodes per cell: 1/2, 2, 9/2 for P1, P2, P3 (each vertex has six triangles), p^2 for
-   * Q1 to Q3, 1 for splines. Memory, as measured (doc/performance.md): implicit runs
-   * 160 MB, 1.5 kB per unknown and 0.06 kB per entry of the matrix with its factors,
-   * and 1 kB per point and 0.1 kB per node of its cell; explicit ones 80 MB, 280 bytes
-   * per point and 200 per node.
+   * Q1 to Q3, 1 for splines. Memory, as measured (doc/performance.md): implicit runs 160
+   * MB, 1.5 kB per unknown, 0.06 kB per entry of the matrix with its factors, and 1 kB
+   * per point plus 0.1 kB per node of the cell of the point; explicit runs 80 MB, 280
+   * bytes per point and 200 bytes per node.
    */
   struct RunEstimate
   {
     double      cells = 0., unknowns = 0., points = 0., steps = 0., files = 0.;
-    double      memory     = 0.; ///< of all ranks (bytes)
+    double      memory     = 0.; ///< memory of all ranks (bytes)
     double      file_bytes = 0.;
-    std::string driver; ///< parameter that causes most of the memory
+    std::string driver; ///< parameter that determines most of the memory
 
-    /** One-line summary. */
+    /** One-line summary of the estimate. */
     std::string
     text() const;
 
     /**
      * Rejects runs that are too large.
      * @param force allows runs that need more than the available memory
-     * @throws InputError, with the driver, if numbers exceed the range of the integers
-     * that count them, or the available memory
+     * @throws InputError, with the driver, if a count exceeds the range of its integer
+     * type, or the memory exceeds the available memory
      */
     void
     check(const bool force) const;
   };
 
   /**
-   * Estimates a run. The scene and the method must be prepared; seeding is prepared
-   * here.
+   * Estimates the size of a run. The scene and the method must be prepared; this function
+   * prepares the seeding.
    * @param seeding of the particles, or nullptr for FEM
    */
   RunEstimate

@@ -15,16 +15,16 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Run of a scene, with the programme of the section "Loading". */
+  /** Run of a scene with the loading programme of the section "Loading". */
   class SceneSimulation : public Simulation
   {
   protected:
     SceneSimulation(const MPI_Comm comm, const ParameterFile &file, Log &log);
 
-    /** @name Implemented by a method. All collective. */
+    /** @name Functions implemented by a method. All collective. */
     /** @{ */
 
-    /** Counterpart of prepare(), called when scene and method are prepared. */
+    /** Prepares the method after the scene; part of prepare(). @return warnings */
     virtual std::vector<std::string>
     prepare_method(const RunOptions &options) = 0;
 
@@ -51,7 +51,7 @@ namespace geocone::GEOCONE_DIM
     bool
     wants_fields(const Place &place) const override;
 
-    std::vector<double> sizes; ///< of the steps of the present stage (s)
+    std::vector<double> sizes; ///< step sizes of the current stage (s)
   };
 } // namespace geocone::GEOCONE_DIM
 

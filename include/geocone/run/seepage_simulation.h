@@ -17,13 +17,13 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Flow on one of the meshes, or at one of the times. */
+  /** Results of the seepage flow on one mesh or at one time. */
   struct FlowLevel
   {
     double              time      = 0.; ///< (s)
     unsigned int        triangles = 0, iterations = 0;
     double              discharge = 0., error = 0.; ///< (m^2/s), (-)
-    double              stored = 0.; ///< of a transient flow (m^2)
+    double              stored = 0.; ///< stored water, transient flow (m^2)
     std::vector<double> inflows;     ///< through each boundary (m^2/s)
 
     void
@@ -33,21 +33,22 @@ namespace geocone::GEOCONE_DIM
     }
   };
 
-  /** Output of a flow: seepage.csv with a line per mesh and time, the fields of the last
-   *  mesh, and the summary. */
+  /** Output of a seepage run: seepage.csv with a line per mesh and time, the fields on
+   *  the finest mesh, and the summary. */
   class SeepageOutput : public TableOutput<FlowLevel>
   {
   public:
     using TableOutput::TableOutput;
 
-    /** @param names of the boundaries @param geometry for the units */
+    /** @param names names of the boundaries @param geometry determines the units */
     void
     prepare(const RunOptions               &options,
             const std::vector<std::string> &names,
             const Geometry                 &geometry,
             const bool                      is_transient);
 
-    /** Writes pressures, heads, relative permeabilities and velocities. */
+    /** Writes the fields of pore pressure, hydraulic head, relative permeability and
+     *  velocity. */
     void
     write_fields(const FlowOnMesh &flow,
                  const double      unit_weight,
@@ -63,7 +64,8 @@ namespace geocone::GEOCONE_DIM
     std::unique_ptr<FieldFiles> fields;
   };
 
-  /** Flow of water through a scene, without its mechanics. */
+  /** Run that computes the seepage flow in a scene, without stresses and
+   *  displacements. */
   class SeepageSimulation : public Simulation
   {
   public:
@@ -117,11 +119,11 @@ namespace geocone::GEOCONE_DIM
     void
     finish(const double t) override;
 
-    /** Record of the present flow. */
+    /** Record of the current flow at a time. */
     FlowLevel
     record_of(const double time) const;
 
-    /** Solves the next of the flows. @return its records */
+    /** Solves the next flow, on all meshes. @return one record per mesh */
     std::vector<FlowLevel>
     solve_next();
 
@@ -129,7 +131,7 @@ namespace geocone::GEOCONE_DIM
     SeepageOutput              seepage_output;
     std::optional<FlowOnMesh>  flow;
     std::vector<Seepage::Step> steps;   ///< flows to be solved
-    std::vector<Water::Flow>   results; ///< of those solved so far
+    std::vector<Water::Flow>   results; ///< results of the solved flows
   };
 } // namespace geocone::GEOCONE_DIM
 

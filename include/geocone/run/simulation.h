@@ -17,8 +17,9 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Sequence of a run: stages, steps, fields, summaries, checkpoints and termination,
-   *  the same for all methods. Derived classes define a step and its records. */
+  /** Sequence of operations of a run, common to all methods: stages, steps, fields,
+   *  summaries, checkpoints and termination. Derived classes define a step and the
+   *  records of a step. */
   class Simulation
   {
   public:
@@ -37,13 +38,13 @@ namespace geocone::GEOCONE_DIM
   protected:
     Simulation(const MPI_Comm comm, Log &log);
 
-    /** Position of the run in its programme. */
+    /** Current position of the run in the loading programme. */
     struct Place
     {
       unsigned int stage    = 0;     ///< index of the stage
       bool         is_in    = false; ///< whether the stage has begun
       unsigned int in_stage = 0;     ///< completed steps of the stage
-      unsigned int step     = 0;     ///< completed steps
+      unsigned int step     = 0;     ///< completed steps, all stages
       double       time     = 0.;    ///< (s)
 
       void
@@ -57,15 +58,15 @@ namespace geocone::GEOCONE_DIM
     enum class Ended
     {
       well,
-      stage, ///< well, and the stage is complete
-      run    ///< the run is complete with the results so far
+      stage, ///< step and stage are complete
+      run    ///< completed; the run is complete
     };
 
-    /** @name Implemented by a method. All collective. */
+    /** @name Functions implemented by a method. All collective. */
     /** @{ */
 
-    /** Checks all input, including checks that are expensive, and sets the
-     *  state at t = 0.
+    /** Checks the complete input, however expensive the check, and sets the state at t =
+     *  0.
      *  @return warnings. @throws InputError */
     virtual std::vector<std::string>
     prepare(const RunOptions &options) = 0;
@@ -74,7 +75,7 @@ namespace geocone::GEOCONE_DIM
     virtual std::vector<unsigned int>
     programme() const = 0;
 
-    /** Makes the folder and its tables. @throws InputError */
+    /** Creates the folder and the tables of the run. @throws InputError */
     virtual void
     prepare_output(const RunOptions &options) = 0;
 
@@ -82,7 +83,7 @@ namespace geocone::GEOCONE_DIM
     virtual std::string
     headline(const std::string &name) const = 0;
 
-    /** The model as data for a plot; null if not available. */
+    /** Model data for a plot (geometry, materials, conditions); null if not available. */
     virtual Json
     model()
     {
@@ -98,18 +99,19 @@ namespace geocone::GEOCONE_DIM
     begin(const Place &place) = 0;
 
     /**
-     * Solves a step of the programme, or the remainder of one that was stopped.
-     * @param[in,out] place its time advances if the step succeeds
+     * Solves a step of the loading programme, or the remainder of an interrupted step.
+     * @param[in,out] place position in the programme; its time advances if the step
+     * succeeds
      * @throws StepFailure, Stopped
      */
     virtual Ended
     advance(Place &place) = 0;
 
-    /** Adds the step to the tables. @param place at its end */
+    /** Appends the completed step to the tables. @param place at the end of the step */
     virtual void
     record(const Place &place) = 0;
 
-    /** Text about the last step for the progress line. */
+    /** Text on the last step for the progress line. */
     virtual std::string
     progress(const Place &place) const = 0;
 
@@ -118,7 +120,7 @@ namespace geocone::GEOCONE_DIM
     end(const Place &)
     {}
 
-    /** Whether fields are due after a step that is not the last of its stage. */
+    /** Whether fields are written after a step that is not the last step of a stage. */
     virtual bool
     wants_fields(const Place &) const
     {
@@ -129,16 +131,16 @@ namespace geocone::GEOCONE_DIM
     write_fields(const double)
     {}
 
-    /** Topics of the summary, in their order: results, size, cost. */
+    /** Topics of summary.json in order: results, size, cost. */
     virtual Json
     topics() = 0;
 
-    /** Adds to the results of a completed run. @p t: final time */
+    /** Appends the final results of a completed run to the output. @p t: final time */
     virtual void
     finish(const double)
     {}
 
-    /** @name State for checkpoints: numbers, and arrays */
+    /** @name State for checkpoints: scalars (state) and arrays (save, load) */
     /** @{ */
     virtual void
     state(StateRow &)
@@ -158,32 +160,33 @@ namespace geocone::GEOCONE_DIM
     dealii::Timer  total, step_loop, output_time;
 
   private:
-    /** Performs all stages from the present position. */
+    /** Performs all remaining stages from the current position. */
     void
     follow_programme();
 
     void
     print_progress();
 
-    /** @param status running | finished | failed: why */
+    /** @param status running | finished | failed: reason */
     void
     write_summary(const std::string &status);
 
-    /** Writes fields, summary and checkpoint if due. */
+    /** Writes the fields, the summary and a checkpoint if due after the step. */
     void
     write_if_due(const bool is_last);
 
     void
     save_checkpoint();
 
-    /** Returns to the latest valid checkpoint. @throws InputError if there is none */
+    /** Resumes from the latest valid checkpoint. @throws InputError if no checkpoint is
+     *  valid */
     void
     resume();
 
     Place                     place;
     std::vector<unsigned int> n_in_stage;     ///< steps of each stage
-    unsigned int              n_steps    = 0; ///< of all stages
-    unsigned int              first_step = 0; ///< of this process
+    unsigned int              n_steps    = 0; ///< steps of all stages
+    unsigned int              first_step = 0; ///< first step of this process
   };
 } // namespace geocone::GEOCONE_DIM
 
