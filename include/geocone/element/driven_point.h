@@ -20,8 +20,8 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * A material point that follows prescribed strains and stresses, with its
-   * strains and the counts of its increments. The material is the first of
+   * Material point driven by prescribed strains and stresses, with accumulated
+   * strains and statistics of the increments. The material is the first of
    * "Materials/Names".
    */
   class DrivenPoint : public dealii::ParameterAcceptor
@@ -29,35 +29,38 @@ namespace geocone::GEOCONE_DIM
   public:
     explicit DrivenPoint(const ParameterFile &file);
 
-    /** Checks the parameters and creates the point.
-     *  @return a note on values changed by the initialisation, or empty */
+    /** Checks the parameters and creates the material point.
+     *  @return remark on values changed by the initialisation, or empty */
     std::string
     prepare();
 
-    /** A point in the initial state. @param[out] changed as of prepare() */
+    /** Creates a material point in the initial state. @param[out] changed
+     *  remark as returned by prepare() */
     std::unique_ptr<ElementPoint>
     initial_point(std::string &changed) const;
 
-    /** Returns to the initial state and resets the counts. */
+    /** Resets the point to the initial state and the statistics to zero. */
     void
     restart();
 
-    /** Begins a control at f = 0.
-     *  @param goes_on whether the strains of the last control are the initial
-     *  guess of this one */
+    /** Begins a stage with the given control at f = 0.
+     *  @param goes_on whether strains of the previous control are the initial
+     *  guess */
     void
     begin(const ElementControl &control, const bool goes_on = false);
 
-    /** Advances to a value of f, in subincrements if necessary.
-     *  @param stage for messages. @throws StepFailure */
+    /** Advances the fraction f of the stage to a value, in subincrements if
+     *  necessary.
+     *  @param stage name for error messages. @throws StepFailure */
     void
     follow(const double to, const std::string &stage);
 
-    /** The present state. @param stage from 1; 0: the start */
+    /** Record of the current state. @param stage number from 1; 0: initial
+     *  state */
     ElementRecord
     record(const unsigned int stage) const;
 
-    /** The component with the largest range of strain. */
+    /** Component with the largest strain range (maximum minus minimum). */
     unsigned int
     main_component() const;
 
@@ -69,18 +72,19 @@ namespace geocone::GEOCONE_DIM
     double                        initial_volume = 2.; ///< 1 + e (-)
     std::unique_ptr<ElementPoint> point;
 
-    /** State and counts since the initial state. */
+    /** Accumulated strains, current control and statistics since the initial
+     *  state. */
     struct Path
     {
       Tensor6        strain{}, least_strain{}, most_strain{};
       ElementControl control;
-      Tensor6        start_stress{}; ///< of the control (Pa)
-      double         at = 0.;        ///< f in the control
-      Tensor6        guess{};        ///< increment per unit of f
+      Tensor6        start_stress{}; ///< stress at f = 0 (Pa)
+      double         at = 0.;        ///< current f of the control
+      Tensor6        guess{};        ///< strain increment per unit of f
       double         strain_path  = 0.;
       unsigned int   n_increments = 0, n_iterations = 0, n_cuts = 0;
       double         worst_residual = 0.;
-      LawCounts      before; ///< counts before the increment
+      LawCounts      before; ///< statistics before the increment
     };
     Path path;
 

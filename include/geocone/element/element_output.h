@@ -13,23 +13,23 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Folder of an element test: path.csv, surfaces.csv, summary.json. Records,
-   *  possibly millions, are not stored. */
+  /** Output folder of an element test: path.csv, surfaces.csv, summary.json.
+   *  Records are not stored, because a test can have millions of increments. */
   class ElementOutput : public OutputBase
   {
   public:
     using OutputBase::OutputBase;
 
-    /** Sets the columns of path.csv. @param volume initial specific volume
+    /** Defines the columns of path.csv. @param volume initial specific volume
      *  (-) */
     void
     add_columns(const ElementPoint &point, const double volume);
 
-    /** Creates the folder. @throws InputError */
+    /** Creates the output folder. @throws InputError */
     void
     prepare(const RunOptions &options);
 
-    /** Adds a line to path.csv. */
+    /** Appends a line to path.csv. */
     void
     add_line(const ElementRecord &record);
 
@@ -39,14 +39,14 @@ namespace geocone::GEOCONE_DIM
       return names;
     }
 
-    /** The last line. */
+    /** Last line of path.csv. */
     const std::vector<double> &
     last_line() const
     {
       return last;
     }
 
-    /** The value of a column in the last line. */
+    /** Value of a column in the last line of path.csv. */
     double
     value_of(const std::string &column) const;
 
@@ -57,12 +57,14 @@ namespace geocone::GEOCONE_DIM
       stages.emplace_back(name, last);
     }
 
-    /** Adds lines to surfaces.csv. @param state 0: initial, 1: final */
+    /** Appends sections of the yield surfaces to surfaces.csv. @param state 0:
+     *  initial, 1: final */
     void
     add_yield_curves(const unsigned int             state,
                      const std::vector<YieldCurve> &curves);
 
-    /** Adds the states to the topics of the summary. */
+    /** Appends the states at the start, at the end of each stage and at the end
+     *  of the test to summary.json. */
     void
     add_states(Json &summary) const;
 
@@ -74,11 +76,11 @@ namespace geocone::GEOCONE_DIM
     report_results(std::ostream &out) const override;
 
     StatisticsTable<ElementRecord> table;
-    std::vector<std::string>       names; ///< of its columns
+    std::vector<std::string>       names; ///< column names
     CsvFile                        surface_table;
 
-    /** @name Lines of path.csv: the first and the last one, the last one of
-     *  each stage, and the extremes of each column */
+    /** @name Lines of path.csv stored for the summary: first, last, last of
+     *  each stage; and the extreme values of each column */
     /** @{ */
     std::vector<double>                                      start, last;
     std::vector<std::pair<std::string, std::vector<double>>> stages;

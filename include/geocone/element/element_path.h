@@ -17,7 +17,8 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** A condition on a column of the results, "NAME <= NUMBER" or ">=". */
+  /** Condition for ending a stage: "COLUMN <= NUMBER" or "COLUMN >= NUMBER" for
+   *  a column of path.csv. */
   struct StopCondition
   {
     std::size_t column  = 0;
@@ -26,14 +27,15 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Control of each component along a stage: strain control by an increment, or
-   * stress control by a target. f runs from 0 at the start of the stage to 1.
+   * Control of each component in a stage: strain-controlled with a total
+   * increment, or stress-controlled with a target. The fraction f of the stage
+   * increases from 0 to 1.
    */
   struct ElementControl
   {
     std::array<bool, 6> by_stress{};
-    Tensor6             strain{}; ///< increment for f from 0 to 1 (-)
-    Tensor6             stress{}; ///< value at f = 1 (Pa)
+    Tensor6             strain{}; ///< total increment, f from 0 to 1 (-)
+    Tensor6             stress{}; ///< target stress at f = 1 (Pa)
 
     void
     state(StateRow &row)
@@ -42,25 +44,28 @@ namespace geocone::GEOCONE_DIM
     }
   };
 
-  /** A stage of a path: parameters of the section "Path/NAME". */
+  /** Stage of a loading path in an element test: parameters of the section
+   *  "Path/NAME". */
   class ElementStage : public dealii::ParameterAcceptor
   {
   public:
     explicit ElementStage(const std::string &name);
 
-    /** Checks the parameters for the components and columns of a point. */
+    /** Checks the parameters against the stress components of the point and the
+     *  columns of path.csv. */
     void
     prepare(const ElementPoint &point, const std::vector<std::string> &columns);
 
-    /** Control of a stage that starts from the present stress. */
+    /** Control of the stage, starting from the current stress of the point. */
     ElementControl
     control(const ElementPoint &point) const;
 
-    /** f at the ends of all increments. */
+    /** Values of the fraction f at the ends of all increments of the stage. */
     std::vector<double>
     positions() const;
 
-    /** Whether a line of the results ends the stage early. */
+    /** Whether a line of path.csv fulfils the condition for ending the stage
+     *  early. */
     bool
     stops(const double *line) const;
 
@@ -91,7 +96,7 @@ namespace geocone::GEOCONE_DIM
                           {"undrained", Kind::undrained},
                           {"simple shear", Kind::simple_shear}}};
 
-    /** Axes in the order of the components. */
+    /** Axis of loading, in the order of the tensor components. */
     enum class Axis
     {
       xx,
@@ -113,11 +118,11 @@ namespace geocone::GEOCONE_DIM
     unsigned int               n_increments = 100;
     unsigned int               n_cycles     = 0;
     std::string                stop_text;
-    std::vector<StopCondition> stop; ///< none or one
+    std::vector<StopCondition> stop; ///< at most one condition
     std::array<std::string, 6> strain_texts, stress_texts;
   };
 
-  /** The stages of "Path/Names", one after the other. */
+  /** Sequence of the stages in "Path/Names", a loading path. */
   class ElementPath : public NamedList<ElementStage>
   {
   public:

@@ -17,29 +17,31 @@ namespace geocone::GEOCONE_DIM
   /** Names of the components of a Tensor6. */
   extern const std::array<const char *, 6> component_names;
 
-  /** Frobenius norm: shear components count twice. */
+  /** Frobenius norm of a symmetric tensor (each shear component counts
+   *  twice). */
   double
   norm(const Tensor6 &x);
 
   /**
-   * One material point of any law, tension positive. Trials start from the last
-   * accepted state, so that rejected trials have no effect.
+   * Interface of a single material point with any constitutive law; tension
+   * positive. Trial increments start from the last accepted state, so that
+   * rejected trials have no effect.
    */
   class ElementPoint
   {
   public:
     virtual ~ElementPoint() = default;
 
-    /** Whether a component can be controlled, i.e. is not zero by plane
-     *  strain. */
+    /** Whether a component can be controlled (in plane strain, out-of-plane
+     *  components cannot). */
     virtual bool
     has(const unsigned int component) const = 0;
 
-    /** Stress after a trial strain increment (Pa). */
+    /** Computes the stress after a trial strain increment (Pa). */
     virtual Tensor6
     try_strain(const Tensor6 &strain) = 0;
 
-    /** Accepts the last trial. */
+    /** Accepts the state of the last trial. */
     virtual void
     accept() = 0;
 
@@ -47,11 +49,11 @@ namespace geocone::GEOCONE_DIM
     virtual Tensor6
     stress() const = 0;
 
-    /** An elastic modulus, for scaling strains (Pa). */
+    /** Elastic modulus for scaling strains (Pa). */
     virtual double
     modulus() const = 0;
 
-    /** @name Output of the accepted state; names include the unit */
+    /** @name Output quantities of the accepted state; names include the unit */
     /** @{ */
     virtual std::vector<std::string>
     names() const = 0;
@@ -59,34 +61,34 @@ namespace geocone::GEOCONE_DIM
     values() const = 0;
     /** @} */
 
-    /** Sections of the yield surfaces of the accepted state. */
+    /** Plane sections of the yield surfaces for the accepted state. */
     virtual std::vector<YieldCurve>
     yield_curves(const SectionPlane &plane) const = 0;
 
-    /** The accepted state, for a checkpoint. */
+    /** Reads or writes the accepted state of a checkpoint. */
     virtual void
     state(StateRow &row) = 0;
 
-    /** Statistics of all accepted trials, e.g. substeps. */
+    /** Statistics of the constitutive updates of all accepted trials. */
     LawCounts counts;
 
   protected:
-    LawCounts trial_counts; ///< of the last trial
+    LawCounts trial_counts; ///< statistics of the last trial
   };
 
-  /** Components of a point. */
+  /** Stress components that a material point has. */
   enum class StressComponents
   {
-    automatic, ///< all if the law has them
+    automatic, ///< all, if supported by the law
     plane_strain,
-    axisymmetric, ///< the normal ones and xy
+    axisymmetric, ///< normal components and xy
     all
   };
 
   /**
-   * Creates a point of a law.
-   * @param stress at the start (Pa)
-   * @param[out] changed a note on values changed by the initialisation, or
+   * Creates a material point with a constitutive law.
+   * @param stress initial stress (Pa)
+   * @param[out] changed remark on values changed by the initialisation, or
    * empty
    * @throws InputError if the law does not support the components or the stress
    */

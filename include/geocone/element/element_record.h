@@ -11,16 +11,17 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** State of the point after an accepted increment, or at the start. */
+  /** Record of an element test: state of the point at the start or after an
+   *  accepted increment. */
   struct ElementRecord
   {
-    unsigned int increment   = 0;
-    unsigned int stage       = 0; ///< from 1; 0: the start
-    Tensor6      strain      = {};
-    Tensor6      stress      = {}; ///< (Pa)
-    double       strain_path = 0.; ///< sum of the norms of the increments
-    std::vector<double> shown;     ///< ElementPoint::values()
-    unsigned long long  substeps = 0, forced = 0; ///< of the increment
+    unsigned int        increment   = 0;
+    unsigned int        stage       = 0; ///< from 1; 0: initial state
+    Tensor6             strain      = {};
+    Tensor6             stress      = {};         ///< (Pa)
+    double              strain_path = 0.;         ///< sum of increment norms
+    std::vector<double> shown;                    ///< ElementPoint::values()
+    unsigned long long  substeps = 0, forced = 0; ///< in the increment
 
     double
     volumetric_strain() const
@@ -28,12 +29,13 @@ namespace geocone::GEOCONE_DIM
       return strain[0] + strain[1] + strain[2];
     }
 
-    /** eps_q = sqrt(2/3) ||dev eps||. */
+    /** Deviatoric strain eps_q = sqrt(2/3) ||dev eps||. */
     double
     deviatoric_strain() const;
   };
 
-  /** Columns of path.csv for a point. @param volume initial specific volume (-) */
+  /** Columns of path.csv for a point.
+   *  @param volume initial specific volume (-) */
   StatisticsTable<ElementRecord>
   element_columns(const ElementPoint &point, const double volume);
 } // namespace geocone::GEOCONE_DIM

@@ -15,8 +15,8 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** A material point driven along a path in stages; one increment is one
-   *  step. */
+  /** Element test: a material point driven along a loading path in stages. One
+   *  increment is one step of the run. */
   class ElementTest : public Simulation
   {
   public:
@@ -59,7 +59,7 @@ namespace geocone::GEOCONE_DIM
     const char *
     components_of_point() const;
 
-    /** Appends the present state to the table. */
+    /** Appends the current state to path.csv. */
     void
     add_line(const unsigned int stage);
 
@@ -70,8 +70,8 @@ namespace geocone::GEOCONE_DIM
     ElementPath   path;
     ElementOutput element_output;
 
-    std::string         changed;   ///< by initialisation
-    std::vector<double> positions; ///< f of the stage's increments
+    std::string         changed;   ///< remark of the initialisation
+    std::vector<double> positions; ///< f at the ends of increments
     double              largest_p = 0.;
   };
 } // namespace geocone::GEOCONE_DIM

@@ -13,19 +13,20 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Outcome of an increment. */
+  /** Result of solving an increment under mixed control. */
   struct ControlReport
   {
     bool         converged  = false;
     unsigned int iterations = 0;
-    double       residual   = 0.; ///< relative
-    std::string  reason;          ///< why it did not converge
+    double       residual   = 0.; ///< relative stress residual
+    std::string  reason;          ///< reason for failure
   };
 
   /**
-   * Solves for the strain increments of stress-controlled components: Newton's
-   * method for s(e) = target with a finite-difference Jacobian, and damping if
-   * the residual does not decrease.
+   * Mixed stress and strain control of a material point: solves s(e) = target
+   * for the strain increments of the stress-controlled components. Newton's
+   * method with a finite-difference Jacobian, and step halving if the residual
+   * does not decrease.
    */
   class MixedControl : public dealii::ParameterAcceptor
   {
@@ -36,10 +37,12 @@ namespace geocone::GEOCONE_DIM
     prepare();
 
     /**
-     * @param point its last trial is the solution; the caller accepts it
-     * @param by_stress components with a target stress
-     * @param target their stresses (Pa)
-     * @param[in,out] strain increments; initial guess of the unknown ones
+     * @param point material point; the last trial is the solution, to be
+     * accepted by the caller
+     * @param by_stress stress-controlled components
+     * @param target target stresses of the stress-controlled components (Pa)
+     * @param[in,out] strain strain increments; in: initial guess of the unknown
+     * increments
      */
     ControlReport
     solve(ElementPoint              &point,
