@@ -11,12 +11,14 @@ namespace geocone
   /** Energies of the body (J/m). */
   struct Energies
   {
-    double kinetic = 0.; ///< v'Mv/2 of the nodes (FEM) or the particles (MPM)
-    /** sum V s'Ss/2, and for pore fluid sum V p^2/(2 K_w/n). Not available in
-     *  explicit steps, where laws provide only the work of the stress. */
+    double kinetic = 0.; ///< v'Mv/2 of nodes (FEM) or particles (MPM)
+    /** Elastic energy sum V s'Ss/2, with pore fluid also sum V p^2/(2 K_w/n).
+     *  Not available in explicit steps, in which laws provide only the stress
+     *  work. */
     double elastic = 0.;
-    /** MPM: -sum m g.(x - x0), x0 the lower left corner of the mesh. In FEM the
-     *  work of the weight is external instead. */
+    /** Potential energy in MPM: -sum m g.(x - x0), x0 the lower left corner of
+     *  the mesh. In FEM the work done by the weight is part of the external
+     *  work. */
     double potential = 0.;
 
     double
@@ -40,18 +42,19 @@ namespace geocone
     }
   };
 
-  /** Work on the body and dissipation, over one or more steps (J/m). */
+  /** Work done on the body and energy dissipated, in one or more steps
+   *  (J/m). */
   struct Works
   {
-    double external    = 0.; ///< of loads and supports
+    double external    = 0.; ///< work done by loads and supports
     double dissipation = 0.; ///< sum V s'(-z) >= 0, except contact
-    /** sum V |z_t| ||s_t| - a s_n - k|, the plastic work due to the difference
-     *  between the exact strength and that of lagged friction or friction with
-     *  memory. */
+    /** Plastic work due to the difference between the exact strength and the
+     *  strength of lagged friction or friction with memory: sum V |z_t| ||s_t|
+     *  - a s_n - k|. */
     double of_excess = 0.;
-    /** Dissipation by friction and impact in contact: -sum h r.u. */
+    /** Energy dissipated by friction and impact at contacts: -sum h r.u. */
     double contact_dissipation = 0.;
-    double of_ghosts           = 0.; ///< of GhostStiffness; a part of the loss
+    double of_ghosts           = 0.; ///< work of GhostStiffness
 
     Works &
     operator+=(const Works &other)
@@ -64,7 +67,7 @@ namespace geocone
       return *this;
     }
 
-    /** Total dissipated energy. */
+    /** Total dissipated energy, in the soil and at contacts. */
     double
     dissipated() const
     {

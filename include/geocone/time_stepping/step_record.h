@@ -13,16 +13,16 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Common end-of-step data of all methods, over all ranks. */
+  /** Global data at the end of a step, common to all methods. */
   struct StepEnd
   {
     Energies energies;
 
-    /** Largest cumulative plastic strain of all points. */
+    /** Maximum accumulated plastic strain of all points. */
     double largest_plastic_strain = 0.;
 
-    /** Forces on the body of each of Scene::supports() (N/m), and their moments
-     *  (N m/m); explicit: means over the step. */
+    /** Reactions of each of Scene::supports(): forces on the body (N/m) and
+     *  moments (N m/m); in explicit steps, means over the step. */
     std::vector<Reaction> reactions;
 
     void
@@ -32,16 +32,17 @@ namespace geocone::GEOCONE_DIM
     }
   };
 
-  /** Common record of an accepted step of the loading programme.
-   *  @tparam End the method's own StepEnd */
+  /** Record of an accepted step of the loading programme, common to all
+   *  methods.
+   *  @tparam End StepEnd of the method */
   template <typename End>
   struct StepRecord
   {
     unsigned int step = 0;
-    double       time = 0.; ///< at its end (s)
+    double       time = 0.; ///< end of the step (s)
     End          last;
     std::vector<dealii::Tensor<1, dim>>
-      displacements; ///< of observed points (m)
+      displacements; ///< displacements of observed points (m)
 
     void
     state(StateRow &row)

@@ -14,27 +14,29 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** State advanced in time, besides the points' state. */
+  /** Kinematic state advanced in time, in addition to the state of the
+   *  points. */
   struct Kinematics
   {
-    Vector velocity;     ///< of the nodes at t_n (m/s)
-    Vector displacement; ///< of fixed nodes (FEM), since the last reset (m)
+    Vector velocity;     ///< nodal velocity at t_n (m/s)
+    Vector displacement; ///< nodal (FEM), since the last reset (m)
 
-    /** Mean displacement of the support of each condition, since the reset
-     *  (m). */
+    /** Mean displacement of the support of each boundary condition since the
+     *  last reset (m). */
     std::vector<dealii::Tensor<1, dim>> supports;
   };
 
-  /** Diagnostics of material points; unused with fixed quadrature points. */
+  /** Diagnostics of moving material points; unused with fixed quadrature
+   *  points. */
   struct Motion
   {
     unsigned int light_functions = 0;  ///< see GhostPlaces::n_light()
     unsigned int points_behind   = 0;  ///< see MovingConditions::n_behind()
     unsigned int points_put_back = 0;  ///< see MovingConditions::put_back()
-    double       put_back        = 0.; ///< largest distance (m)
+    double       put_back        = 0.; ///< largest distance of a return (m)
     double       light_share     = 0.; ///< see Multipliers::light_share()
 
-    /** Largest coordinates of points at the end (m). */
+    /** Largest coordinates of all points at the end of the step (m). */
     dealii::Point<dim> front;
 
     void
@@ -59,14 +61,15 @@ namespace geocone::GEOCONE_DIM
     }
   };
 
-  /** Result of a step. Without convergence, no state has changed. */
+  /** Result of an implicit step. Without convergence, the state is
+   *  unchanged. */
   struct StepReport : StepEnd
   {
     bool         converged = false;
     SolverReport newton;
     Quality      quality;
-    Energies     of_lost; ///< of particles that have left the mesh
-    Works        works;   ///< of the step
+    Energies     of_lost; ///< energies of particles that left the mesh
+    Works        works;   ///< work in the step
 
     unsigned int unknowns    = 0;
     unsigned int multipliers = 0; ///< independent rows of H
@@ -78,11 +81,12 @@ namespace geocone::GEOCONE_DIM
     /** Contact with obstacles. */
     ContactReport contact;
 
-    /** Bars of all structures, and all plates, in their order. */
+    /** States of the bars of all structures, and of the plates, in the order of
+     *  the scene. */
     std::vector<BarState>   bars;
     std::vector<PlateState> plates;
 
-    /** Load factor at its end; 1 without load stepping. */
+    /** Load factor at the end of the step; 1 without load stepping. */
     double load_factor = 1.;
 
     /**
@@ -113,20 +117,23 @@ namespace geocone::GEOCONE_DIM
     }
   };
 
-  /** Result of a change of the body at the beginning of a stage. */
+  /** Result of removing and adding material at the beginning of a stage. */
   struct BodyChange
   {
     std::vector<std::string> remarks;
-    Energies                 before, after; ///< of the body before and after
+    Energies                 before, after; ///< of the body (J/m)
   };
 
-  /** Material number of each material after a stage: another one or itself. */
+  /** Maps each material index to the material index after the changes of a
+   *  stage. */
   std::vector<unsigned int>
   materials_after(const Stage &stage, const Materials &materials);
 
-  /** Changes the material of points. Histories are initialised from their
-   *  stresses, masses from their volumes. Collective.
-   *  @return remarks @throws StepFailure if a material has no points */
+  /** Replaces the materials of points as specified by a stage. History
+   *  variables are initialised from the stresses, masses computed from the
+   *  volumes. Collective.
+   *  @return remarks @throws StepFailure if a material to be replaced has no
+   *  points */
   std::vector<std::string>
   change_materials(const Stage    &stage,
                    const Scene    &scene,
@@ -138,13 +145,14 @@ namespace geocone::GEOCONE_DIM
   void
   check_round_body(const Scene &scene);
 
-  /** Energies::elastic over the points of all ranks (J/m). */
+  /** Elastic energy of the points of all ranks, Energies::elastic (J/m).
+   *  Collective. */
   double
   elastic_energy(const MaterialPoints &points,
                  const Materials      &materials,
                  const MPI_Comm        comm);
 
-  /** @name Nodal values, as part of a checkpoint. Collective. */
+  /** @name Nodal values as part of a checkpoint. Collective. */
   /** @{ */
   void
   save_nodes(Archive              &archive,
@@ -160,12 +168,13 @@ namespace geocone::GEOCONE_DIM
              Vector               &values);
   /** @} */
 
-  /** Largest cumulative plastic strain of the points of all ranks. */
+  /** Maximum accumulated plastic strain of the points of all ranks.
+   *  Collective. */
   double
   largest_plastic_strain(const MaterialPoints &points, const MPI_Comm comm);
 
-  /** Defect of the energy identity in the last step solved with a problem.
-   *  Collective. */
+  /** Relative defect of the energy identity (StepReport::identity_error) in the
+   *  last step solved with a problem. Collective. */
   double
   energy_identity_error(const IncrementalProblem &problem,
                         const MaterialPoints     &points,
@@ -175,10 +184,10 @@ namespace geocone::GEOCONE_DIM
                         const double              work);
 
   /**
-   * Fraction of the plastic work that becomes kinetic energy in the last step
-   * solved with a problem, v'M(v - vL)/sum V s:de^p, including free obstacles.
-   * It almost vanishes in creep towards a new equilibrium; for a flowing slope
-   * it is the deficit 1 - F of its factor of safety. Collective.
+   * Ratio of kinetic energy gain to plastic work in the last step solved with a
+   * problem, v'M(v - vL)/sum V s:de^p, including free obstacles. The ratio
+   * almost vanishes in creep towards a new equilibrium; for a failing slope it
+   * equals the deficit 1 - F of the factor of safety F. Collective.
    */
   double
   accelerating_share(const IncrementalProblem &problem,
@@ -188,22 +197,22 @@ namespace geocone::GEOCONE_DIM
                      const Vector             &v);
 
   /**
-   * Interface for advancing a scene in time by one of the methods. State
-   * changes only here, and only when a step is accepted.
+   * Interface of implicit time stepping, for FEM and MPM. Only a time stepper
+   * changes the state, and only if a step is accepted.
    */
   class TimeStepper
   {
   public:
     virtual ~TimeStepper() = default;
 
-    /** Whether there is inertia; otherwise no mass is assembled. */
+    /** Whether inertia is included; otherwise no mass matrix is assembled. */
     virtual bool
     has_inertia() const = 0;
 
     /**
-     * Allocates the data of steps and sets up the points and the motion at t =
-     * 0.
-     * @return a warning or nothing
+     * Allocates the data of the steps and initialises the points and the
+     * kinematics at t = 0.
+     * @return a warning, or an empty string
      * @throws InputError
      */
     virtual std::string
@@ -215,13 +224,15 @@ namespace geocone::GEOCONE_DIM
             Kinematics            &kinematics,
             MaterialPoints        &points) = 0;
 
-    /** Kinetic, elastic and potential energy at time t. Collective. */
+    /** Kinetic, elastic and potential energy of the body at time t.
+     *  Collective. */
     virtual Energies
     state_energies(const Kinematics     &kinematics,
                    const MaterialPoints &points,
                    const double          t) const = 0;
 
-    /** Attempts the step from t to t + h and commits it if it converges.
+    /** Attempts a step from t to t + h; the state is updated if the step
+     *  converges.
      *  @param accepted_excess see NonsmoothNewton::Hints */
     virtual StepReport
     advance(Kinematics            &kinematics,
@@ -234,7 +245,7 @@ namespace geocone::GEOCONE_DIM
             const double           accepted_excess) = 0;
 
     /** Removes and adds material at the beginning of a stage at time t.
-     *  @throws StepFailure if no material is removed, or all of it */
+     *  @throws StepFailure if no material is removed, or all material */
     virtual BodyChange
     change_body(const Stage         &stage,
                 const double         t,
@@ -242,25 +253,27 @@ namespace geocone::GEOCONE_DIM
                 Kinematics          &kinematics,
                 MaterialPoints      &points) = 0;
 
-    /** Resets displacements and plastic strains to zero. */
+    /** Sets displacements and plastic strains to zero. */
     void
     reset(Kinematics &kinematics, MaterialPoints &points) const;
 
-    /** @name State except the motion (Kinematics), as part of a checkpoint.
+    /** @name State except the kinematics, as part of a checkpoint.
      *  Collective. */
     /** @{ */
     virtual void
     save(Archive &archive, const MaterialPoints &points) = 0;
 
-    /** Replaces the state set up by prepare().
-     *  @throws RunError if it does not fit */
+    /** Replaces the state initialised by prepare() by the state of a
+     *  checkpoint.
+     *  @throws RunError if the checkpoint does not match the scene */
     virtual void
     load(const Archive &archive, MaterialPoints &points) = 0;
     /** @} */
 
-    /** Replaces the points set up by prepare() by those of another run's
-     *  checkpoint, at rest, without moving boundaries, obstacles, displacements
-     *  and plastic strains. Collective. @throws RunError if it does not fit */
+    /** Replaces the points initialised by prepare() by the points of a
+     *  checkpoint of another run, at rest and without displacements and plastic
+     *  strains; moving boundaries and obstacles are not read. Collective.
+     *  @throws RunError if the checkpoint does not match the scene */
     void
     begin_from(const Archive  &archive,
                Kinematics     &kinematics,
@@ -272,7 +285,7 @@ namespace geocone::GEOCONE_DIM
     virtual std::string
     linear_solver_name() const = 0;
 
-    /** Number of entries of the Jacobian on this rank. */
+    /** Number of matrix entries of the Jacobian on this rank. */
     virtual std::size_t
     n_nonzeros() const = 0;
 
@@ -283,14 +296,14 @@ namespace geocone::GEOCONE_DIM
       return false;
     }
 
-    /** Whether points may leave the mesh; such points are counted. */
+    /** Whether points may leave the mesh; n_lost() counts these points. */
     virtual bool
     points_may_leave() const
     {
       return false;
     }
 
-    /** Displacements of the obstacles of the scene, one by one. */
+    /** Rigid motion of each obstacle of the scene. */
     virtual const std::vector<RigidMotion> &
     moved_obstacles() const = 0;
 
@@ -309,7 +322,8 @@ namespace geocone::GEOCONE_DIM
     }
 
   private:
-    /** Adopts the points of a checkpoint of any run. Collective. */
+    /** Replaces the points by the points of a checkpoint of any run.
+     *  Collective. */
     virtual void
     take_points(const Archive &archive, MaterialPoints &points) = 0;
   };
