@@ -10,25 +10,25 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Nonsmooth Gauss-Seidel method for a ReducedProblem. In each sweep, the cones are
-   * solved exactly one after another (solve_one_cone) with the others fixed;
-   * multipliers, if any, follow from all stresses. For associated flow it minimises the
-   * convex function of eq (63) block by block and converges from any start; otherwise
-   * it mostly converges.
+   * Nonsmooth Gauss-Seidel method for a ReducedProblem. In each sweep, the problem of
+   * each cone is solved exactly in turn (solve_one_cone) with the other stresses fixed;
+   * multipliers, if any, follow from all stresses. For associated flow, the method
+   * minimises the convex function of eq (63) block by block and converges from any
+   * initial guess; for non-associated flow, it mostly converges.
    */
   struct GaussSeidel
   {
-    double       tolerance  = 1e-8;   ///< on natural_map_error()
+    double       tolerance  = 1e-8;   ///< for natural_map_error()
     unsigned int max_sweeps = 100000; ///< maximum
 
-    /** Stop if, at the rate of the last half of the sweeps, the tolerance cannot be met
-     *  within max_sweeps. */
+    /** Terminates if, at the convergence rate of the last half of the sweeps, the
+     *  tolerance cannot be reached within max_sweeps. */
     bool stops_if_slow = false;
 
     /**
-     * @param[in,out] s in: the start (Pa, 3n); out: the solution
-     * @return errors during sweeps are those of each cone when visited, at no extra
-     * cost; the first and the last one are those of the full state
+     * @param[in,out] s in: initial guess (Pa, 3n components); out: solution
+     * @return report; errors during sweeps are computed cone by cone before each update,
+     * at no extra cost; the first and the last error refer to the full state
      */
     ReducedReport
     solve(const ReducedProblem &problem, Eigen::VectorXd &s) const;

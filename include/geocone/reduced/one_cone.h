@@ -8,14 +8,15 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Stresses (Pa) as columns: at most one inside, the apex, four more. */
+  /** Solutions of the problem of one cone, stresses (Pa) as columns: at most one inside
+   *  the cone, one at the apex, four on the surface. */
   using OneConeSolutions = Eigen::
     Matrix<double, n_mandel, Eigen::Dynamic, Eigen::ColMajor, n_mandel, 6>;
 
   /**
-   * All solutions s of the problem of one cone,
-   *   z = W s + q, (s, z) fulfils the law of FlowCone,
-   * within rounding. They are of three kinds:
+   * Computes all solutions s of the complementarity problem of one cone,
+   *   z = W s + q, (s, z) satisfies the law of FlowCone,
+   * within rounding. Solutions are of three kinds:
    *  - inside: z = 0;
    *  - apex: s = (-k/a, 0), b |z_t| <= z_n;
    *  - surface: s = s_n e_n + (a s_n + k) u and z = g d, d = b e_n - u, g >= 0,
@@ -35,10 +36,10 @@ namespace geocone::GEOCONE_DIM
                      const Mandel       &q);
 
   /**
-   * Selects one of one_cone_solutions(): the one of the same kind as the guess if it
-   * exists (on the surface: if Newton's method for f, started from the guess's angle,
-   * converges to it), otherwise the one nearest to the guess. The former is many times
-   * faster.
+   * Solves the problem of one cone for a single solution: a solution of the same kind as
+   * the guess if it exists (on the surface: if Newton's method for f converges from the
+   * angle of the guess), otherwise the nearest of one_cone_solutions() to the guess. The
+   * first case is many times faster.
    */
   Mandel
   solve_one_cone(const FlowCone     &cone,

@@ -9,10 +9,10 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Solves a step for its stresses alone (Reduction). The result is judged by R(v) of
-   * the return map at the corresponding velocities. The error of the reduced problem
-   * that this requires depends on the step size: it is divided by ten while R(v) is too
-   * large.
+   * Formulation of a step with stresses as the only unknowns (Reduction). Convergence is
+   * checked by R(v) of the return map at the corresponding velocities. The required
+   * tolerance of the reduced problem depends on the step size: the tolerance is divided
+   * by ten while R(v) is too large.
    */
   struct ReducedFormulation
   {
@@ -24,11 +24,12 @@ namespace geocone::GEOCONE_DIM
     };
 
     Solver       solver             = Solver::newton;
-    double       tolerance          = 1e-10; ///< on |R_free|, relative
-    double       absolute_tolerance = 1e-12; ///< on |R_free| (N/m)
-    unsigned int max_iterations     = 60;    ///< or sweeps
+    double       tolerance          = 1e-10; ///< for |R_free|, relative
+    double       absolute_tolerance = 1e-12; ///< for |R_free| (N/m)
+    unsigned int max_iterations     = 60;    ///< iterations or sweeps
 
-    /** Solves from the stress at t_n. @throws InputError like Reduction */
+    /** Solves the step with the stresses at t_n as the initial guess. @throws InputError
+     *  as Reduction::check() */
     void
     solve(const StepWorkspace &work) const;
   };

@@ -10,24 +10,26 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Semismooth Newton method (eq 76) for a ReducedProblem in s, with z = W s - C lambda
-   * + q eliminated and the multipliers, if any, as additional unknowns. It solves F(s)
-   * = 0, where F_p is one of
+   * Semismooth Newton method (eq 76) for a ReducedProblem in s, with z = W s - C lambda +
+   * q eliminated and the multipliers, if any, as additional unknowns. The method solves
+   * F(s) = 0, where F_p is one of
    *  - the natural map s - P_C(s - rho Psi(z)) (eqs 59, 62),
-   *  - the return map s - R(s - rho z), with R that of return_map() for K = 2G = rho,
-   *    which includes the flow rule and needs no change of variable.
-   * They coincide for associated flow, and have the same roots otherwise.
+   *  - the return map s - R(s - rho z), with R = return_map() for K = 2G = rho, which
+   *    includes the flow rule and requires no change of variable.
+   * Both maps coincide for associated flow, and have the same roots for non-associated
+   * flow.
    *
-   * If the elastic part S of W is known, the return map takes K and 2G from it, s - R(s
-   * - S^-1 z). Then -B'F is the residual of the momentum balance at the velocity that
-   * corresponds to s, and each step is that of Newton's method for this velocity. The
-   * step length is that of line_search() with the directional residual F.(dz - S ds),
-   * up to a factor: for associated flow a descent direction always exists. If S is
-   * unknown, steps are halved until |F|^2 decreases. If it does not, Gauss-Seidel
-   * sweeps follow, twice as many each time. If W has factors, the stresses are
-   * eliminated from each linear system point by point, which leaves a sparse one for
-   * the free dofs. Otherwise J is factorised as a dense matrix if more than one in
-   * twenty entries of W is nonzero, else as a sparse one.
+   * If the elastic part S of W is known, the return map uses K and 2G of S, s - R(s -
+   * S^-1 z). Then -B'F is the residual of the momentum balance at the velocity
+   * corresponding to s, and each step equals a step of Newton's method for this
+   * velocity. The step length follows from line_search() with the directional residual
+   * F.(dz - S ds), up to a factor: for associated flow a descent direction always
+   * exists. If S is unknown, steps are halved until |F|^2 decreases. If |F|^2 does not
+   * decrease, Gauss-Seidel sweeps follow, with the number of sweeps doubled each time.
+   * If W has factors, the stresses are eliminated from each linear system point by
+   * point, which results in a sparse system for the free dofs. Otherwise the Jacobian J
+   * is factorised as a dense matrix if more than 5 % of the entries of W are nonzero, or
+   * else as a sparse matrix.
    */
   struct ReducedNewton
   {
@@ -37,19 +39,19 @@ namespace geocone::GEOCONE_DIM
       return_map
     };
 
-    double       tolerance      = 1e-10; ///< on natural_map_error()
-    unsigned int max_iterations = 60;    ///< restarts included
-    unsigned int restart_sweeps = 100;   ///< of the first one
+    double       tolerance      = 1e-10; ///< for natural_map_error()
+    unsigned int max_iterations = 60;    ///< iterations, restarts included
+    unsigned int restart_sweeps = 100;   ///< sweeps of the first restart
     Map          map            = Map::return_map;
 
     /**
-     * Scale rho, the same for all cones as in the paper (Pa, for z a strain). 0: from S
-     * for the return map if S is known, else that of the cone, 10 / (mean eigenvalue of
-     * W_pp), the best of 0.1, 1, 10, 100.
+     * Scale rho of the maps, equal for all cones as in Guillet et al. 2025 (Pa, if z is a
+     * strain). 0: K and 2G from S (return map, S known), otherwise for each cone 10 /
+     * (mean eigenvalue of W_pp), the best of the factors 0.1, 1, 10, 100.
      */
     double rho = 0.;
 
-    /** @param[in,out] s in: the start (Pa, 3n); out: the solution */
+    /** @param[in,out] s in: initial guess (Pa, 3n components); out: solution */
     ReducedReport
     solve(const ReducedProblem &problem, Eigen::VectorXd &s) const;
   };

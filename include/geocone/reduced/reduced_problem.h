@@ -15,20 +15,20 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Data of an incremental problem reduced to its stresses (Guillet et al. 2025, eqs
-   * 61, 74): find s, lambda such that
+   * Incremental problem reduced to stresses as unknowns (Guillet et al. 2025, eqs 61,
+   * 74): find s, lambda such that
    *   z = W s - C lambda + q, 0 = -C' s + L lambda + d,
-   * and (s_p, z_p) fulfils the law of cone p (FlowCone), in cone axes, for each of the
+   * and (s_p, z_p) satisfies the law of cone p (FlowCone), in cone axes, for each of the
    * n cones. With M, B, S, H of eq (71) and a time step h,
    *   W = S + h^2 B M^-1 B', q = -q_sigma - h B M^-1 q_v,
    *   C = h B M^-1 H', L = H M^-1 H', d = H M^-1 q_v - q_BC.
-   * Without constraints C, L and d are empty. s is a stress (Pa); z may be a strain
-   * increment or, with the volumes of the points in W and q, a multiple of it.
+   * Without constraints C, L and d are empty. s is a stress (Pa); z is a strain increment
+   * or, if W and q contain the volumes of the points, a strain increment times volume.
    *
-   * W is given as a matrix or, for a lumped mass, by its factors,
+   * W is stored as a matrix or, for a lumped mass, by the factors G, m and H,
    *   W = S + G diag(m) G', C = G diag(m) H', L = H diag(m) H',
-   * which couple two points only if they share a node: the matrix would have a hundred
-   * times as many entries.
+   * which couple two points only if the points share a node: the matrix W would have a
+   * hundred times as many entries. Sizes below: n cones, f free dofs, m multipliers.
    */
   struct ReducedProblem
   {
@@ -57,61 +57,62 @@ namespace geocone::GEOCONE_DIM
       return d.size();
     }
 
-    /** Whether W is given by its factors. */
+    /** Whether W is stored by its factors. */
     bool
     has_factors() const
     {
       return m.size() > 0;
     }
 
-    /** diag(m) G's, if W has factors. */
+    /** Nodal vector diag(m) G's, if W has factors. */
     Eigen::VectorXd
     nodal(const Eigen::VectorXd &s) const;
 
-    /** W s. */
+    /** Product W s. */
     Eigen::VectorXd
     multiply(const Eigen::VectorXd &s) const;
 
-    /** The 3 x 3 block of W on the diagonal of a cone. */
+    /** Diagonal 3 x 3 block W_pp of cone p. */
     MandelMatrix
     diagonal_block(const unsigned int p) const;
 
-    /** z = W s - C lambda + q. */
+    /** Dual variable z = W s - C lambda + q. */
     Eigen::VectorXd
     z(const Eigen::VectorXd &s, const Eigen::VectorXd &lambda) const;
 
     /**
-     * Multipliers lambda that fulfil the constraints for a given s: L^-1 (C' s - d).
+     * Multipliers lambda that satisfy the constraints for given stresses s: L^-1 (C' s -
+     * d).
      */
     Eigen::VectorXd
     multipliers(const Eigen::VectorXd &s) const;
 
     /**
-     * Equivalent problem without lambda (eqs 74, 75): W - C L^-1 C' and q + C L^-1 d,
-     * with W as a matrix, dense where C is.
+     * Equivalent problem with the multipliers eliminated (eqs 74, 75): W - C L^-1 C' and
+     * q + C L^-1 d, with W stored as a matrix, dense where C is dense.
      * @throws RunError if L is not positive definite (redundant constraints)
      */
     ReducedProblem
     projected() const;
 
     /**
-     * Error of a state, independent of the solver (eq 59):
+     * Error of stresses s, independent of the solver (eq 59):
      *   max_p |s_p - P_C(s_p - rho_p Psi(z_p))| / (max_p |s_p| + max_p k_p),
-     * with rho_p = 3/trace(W_pp) and lambda = multipliers(s). Dimensionless; infinite
-     * for s = 0 without cohesion, unless that is the solution.
+     * with rho_p = 3/trace(W_pp) and lambda = multipliers(s). Dimensionless; infinite for
+     * s = 0 without cohesion, unless s = 0 is the solution.
      */
     double
     natural_map_error(const Eigen::VectorXd &s) const;
   };
 
-  /** Scale rho = 3/trace(W_pp) of s/z in the natural map of one cone. */
+  /** Scale rho = 3/trace(W_pp) in the natural map of one cone, the ratio of s to z. */
   inline double
   natural_scale(const MandelMatrix &W)
   {
     return 3. / W.trace();
   }
 
-  /** Norm |s - P_C(s - rho Psi(z))| of one cone (Pa). */
+  /** Norm of the natural map of one cone, |s - P_C(s - rho Psi(z))| (Pa). */
   inline double
   natural_map_norm(const FlowCone &cone,
                    const Mandel   &s,

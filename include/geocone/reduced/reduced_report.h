@@ -8,14 +8,14 @@
 
 namespace geocone
 {
-  /** Outcome of the solution of a ReducedProblem. */
+  /** Result of solving a ReducedProblem. */
   struct ReducedReport
   {
     bool                converged  = false;
     unsigned int        iterations = 0; ///< Newton steps or sweeps
     unsigned int        restarts   = 0; ///< Newton steps replaced by sweeps
     double              error = 0.;     ///< ReducedProblem::natural_map_error()
-    std::vector<double> errors; ///< at the start and after each iteration
+    std::vector<double> errors; ///< error at the start and after each iteration
     double              cpu_seconds = 0.;
   };
 } // namespace geocone

@@ -10,25 +10,26 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Reduction of an IncrementalProblem to a ReducedProblem for its stresses (paper, eqs
-   * 61, 74), and the recovery of the velocity. With v* = vL + h M^-1 F on the free dofs
-   * and the prescribed velocities elsewhere, and each point's law multiplied by its
-   * volume so that W is symmetric,
+   * Reduction of an IncrementalProblem to a ReducedProblem with stresses as unknowns
+   * (Guillet et al. 2025, eqs 61, 74), and recovery of the velocities. With v* = vL + h
+   * M^-1 F at the free dofs and the prescribed velocities at the other dofs, and the law
+   * of each point multiplied by the volume of the point so that W is symmetric,
    *   W = V S + h^2 V B M^-1 B' V, q = -V S s_n - h V B v*,
    *   C = h^2 V B M^-1 H', L = h^2 H M^-1 H', d = h (H v* - q_H),
-   * where B, M and H are those of the free dofs: W is in m^2/Pa. Its factors are G = V
-   * B in cone axes and m = h^2/M.
+   * with B, M and H of the free dofs; W is in m^2/Pa. The factors of W are G = V B in
+   * cone axes and m = h^2/M.
    */
   class Reduction
   {
   public:
-    /** Largest number of points with a dense W: 650 MB. */
+    /** Maximum number of points for a dense matrix W (650 MB). */
     static constexpr unsigned int most_projected = 3000;
 
     /**
-     * Checks that the problem can be reduced. Excluded are several ranks, problems
-     * without inertia, a consistent mass, and materials without a cone. Collective.
-     * @param parameter that requests the reduction, and its value
+     * Checks that the problem can be reduced. Not supported are several ranks, problems
+     * without inertia, a consistent mass matrix, and materials without a cone.
+     * Collective.
+     * @param parameter name of the parameter that requests the reduction, with its value
      * @param projected whether the multipliers are to be eliminated, which makes W a
      * dense matrix
      * @throws InputError
@@ -48,12 +49,13 @@ namespace geocone::GEOCONE_DIM
       return reduced;
     }
 
-    /** Stress at t_n in cone axes (Pa). */
+    /** Stresses at t_n in cone axes (Pa), initial guess of the solvers. */
     Eigen::VectorXd
     stress_at_start() const;
 
-    /** Velocity v = v* - h M^-1 (B'V s - H' lambda) on the free dofs, with lambda from
-     *  s, and the prescribed velocities elsewhere. */
+    /** Computes the velocity from stresses s: v = v* - h M^-1 (B'V s - H' lambda) at the
+     *  free dofs with lambda = multipliers(s), and the prescribed velocities at the other
+     *  dofs. */
     void
     recover_velocity(const Eigen::VectorXd &s, Vector &v) const;
 

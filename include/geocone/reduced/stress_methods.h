@@ -8,11 +8,12 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Name of the formulation, and of the first iterate. */
+  /** Parameter value that selects the Gauss-Seidel formulation or the Gauss-Seidel first
+   *  iterate. */
   constexpr const char *gauss_seidel = "Gauss-Seidel";
 
-  /** Reduced formulations by Newton's method and Gauss-Seidel, and first iterates by
-   *  Gauss-Seidel sweeps. */
+  /** Methods with stresses as the only unknowns: reduced formulations solved by Newton's
+   *  method or Gauss-Seidel, and first iterates by Gauss-Seidel sweeps. */
   StressMethods
   stress_methods();
 } // namespace geocone::GEOCONE_DIM
