@@ -9,17 +9,18 @@
 namespace geocone
 {
   /**
-   * Selects the kernels of OpenBLAS by the instruction sets of this processor.
-   * OpenBLAS itself selects them by the processor model, and uses SSE3 for
-   * models newer than itself: factorisations in three dimensions then take
-   * three times as long. Has no effect if OpenBLAS has selected AVX2 or better,
-   * if the environment variable OPENBLAS_CORETYPE is set, or with another BLAS.
-   * Must be called before any BLAS function.
+   * Selects the kernels of OpenBLAS by the instruction sets of the processor.
+   * By default OpenBLAS selects kernels by the processor model, with SSE3 for
+   * models unknown to the installed version: factorisations in three dimensions
+   * are then three times slower. Has no effect if OpenBLAS has selected AVX2 or
+   * better, if the environment variable OPENBLAS_CORETYPE is set, or with
+   * another BLAS. Must be called before any BLAS function.
    */
   void
   select_blas_kernels();
 
-  /** Name of the kernels that OpenBLAS uses ("Haswell"), "unknown" with another BLAS. */
+  /** Name of the kernels selected in OpenBLAS (e.g. "Haswell"); "unknown" with
+   *  another BLAS. */
   std::string
   blas_core();
 } // namespace geocone

@@ -17,20 +17,22 @@
 namespace geocone
 {
   /**
-   * Interface of solvers of sparse linear systems: analyse() once per pattern,
-   * factorise() once per matrix, which must outlive the last solve() with it.
+   * Interface of solvers for sparse linear systems: analyse() once per sparsity
+   * pattern, factorise() once per matrix. The matrix must outlive the last
+   * solve() with its factorisation.
    */
   class LinearSolver
   {
   public:
     virtual ~LinearSolver() = default;
 
-    /** Orders the unknowns and plans the factorisation for this pattern. */
+    /** Symbolic analysis: orders the unknowns and plans the factorisation for
+     *  the sparsity pattern of a matrix. */
     virtual void
     analyse(const SparseMatrix &matrix) = 0;
 
     /**
-     * Factorises the values of a matrix with the analysed pattern.
+     * Numerical factorisation of a matrix with the analysed sparsity pattern.
      * @return false if the matrix is singular or, for a Cholesky
      * factorisation, not positive definite; the same on all ranks
      */
@@ -38,8 +40,9 @@ namespace geocone
     factorise(const SparseMatrix &matrix) = 0;
 
     /**
-     * Replaces the owned rows of right-hand sides by the solutions.
-     * @param x the columns one after another
+     * Solves for several right-hand sides; the solutions replace the right-hand
+     * sides.
+     * @param x owned rows, column by column
      */
     virtual void
     solve(std::vector<double> &x, const unsigned int n_columns = 1) = 0;
@@ -55,14 +58,16 @@ namespace geocone
     set_nodal_rows(NodalRows)
     {}
 
-    /** Whether it uses only the lower triangle of a symmetric matrix. */
+    /** Whether the solver uses only the lower triangle of a symmetric
+     *  matrix. */
     virtual bool
     wants_one_triangle() const = 0;
 
     virtual std::string
     name() const = 0;
 
-    /** Terminates the run after a failure of a solver. @throws RunError */
+    /** Reports the failure of a solver, which terminates the run. @throws
+     *  RunError */
     [[noreturn]] static void
     fail(const std::string &why);
   };
@@ -87,7 +92,7 @@ namespace geocone
                           {"Mumps", Name::mumps},
                           {"multigrid", Name::multigrid}}};
 
-    /** Size of the integers that count the entries of Cholmod's factors. */
+    /** Size of the integers that index the entries of Cholmod's factors. */
     enum class IndexSize
     {
       automatic,
@@ -98,16 +103,18 @@ namespace geocone
                                      {"32", IndexSize::bits_32},
                                      {"64", IndexSize::bits_64}}};
 
-    /** Whether Mumps stores factors on disk, and where. */
+    /** Whether Mumps stores the factors on disk, and the folder for the
+     *  factors. */
     bool        out_of_core = false;
     std::string folder      = "/tmp";
 
-    /** Multigrid: relative residual, and largest number of iterations. */
+    /** Multigrid: tolerance for the relative residual, and maximum number of
+     *  iterations. */
     double       tolerance      = 1e-6;
     unsigned int max_iterations = 200;
 
     /**
-     * Makes the solver for a class of matrices:
+     * Creates the selected solver for symmetric or unsymmetric matrices:
      * - Cholmod: supernodal Cholesky of SuiteSparse; one rank, symmetric
      *   positive definite matrices (associated flow);
      * - Umfpack: unsymmetric multifrontal LU of SuiteSparse; one rank;
@@ -127,24 +134,24 @@ namespace geocone
     make_direct(Name chosen, const MPI_Comm comm, const bool symmetric) const;
   };
 
-  /** @name The solvers */
+  /** @name Creation of the linear solvers */
   /** @{ */
 
-  /** @param size of integers; automatic: the smallest that can count the
-   *  factors */
+  /** @param size size of the integers; automatic: smallest size sufficient for
+   *  the factors */
   std::unique_ptr<LinearSolver>
   make_cholmod(const LinearSolverParameters::IndexSize size);
 
   std::unique_ptr<LinearSolver>
   make_umfpack();
 
-  /** @param folder for factors on disk; empty: in memory */
+  /** @param folder folder for factors on disk; empty: factors in memory */
   std::unique_ptr<LinearSolver>
   make_mumps(const MPI_Comm     comm,
              const bool         symmetric,
              const std::string &folder);
 
-  /** @param direct solver for systems that take too many iterations */
+  /** @param direct direct solver for systems that exceed max_iterations */
   std::unique_ptr<LinearSolver>
   make_multigrid(const MPI_Comm                comm,
                  const bool                    symmetric,

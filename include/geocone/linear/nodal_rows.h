@@ -12,22 +12,24 @@
 namespace geocone
 {
   /**
-   * Nodes of the rows of a Jacobian, for multigrid: it aggregates nodes, not
-   * rows, and its coarse functions are the motions with the least elastic
-   * resistance.
+   * Nodes of the matrix rows of a Jacobian, for algebraic multigrid. Multigrid
+   * aggregates nodes instead of rows, with rigid motions as the near-nullspace
+   * of the elastic stiffness.
    */
   struct NodalRows
   {
-    unsigned int n_components = 2; ///< of the velocity of a node
+    unsigned int n_components = 2; ///< velocity components per node
 
-    /** Layout of velocities; the dofs of a node are consecutive. */
+    /** Parallel layout of the velocity vector; the dofs of a node are
+     *  consecutive. */
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> layout;
 
-    /** Global dof of each local row. */
+    /** Global dof of each local matrix row. */
     std::vector<dealii::types::global_dof_index> dof;
 
-    /** Translations and, if nodal positions are known, rotations: values at the
-     *  owned dofs, zero at dofs without a row. */
+    /** Rigid-body motions: translations and, if nodal positions are available,
+     *  rotations. Values at the owned dofs, zero at dofs without a matrix
+     *  row. */
     std::vector<std::vector<double>> rigid_motions;
   };
 } // namespace geocone

@@ -7,10 +7,10 @@
 namespace geocone
 {
   /**
-   * Restricts libraries to one thread per rank: parallelism is left to MPI.
+   * Restricts all libraries to one thread per rank; parallelism is by MPI only.
    * Linking this function also replaces GOMP_parallel() (one_thread.cc), so
-   * that all parallel regions of OpenMP, in any library of the process, are
-   * plain calls.
+   * that parallel regions of OpenMP in any library of the process are executed
+   * serially.
    */
   void
   use_one_thread();
