@@ -11,12 +11,12 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Reads a problem in the text format of Siconos: dimension, number n of cones, type
-   * of the model (plasticity only: 1; absent in older files), storage of the matrix,
-   * its numbers of rows and columns, the matrix W, q, and the coefficients of the
-   * cones. The matrix is dense (storage 0: its numbers of rows and columns, and its
-   * rows), of blocks (storage 1) or sparse (storage 2: 1, 2 or 3 for triplets, columns
-   * or rows, and the matrix as printed by CSparse).
+   * Reads a second-order-cone complementarity problem in the text format of Siconos:
+   * dimension, number n of cones, model type (plasticity only: 1; absent in older files),
+   * matrix storage, numbers of rows and columns, matrix W, vector q, and coefficients of
+   * the cones. The matrix is dense (storage 0: numbers of rows and columns, rows),
+   * block-sparse (storage 1) or sparse (storage 2: 1, 2 or 3 for triplets, columns or
+   * rows, and the matrix as printed by CSparse).
    *  - Plasticity, dimension 3: for each cone an aperture eta = a, then for each a
    *    coefficient theta. The change of variable of the file is z + theta |z_t| n, so
    *    that theta = a - b. There is no cohesion: stresses are relative to the apex.
@@ -30,15 +30,15 @@ namespace geocone::GEOCONE_DIM
   ReducedProblem
   read_siconos(const std::string &file_name);
 
-  /** Whether a file is an HDF5 file of FCLib (Acary et al. 2014). */
+  /** Whether a file is an HDF5 file in the format of FCLib (Acary et al. 2014). */
   bool
   is_fclib(const std::string &file_name);
 
   /**
-   * Reads a problem of frictional contact of FCLib, dimension 2 or 3: a local one,
+   * Reads a frictional contact problem of FCLib in dimension 2 or 3: a local problem,
    *   u = W r + q,
-   * or a global one, M v = H r + f, u = H' v + w, reduced to W = H' M^-1 H and q = H'
-   * M^-1 f + w. mu = a, b = 0.
+   * or a global problem, M v = H r + f, u = H' v + w, reduced to W = H' M^-1 H and q = H'
+   * M^-1 f + w. Coefficients of the cones: a = mu, b = 0.
    * @throws RunError or InputError naming the file and the error in it, also for
    * bilateral constraints and rolling friction
    */

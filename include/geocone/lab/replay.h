@@ -19,9 +19,9 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Solves a frozen problem again, without its scene, on one rank: an incremental
-   * problem in HDF5 (FrozenProblem), or a reduced problem in the text format of Siconos
-   * (ReducedProblem).
+   * Solves a problem stored in a file again, without the scene and on one rank: an
+   * incremental problem in HDF5 (FrozenProblem), or a reduced problem in the text format
+   * of Siconos (ReducedProblem).
    *
    * @param overrides parameters of the sections Newton, Linear solver, Time stepping
    * (friction), Materials and Output ('If folder exists', as for runs), as on the
@@ -38,7 +38,7 @@ namespace geocone::GEOCONE_DIM
 
   // Common parts of replays of incremental and of reduced problems.
 
-  /** Folder of the results. */
+  /** Output folder of a replay, with the parameter 'If folder exists'. */
   class ResultFolder : public dealii::ParameterAcceptor
   {
   public:
@@ -51,7 +51,7 @@ namespace geocone::GEOCONE_DIM
                         ". How to treat a folder that is not empty.");
     }
 
-    /** Makes the folder, if requested. @throws InputError */
+    /** Creates the output folder, if requested. @throws InputError */
     void
     make()
     {
@@ -65,7 +65,7 @@ namespace geocone::GEOCONE_DIM
     Choice<IfExists> if_exists = if_exists_choice();
   };
 
-  /** Calls read() for a file; its errors get a remedy if they have none. */
+  /** Calls a function that reads a file; a remedy is appended to errors without one. */
   template <typename Read>
   auto
   read_with_remedy(const Read &read, const std::string &remedy)
@@ -83,19 +83,19 @@ namespace geocone::GEOCONE_DIM
       }
   }
 
-  /** Result of a replay: numbers to compare, and stresses (Pa). */
+  /** Result of a replay: summary for comparisons, and stresses (Pa). */
   struct Outcome
   {
     nlohmann::json      summary;
     std::vector<Mandel> stress;
   };
 
-  /** Whether a file contains a reduced problem of Siconos or FCLib, i.e. of a
-   *  plane scene. */
+  /** Whether a file contains a reduced problem in the format of Siconos or FCLib
+   *  (two-dimensional scenes only). */
   bool
   is_reduced_problem(const std::string &file_name);
 
-  /** Solves a reduced problem. */
+  /** Reads and solves a reduced problem. */
   Outcome
   replay_reduced(const std::string              &file_name,
                  const std::vector<std::string> &overrides,
