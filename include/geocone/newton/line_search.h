@@ -16,8 +16,8 @@ namespace geocone
    * - x = 1 if G(0) >= 0 (no descent direction: full step), or if G(1) <=
    *   reduction |G(0)|;
    * - otherwise regula falsi on [0, 1], with each trial at least 10 % of the
-   * bracket away from the ends, until |G| < reduction |G(0)| or max_evaluations
-   * are reached. A non-finite G counts as G > 0.
+   *   bracket away from the ends, until |G| < reduction |G(0)| or
+   *   max_evaluations are reached. A non-finite G counts as G > 0.
    *
    * @param G directional residual; last evaluated at the returned length
    */

@@ -24,9 +24,9 @@ namespace geocone::GEOCONE_DIM
    *
    * Values of the parameter for friction:
    * - exact: the law with friction at t_{n+1}; without convergence, the step
-   * fails;
+   *   fails;
    * - automatic: exact if the lag continuation converges, otherwise with the
-   * smallest lag reached (reported).
+   *   smallest lag reached (reported).
    */
   class NonsmoothNewton : public dealii::ParameterAcceptor
   {
