@@ -50,7 +50,7 @@ namespace geocone::GEOCONE_DIM
     double
     value_of(const std::string &column) const;
 
-    /** Marks the last line as the end of a stage. */
+    /** Stores the last line of path.csv as the final state of a stage. */
     void
     end_stage(const std::string &name)
     {

@@ -75,7 +75,8 @@ namespace geocone::GEOCONE_DIM
     unsigned int n_steps       = 0;
     double       smallest_step = 0., largest_step = 0.; ///< (s)
 
-    /** Largest unbalanced force of a free node in the last step (N/m). */
+    /** Largest unbalanced force at a free node in the last explicit step
+     *  (N/m). */
     double unbalanced_force = 0.;
 
     /** Mean force and mean moment on the body per boundary condition. */
@@ -204,7 +205,7 @@ namespace geocone::GEOCONE_DIM
     load(const Archive &archive);
     /** @} */
 
-    /** Memory of points and nodes of this rank in bytes. */
+    /** Memory used by the points and nodes of this rank (bytes). */
     std::size_t
     memory() const;
 
@@ -411,7 +412,7 @@ namespace geocone::GEOCONE_DIM
     void
     take_away(PointArrays &group, const unsigned int p);
 
-    /** Removes the points without mass. */
+    /** Deletes points without mass from the arrays. */
     void
     remove_massless();
 

@@ -24,7 +24,7 @@ namespace geocone::GEOCONE_DIM
     double stress_work  = 0.; ///< stress work, sum of s : de V (J/m)
     double gravity_work = 0.; ///< work of gravity, sum of m g dx (J/m)
     double damping_work = 0.; ///< dissipated by local damping (J/m)
-    /** Work of prescribed velocities, tractions and absorbing boundaries
+    /** Work done by prescribed velocities, tractions and absorbing boundaries
      *  (J/m). */
     double support_work = 0.;
 
@@ -35,7 +35,7 @@ namespace geocone::GEOCONE_DIM
      *  (Stage::removes()) or that left the grid. */
     double                 removed_mass = 0.;      ///< (kg/m)
     dealii::Tensor<1, dim> removed_momentum;       ///< (N s/m)
-    double                 removed_energy    = 0.; ///< kinetic (J/m)
+    double                 removed_energy    = 0.; ///< kinetic energy (J/m)
     double                 removed_potential = 0.; ///< from the lower corner
 
     /** Kinetic energy removed by kinetic damping (J/m). */
@@ -197,7 +197,7 @@ namespace geocone::GEOCONE_DIM
       double       velocity, change;
     };
     std::vector<Held>          held;
-    std::vector<unsigned char> is_held;         ///< per node and component
+    std::vector<unsigned char> is_held;         ///< per nodal component
     std::vector<Reaction>      support_impulse; ///< per boundary condition
     double                     unbalanced = 0.;
   };

@@ -95,12 +95,12 @@ namespace geocone::GEOCONE_DIM
     void
     take_points(const Archive &archive, MaterialPoints &points) override;
 
-    /** Initial guess of Newton's method. */
+    /** Initial guess for the velocities in Newton's method. */
     enum class Start
     {
       automatic, ///< both, tried in turn
       nodes,     ///< nodal velocities after the last step
-      particles  ///< vL, with the elastic tangent first
+      particles  ///< vL; elastic tangent in iteration 1
     };
 
     /** Velocity that advects the particles. */
@@ -328,7 +328,7 @@ namespace geocone::GEOCONE_DIM
     void
     put_points_back(const MaterialPoints &points);
 
-    /** Largest coordinates of points (m). */
+    /** Largest coordinates of all particles (m). */
     dealii::Point<dim>
     front_of(const MaterialPoints &points) const;
 
@@ -379,7 +379,7 @@ namespace geocone::GEOCONE_DIM
     std::unique_ptr<MovingConditions> moving;
     std::optional<ParticleBodies>     bodies;       ///< if in contact
     std::optional<GhostPlaces>        ghost_places; ///< null if not used
-    std::vector<bool>                 had_mass;     ///< nodal, in the last step
+    std::vector<bool>                 had_mass;     ///< nodes, in last step
     std::vector<unsigned int>         added;        ///< materials added so far
 
     /** Trial state of the current attempt at a step. */

@@ -71,7 +71,7 @@ namespace geocone::GEOCONE_DIM
       : section(section)
     {}
 
-    /** Solver, timer and limits of a step. */
+    /** Solver, timer and accepted error for solving a step. */
     struct Solving
     {
       const NonsmoothNewton &newton;
@@ -171,7 +171,7 @@ namespace geocone::GEOCONE_DIM
       return {};
     }
 
-    /** Work of external forces on the points (J/m). */
+    /** Work done by external forces on the points in a step (J/m). */
     virtual double
     external_work(const WorksOnNodes &works,
                   const TimeStep & /* step */,

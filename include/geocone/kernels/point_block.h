@@ -24,8 +24,8 @@ namespace geocone::GEOCONE_DIM
     /** Number of points that a kernel updates at once (SIMD lanes). */
     static constexpr unsigned int lanes = 4;
 
-    /** Maximum number of points per block; scratch arrays of this size stay in
-     *  cache. */
+    /** Maximum number of points per block; temporary arrays of this size fit
+     *  into the cache. */
     static constexpr unsigned int capacity = 64;
 
     unsigned int n_points = 0;

@@ -101,8 +101,8 @@ namespace geocone::GEOCONE_DIM
       return flow_less * t[0] - (t[1] + t[1]) + flow_more * t[2];
     }
 
-    /** @param t trial stresses with f_13 = f
-     *  @param[out] s returned stresses, if f > 0 */
+    /** @param t principal trial stresses with f_13 = f
+     *  @param[out] s principal stresses after the return, if f > 0 */
     void
     operator()(const P (&t)[3],
                const P &f,

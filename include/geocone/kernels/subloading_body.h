@@ -37,7 +37,7 @@ namespace geocone
       Number ph;     ///< shifted pressure of a (Pa)
       Number A, B, C;
 
-      /** Similarity ratio R. */
+      /** Similarity ratio R, the root of fbar = 0 for x = 1/R. */
       Number
       ratio() const
       {
@@ -93,7 +93,7 @@ namespace geocone
     {
       Vector e;
       Number loads; ///< u at the onset of plastic loading
-      Number end;   ///< u of the full increment
+      Number end;   ///< u for the full strain increment
     };
 
     ElasticPath
@@ -155,7 +155,7 @@ namespace geocone
       State                 increment;
       static constexpr bool has_all = false;
 
-      Number stable; ///< N:D:m + H > 0
+      Number stable; ///< 1 if N:D:m + H > 0, or 0
       Number plastic_strain;
     };
 
@@ -301,14 +301,15 @@ namespace geocone
       return r;
     }
 
-    /** A substep of the modified Euler method. */
+    /** Substep of the modified Euler method, from the state y over a strain
+     *  increment. */
     struct Substep
     {
       State     end;
-      Quadratic f; ///< at the end
+      Quadratic f; ///< coefficients at the end state
       Number    R, pressure;
       Number    error2;   ///< squared relative error estimate
-      Number    possible; ///< finite and admissible
+      Number    possible; ///< 1 if finite and admissible, or 0
       Number    plastic_strain;
     };
 

@@ -48,7 +48,7 @@ namespace geocone
     double eta_b = 0.;                ///< eta_beta,cs (-)
     Vector h_a, h_beta;               ///< rates of (38), (32)
     double h_pc = 0., h_Rb = 0.;      ///< rates of (37), (36)
-    double H              = 0.;       ///< plastic modulus
+    double H              = 0.;       ///< plastic modulus H
     double N_D_m          = 0.;       ///< N:D:m
     double N_D_strain     = 0.;       ///< N:D:de
     double d_lambda       = 0.;       ///< N:D:de/(N:D:m + H), 0 if negative
@@ -70,9 +70,10 @@ namespace geocone
   };
 
   /**
-   * The subloading model with anisotropy, moving similarity centre, structure
-   * and non-associated flow, at one point with n = 4 (plane strain) or n = 6
-   * components; compression positive. See doc/theory/subloading.md.
+   * Subloading model of one material point with rotational hardening, moving
+   * similarity centre, structure and non-associated flow; n = 4 (plane strain)
+   * or n = 6 stress components, compression positive. See
+   * doc/theory/subloading.md.
    */
   template <int n>
   class SubloadingModel
@@ -127,7 +128,7 @@ namespace geocone
       return (1. + 4. / 3. * c.shear_ratio) * (p + c.pe) / c.kappa;
     }
 
-    /** G/K = 3(1-2nu)/(2(1+nu)) (25) (-). */
+    /** Ratio of shear to bulk modulus, G/K = 3(1-2nu)/(2(1+nu)) (25) (-). */
     double
     g_over_k() const
     {

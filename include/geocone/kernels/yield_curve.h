@@ -10,7 +10,8 @@
 
 namespace geocone
 {
-  /** Components xx, yy, zz, xy, yz, zx of a tensor (no Mandel factors). */
+  /** Symmetric tensor by the components xx, yy, zz, xy, yz, zx (no Mandel
+   *  factors). */
   using Tensor6 = std::array<double, 6>;
 
   /** Section of a yield surface, for figures: points (p, q) in Pa, p positive

@@ -115,8 +115,8 @@ namespace geocone::GEOCONE_DIM
     std::vector<Component> own;
     std::vector<bool>      is_chosen; ///< of Contact::nodes()
     std::vector<dealii::Tensor<1, dim>>
-                 end_force;        ///< of Contact::nodes() (N/m)
-    unsigned int n_components = 0; ///< of all ranks
+                 end_force;        ///< per node of Contact::nodes() (N/m)
+    unsigned int n_components = 0; ///< total over all ranks
   };
 } // namespace geocone::GEOCONE_DIM
 

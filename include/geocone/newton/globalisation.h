@@ -46,7 +46,7 @@ namespace geocone::GEOCONE_DIM
     }
 
     Vector                  direction;         ///< d
-    const ContactDirection *contact = nullptr; ///< that computed d, or null
+    const ContactDirection *contact = nullptr; ///< null unless exact
     ResidualReport          state;             ///< R at the iterate
 
   private:

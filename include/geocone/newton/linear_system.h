@@ -87,7 +87,7 @@ namespace geocone::GEOCONE_DIM
     SparseMatrix                  matrix;
     LowRank                       low_rank;
     Eigen::MatrixXd               solved_U;  ///< K^-1 U, K without U W'
-    Eigen::MatrixXd               to_change; ///< (1 + W' K^-1 U)^-1
+    Eigen::MatrixXd               to_change; ///< (1 + W' K^-1 U)^-1, Woodbury
 
     bool has_pattern = false;
   };

@@ -26,7 +26,8 @@ namespace geocone::GEOCONE_DIM
      */
     static constexpr double near = 1e-3;
 
-    /** Relative residual above which an iterate is far from a solution. */
+    /** Relative residual above which an iterate is considered far from a
+     *  solution. */
     static constexpr double far = 0.1;
 
     LocalLaw     law;

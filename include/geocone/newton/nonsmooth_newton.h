@@ -35,7 +35,7 @@ namespace geocone::GEOCONE_DIM
      *  unknowns */
     explicit NonsmoothNewton(const StressMethods &others = {});
 
-    /** Checks the consistency of the parameters. */
+    /** Checks the parameters of the solver for consistency. */
     void
     prepare();
 

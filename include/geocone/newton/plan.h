@@ -22,7 +22,8 @@ namespace geocone::GEOCONE_DIM
     of_stresses ///< the first of StressMethods::formulations; others follow
   };
 
-  /** Globalisation method, a value of 'Newton/Globalisation'. */
+  /** Globalisation method of Newton's method, a value of
+   *  'Newton/Globalisation'. */
   enum class GlobalisationMethod
   {
     automatic,

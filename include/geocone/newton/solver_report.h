@@ -16,7 +16,7 @@ namespace geocone::GEOCONE_DIM
    *  to this iterate. */
   struct NewtonIteration
   {
-    double       relative_residual = 0.; ///< norm / force norm
+    double       relative_residual = 0.; ///< residual norm / force norm
     double       step_length       = 0.; ///< of the step to this iterate
     double       elastic_blend     = 0.; ///< blend w in the tangent of the step
     double       friction_lag      = 0.; ///< lag of the linearised law

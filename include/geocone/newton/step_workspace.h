@@ -16,14 +16,14 @@ namespace geocone::GEOCONE_DIM
   struct StepWorkspace
   {
     IncrementalProblem  &problem;
-    const StepTraits    &traits; ///< of the problem
+    const StepTraits    &traits; ///< properties of the step
     LinearSystem        &system;
     dealii::TimerOutput &timer;
     Vector              &v;        ///< the iterate
     Vector              &residual; ///< R(v)
     SolverReport        &report;
 
-    /** Evaluates R(v) at the iterate. */
+    /** Evaluates the residual R(v) at the iterate v. */
     ResidualReport
     evaluate(const LocalLaw &law = {}) const;
 

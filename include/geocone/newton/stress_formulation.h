@@ -58,7 +58,7 @@ namespace geocone::GEOCONE_DIM
   {
     std::vector<StressFormulation> formulations;
     std::vector<FirstIterate>      first_iterates;
-    std::string                    formulation_help; ///< help on the values
+    std::string                    formulation_help; ///< help on formulations
     std::string                    first_iterate_help;
   };
 } // namespace geocone::GEOCONE_DIM

@@ -19,7 +19,7 @@ namespace geocone::GEOCONE_DIM
   struct GaussSeidel
   {
     double       tolerance  = 1e-8;   ///< for natural_map_error()
-    unsigned int max_sweeps = 100000; ///< maximum
+    unsigned int max_sweeps = 100000; ///< maximum number of sweeps
 
     /** Terminates if, at the convergence rate of the last half of the sweeps, the
      *  tolerance cannot be reached within max_sweeps. */

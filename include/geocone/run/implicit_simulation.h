@@ -98,7 +98,7 @@ namespace geocone::GEOCONE_DIM
     void
     finish(const double t) override;
     void
-    state(StateRow &row) override; ///< except nodal and point values
+    state(StateRow &row) override; ///< scalars of the state
     void
     save(Archive &archive) override;
     void

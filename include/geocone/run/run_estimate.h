@@ -35,7 +35,7 @@ namespace geocone::GEOCONE_DIM
     text() const;
 
     /**
-     * Rejects runs that are too large.
+     * Rejects runs that exceed the available memory or the range of integers.
      * @param force allows runs that need more than the available memory
      * @throws InputError, with the driver, if a count exceeds the range of its integer
      * type, or the memory exceeds the available memory

@@ -33,7 +33,7 @@ namespace geocone::GEOCONE_DIM
     const Stage &
     stage_of(const Place &place) const;
 
-    /** Size of the next step (s). */
+    /** Size of the next step of the loading programme (s). */
     double
     step_size(const Place &place);
 

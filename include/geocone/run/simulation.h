@@ -26,7 +26,7 @@ namespace geocone::GEOCONE_DIM
     virtual ~Simulation() = default;
 
     /**
-     * @return whether all expectations of the parameter file hold
+     * @return whether the results satisfy all expectations of the parameter file
      * @throws InputError before anything is written, RunError afterwards
      */
     bool
@@ -54,7 +54,7 @@ namespace geocone::GEOCONE_DIM
       }
     };
 
-    /** Outcome of a step. */
+    /** Outcome of a step of the loading programme. */
     enum class Ended
     {
       well,
@@ -90,7 +90,7 @@ namespace geocone::GEOCONE_DIM
       return {};
     }
 
-    /** Called at the start of a run that is not resumed. */
+    /** Records the initial state; called at the start of a run that is not resumed. */
     virtual void
     record_start()
     {}

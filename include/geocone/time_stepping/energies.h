@@ -47,7 +47,7 @@ namespace geocone
   struct Works
   {
     double external    = 0.; ///< work done by loads and supports
-    double dissipation = 0.; ///< sum V s'(-z) >= 0, except contact
+    double dissipation = 0.; ///< plastic, sum V s'(-z) >= 0
     /** Plastic work due to the difference between the exact strength and the
      *  strength of lagged friction or friction with memory: sum V |z_t| ||s_t|
      *  - a s_n - k|. */

@@ -78,7 +78,7 @@ namespace geocone::GEOCONE_DIM
     /** Diagnostics of material points. */
     Motion motion;
 
-    /** Contact with obstacles. */
+    /** Report on contact with obstacles. */
     ContactReport contact;
 
     /** States of the bars of all structures, and of the plates, in the order of
@@ -92,7 +92,7 @@ namespace geocone::GEOCONE_DIM
     /**
      * Defect of the discrete energy identity of the step on the grid,
      *   dE_kin + dE_el + sum V s'(-z) + |v - vL|_M^2/2 + sum V ds'S ds/2 = work,
-     * relative to its largest term.
+     * relative to the largest term.
      */
     double identity_error = 0.;
 
@@ -289,7 +289,7 @@ namespace geocone::GEOCONE_DIM
     virtual std::size_t
     n_nonzeros() const = 0;
 
-    /** Whether points move through the mesh. */
+    /** Whether the points move relative to the mesh. */
     virtual bool
     has_moving_points() const
     {
@@ -307,14 +307,14 @@ namespace geocone::GEOCONE_DIM
     virtual const std::vector<RigidMotion> &
     moved_obstacles() const = 0;
 
-    /** Number of points that left the mesh. */
+    /** Number of points that have left the mesh since the start. */
     virtual unsigned int
     n_lost() const
     {
       return 0;
     }
 
-    /** Number of redistributions of cells between ranks. */
+    /** Number of times that the cells were redistributed over the ranks. */
     virtual unsigned int
     n_repartitions() const
     {

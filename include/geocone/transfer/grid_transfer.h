@@ -111,7 +111,7 @@ namespace geocone::GEOCONE_DIM
     virtual dealii::Point<dim>
     stored_place() const = 0;
 
-    /** Whether every step requires a sort(). */
+    /** Whether sort() must be called before every step. */
     virtual bool
     moves_each_step() const
     {
@@ -126,8 +126,8 @@ namespace geocone::GEOCONE_DIM
       return 0;
     }
 
-    /** Whether points store their cells (PointState::cell and unit), found by
-     *  sort(). */
+    /** Whether points store the cell that contains them, as found by sort()
+     *  (PointState::cell and unit). */
     virtual bool
     keeps_cells() const
     {
@@ -151,7 +151,7 @@ namespace geocone::GEOCONE_DIM
       return true;
     }
 
-    /** Smallest edge of a cell (m). */
+    /** Smallest edge length of all cells (m). */
     virtual double
     cell_size() const = 0;
 

@@ -134,7 +134,7 @@ namespace geocone::GEOCONE_DIM
     {
       std::vector<unsigned int> nodes;
       std::vector<double>       N;
-      /** dN/dx, dN/dy, ... (1/m) */
+      /** Gradients dN/dx, dN/dy, ... of the basis functions (1/m). */
       std::array<std::vector<double>, dim> slopes;
     };
 

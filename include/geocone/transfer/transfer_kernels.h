@@ -112,7 +112,7 @@ namespace geocone::GEOCONE_DIM
      *  are not finite. */
     double check = 0.;
 
-    /** Reads or writes a checkpoint; Row: StateRow. */
+    /** Reads or writes the sums of a checkpoint. @tparam Row StateRow */
     template <typename Row>
     void
     state(Row &row)
@@ -133,8 +133,8 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Innermost loops of the explicit material point method, in several versions
-   * for different instruction sets. All kernels process blocks of at most
+   * Innermost loops of the explicit material point method, compiled for several
+   * instruction sets. All kernels process blocks of at most
    * PointBlock::capacity points, without allocations and without a function
    * call per point.
    */
@@ -179,7 +179,8 @@ namespace geocone::GEOCONE_DIM
                               const TransferBlock &,
                               BlockScratch &);
 
-    /** Adds m N C (x_i - x) to the momentum, after scatter(). */
+    /** Adds the affine momentum m N C (x_i - x) of APIC to the nodes, after
+     *  scatter(). */
     void (*scatter_affine[4])(const GridView &,
                               const TransferBlock &,
                               BlockScratch &);

@@ -325,7 +325,8 @@ namespace geocone::GEOCONE_DIM
         }
     }
 
-    /** Scatters the affine momentum of the mth of four points. */
+    /** Scatters the affine momentum (APIC) of the mth of four points to the
+     *  nodes. */
     template <int p>
     static void
     add_affine(const GridView      &grid,
