@@ -71,7 +71,7 @@ namespace geocone::GEOCONE_DIM
     ElementOutput element_output;
 
     std::string         changed;   ///< remark of the initialisation
-    std::vector<double> positions; ///< f at the ends of increments
+    std::vector<double> positions; ///< fraction f at increment ends
     double              largest_p = 0.;
   };
 } // namespace geocone::GEOCONE_DIM

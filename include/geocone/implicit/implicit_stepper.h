@@ -247,10 +247,10 @@ namespace geocone::GEOCONE_DIM
     unsigned int                        unknowns = 0;     ///< of the last step
     bool                                begun    = false; ///< for the next step
     bool                                has_pattern = false; ///< set by begin()
-    FadingForces                        fading;              ///< along x and y
+    FadingForces                        fading;              ///< in x and y
     Vector                              lumped_mass;
-    Vector                              velocity_L; ///< along rotated dofs
-    Vector                              force;      ///< along rotated dofs
+    Vector                              velocity_L; ///< vL, in rotated dofs
+    Vector                              force;      ///< in rotated dofs
 
   private:
     /** External minus internal nodal forces at time t along x and y, without

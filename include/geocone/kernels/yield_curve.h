@@ -22,7 +22,7 @@ namespace geocone
    *  deviator of a stress. */
   struct SectionPlane
   {
-    Tensor6 stress; ///< in the plane, tension positive (Pa)
+    Tensor6 stress; ///< a stress in the plane, tension positive (Pa)
 
     /** Sign of q: if 0 to 2, q is positive where this normal component is the
      *  most compressive; otherwise along the deviator of the stress. */

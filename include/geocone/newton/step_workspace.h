@@ -59,7 +59,7 @@ namespace geocone::GEOCONE_DIM
     struct Jump
     {
       Vector          prescribed; ///< end values minus v
-      Eigen::VectorXd defect;     ///< q - H v
+      Eigen::VectorXd defect;     ///< constraint defect q - H v
 
       bool
       is_zero() const;

@@ -24,7 +24,7 @@ namespace geocone::GEOCONE_DIM
     unsigned int        triangles = 0, iterations = 0;
     double              discharge = 0., error = 0.; ///< (m^2/s), (-)
     double              stored = 0.; ///< stored water, transient flow (m^2)
-    std::vector<double> inflows;     ///< through each boundary (m^2/s)
+    std::vector<double> inflows;     ///< inflow at each boundary (m^2/s)
 
     void
     state(StateRow &row)

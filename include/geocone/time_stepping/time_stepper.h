@@ -121,7 +121,7 @@ namespace geocone::GEOCONE_DIM
   struct BodyChange
   {
     std::vector<std::string> remarks;
-    Energies                 before, after; ///< of the body (J/m)
+    Energies                 before, after; ///< energies of the body (J/m)
   };
 
   /** Maps each material index to the material index after the changes of a
