@@ -60,7 +60,7 @@ namespace geocone::GEOCONE_DIM
     GlobalisationMethod globalisation = GlobalisationMethod::line_search;
     bool                natural_map   = false; ///< if false, return map
     unsigned int        iterations    = 60;    ///< maximum; total of a lag path
-    unsigned int        with_one_lag  = 0;  ///< maximum per lag of a lag path
+    unsigned int        with_one_lag  = 0; ///< maximum per lag of a lag path
 
     ContactLaw contact = ContactLaw::linearised;
     Start      start   = Start::of_step;
