@@ -17,9 +17,9 @@ namespace geocone::GEOCONE_DIM
    * forces is applied linearly over a time T. With n = F - sum V B's before and
    * after the change,
    *   F(t) += (n_before - n_after) (1 - (t - t_0)/T),   t_0 <= t <= t_0 + T.
-   * For removed material, the ramped forces are its weight and the forces by
-   * which it supported the remaining body; for added material, minus the weight
-   * of the added material.
+   * For removed material, the ramped forces are the weight of this material and
+   * the forces by which the material supported the remaining body; for added
+   * material, minus the weight of the added material.
    */
   class FadingForces
   {

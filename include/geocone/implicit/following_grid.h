@@ -44,8 +44,8 @@ namespace geocone::GEOCONE_DIM
     BackgroundMesh                                   &mesh;
     Space                                            &space;
     const BoundaryCondition                          *condition = nullptr;
-    const std::array<std::vector<double>, dim>        lines; ///< initial
-    std::pair<dealii::Point<dim>, dealii::Point<dim>> side;  ///< initial
+    const std::array<std::vector<double>, dim>        lines; ///< initial lines
+    std::pair<dealii::Point<dim>, dealii::Point<dim>> side; ///< initial segment
   };
 } // namespace geocone::GEOCONE_DIM
 

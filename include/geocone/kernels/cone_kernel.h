@@ -25,9 +25,9 @@ namespace geocone::GEOCONE_DIM
                const PointBlock &block);
 
   /**
-   * Explicit stress update for friction with memory (MohrCoulomb): as above,
-   * with the cone cone.delayed(part, p) and its cut-off at each point; then p
-   * becomes part p + (1 - part) s_n.
+   * Explicit stress update for friction with memory (MohrCoulomb): the yield
+   * surface at each point is cone.delayed(part, p), with tension cut-off; then
+   * p becomes part p + (1 - part) s_n.
    * @param cone with a > 0
    * @param part memory factor lambda
    * @param place index of p (Pa) in the history

@@ -65,7 +65,7 @@ namespace geocone
   {
     unsigned int substeps       = 0;     ///< plastic substeps and elastic parts
     unsigned int forced         = 0;     ///< substeps above the tolerance
-    bool         limited        = false; ///< p or pcb reached its limit
+    bool         limited        = false; ///< limit of p or pcb reached
     double       plastic_strain = 0.;    ///< integral of ||d eps_p|| (-)
   };
 

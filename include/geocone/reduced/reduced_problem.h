@@ -34,16 +34,16 @@ namespace geocone::GEOCONE_DIM
   {
     using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
-    std::vector<FlowCone> cones; ///< n
+    std::vector<FlowCone> cones; ///< size n
     Matrix                W; ///< 3n x 3n, symmetric positive definite, or empty
-    Eigen::VectorXd       q; ///< 3n
-    Eigen::VectorXd       S; ///< 3n, diagonal part of W; empty if unknown
+    Eigen::VectorXd       q; ///< size 3n
+    Eigen::VectorXd       S; ///< size 3n, diagonal part of W; empty if unknown
     Matrix                G; ///< 3n x f, or empty
     Matrix                H; ///< m x f, or empty
-    Eigen::VectorXd       m; ///< f, positive
+    Eigen::VectorXd       m; ///< size f, positive
     Eigen::MatrixXd       C; ///< 3n x m, or empty
     Eigen::MatrixXd       L; ///< m x m, symmetric positive definite
-    Eigen::VectorXd       d; ///< m
+    Eigen::VectorXd       d; ///< size m
 
     unsigned int
     n_cones() const
