@@ -88,8 +88,8 @@ namespace geocone::GEOCONE_DIM
     void
     exchange(const bool with_mass) override;
 
-    /** Always true: points are located by the next sort() only, wherever they
-     *  are. */
+    /** Always true: any position is acceptable until the next sort() locates
+     *  the points. */
     bool
     reaches(const dealii::Point<dim> &) const override
     {

@@ -102,7 +102,7 @@ namespace geocone::GEOCONE_DIM
           find_each(grid.axes[d], lowest[d], xi[d], N[d], dN[d]);
     }
 
-    /** Address of the data to read of the lowest node of a point. */
+    /** Address of the nodal values of the lowest node of a point. */
     const double *
     read(const GridView &grid, const int m) const
     {

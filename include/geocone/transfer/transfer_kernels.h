@@ -174,7 +174,8 @@ namespace geocone::GEOCONE_DIM
      */
     void (*scatter[4])(const GridView &, const TransferBlock &, BlockScratch &);
 
-    /** Scatters the values a and the masses only, without the b_d. */
+    /** Scatters the values a and the masses to the nodes, without the values
+     *  b_d. */
     void (*scatter_values[4])(const GridView &,
                               const TransferBlock &,
                               BlockScratch &);
