@@ -27,7 +27,7 @@ def ends_of_stages(model):
 
 def states_of(table, number, model, stages):
     """Lines of the table of a plate at the ends of the stages in which it exists, the last
-    ones before a failure: name of the stage, and columns. At least one."""
+    ones before a failure: name of the stage, and columns."""
     chosen, begin = [], 0.
     of_plate = table["plate"] == number
     for name, end in ends_of_stages(model):
