@@ -38,6 +38,22 @@ footing, = (s for s in particles["supports"] if any(map(any, s["values"])))
 assert all(value == [0., -0.02] for value in footing["values"]), footing["values"]
 PYTHON
 
+# Conditions of some stages are named with them, valued in them only, and drawn in a strip.
+"$program" "$root/tests/stages/footing.prm" --dry-run --picture --quiet --output staged \
+  --set 'Boundary conditions/footing/Velocity y = if(t < 0.1, -9, -0.02)'
+PYTHONPATH=$root/python /usr/bin/python3 -B - <<'PYTHON'
+from pathlib import Path
+
+from geocone.plots.model import Model, notable_stages
+
+model = Model(Path("staged"))
+footing, = (s for s in model.data["supports"] if s["stages"])
+assert footing["name"] == "footing" and footing["stages"] == ["push"]
+assert all(value == [0., -0.02] for value in footing["values"]), footing["values"]
+assert [stage["name"] for stage in notable_stages(model)] == ["surcharge", "push"]
+assert Path("staged/model.png").stat().st_size > 10000
+PYTHON
+
 # The table of the report has soil without tension, and a cohesion that is a formula.
 PYTHONPATH=$root/python /usr/bin/python3 -B - <<'PYTHON'
 from geocone.plots.scene_tables import soils_of
