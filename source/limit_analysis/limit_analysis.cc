@@ -4,6 +4,7 @@
 #include <geocone/base/exceptions.h>
 #include <geocone/base/stop_request.h>
 #include <geocone/base/unused_parameters.h>
+#include <geocone/limit_analysis/bound_fields.h>
 #include <geocone/limit_analysis/limit_analysis.h>
 #include <geocone/mesh/adapted_sizes.h>
 #include <geocone/output/model_of_triangles.h>
@@ -480,11 +481,11 @@ namespace geocone::GEOCONE_DIM
     // A run that was stopped between two meshes has no fields.
     if (bounds.gap.size() == triangles->cells.size())
       limit_output.write_fields(t,
-                                *triangles,
-                                bounded_load.units,
-                                bounds.upper.bound,
-                                bounds.lower.bound,
-                                bounds.gap);
+                                table_of_bounds(*triangles,
+                                                bounded_load.units,
+                                                bounds.upper.bound,
+                                                bounds.lower.bound,
+                                                bounds.gap));
   }
 
   Json

@@ -6,6 +6,7 @@
 
 #include <geocone/cone/second_order_cone.h>
 #include <geocone/limit_analysis/interfaces.h>
+#include <geocone/limit_analysis/load_factor.h>
 #include <geocone/limit_analysis/point_strains.h>
 #include <geocone/mesh/triangles.h>
 #include <geocone/scene/scene.h>
@@ -16,26 +17,8 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Choice of the loads that the load factor of a limit analysis multiplies. */
-  enum class LoadFactor
-  {
-    automatic,
-    velocity,  ///< no load: the reaction to prescribed velocities is bounded
-    weight,    ///< self-weight; tractions are dead loads
-    tractions, ///< tractions; self-weight is a dead load
-    all        ///< self-weight and tractions
-  };
-
-  /** Scaled units of a limit analysis, in which all variables are of order one. */
-  struct BoundUnits
-  {
-    double length   = 1.; ///< unit of length (m)
-    double stress   = 1.; ///< unit of stress (Pa)
-    double velocity = 1.; ///< unit of velocity (m/s)
-  };
-
-  /** Yield cone of a point, in scaled units: |s_t| <= a s_n + k, and, for soil with a
-   *  tensile cut-off, |s_t| <= s_n + opening (FlowCone::opening). */
+  /** The cone of a point, in units: |s_t| <= a s_n + k, and where there is a tensile
+   *  strength |s_t| <= s_n + opening (FlowCone::opening). */
   struct PointCone
   {
     double a = 0., k = 0., opening = infinite_tension;

@@ -4,7 +4,7 @@
 #ifndef geocone_limit_analysis_limit_output_h
 #define geocone_limit_analysis_limit_output_h
 
-#include <geocone/limit_analysis/certificate.h>
+#include <geocone/output/field_files.h>
 #include <geocone/output/load_bracket.h>
 #include <geocone/output/table_output.h>
 
@@ -45,9 +45,9 @@ namespace geocone::GEOCONE_DIM
   best_of(const std::vector<BoundLevel> &levels);
 
   /**
-   * Order of convergence of the gap with the number of triangles: minus the slope of
-   * log(gap) over log(triangles), by least squares over the last three meshes with both
-   * bounds. Empty if fewer than two meshes have both bounds.
+   * Order of convergence of the gap in the number of cells: minus the slope of
+   * log(gap) over log(cells) of the last three meshes with both bounds, by least
+   * squares. Empty if fewer than two meshes have both bounds.
    */
   std::optional<double>
   order_of_gap(const std::vector<BoundLevel> &levels);
@@ -66,15 +66,9 @@ namespace geocone::GEOCONE_DIM
             const std::string          &unit,
             const std::optional<double> reference);
 
-    /** Writes the fields on the triangles: the mechanisms of both bounds, and the
-     *  triangles' contributions to the gap. */
+    /** Writes the fields of a mesh, if they are wanted. */
     void
-    write_fields(const double               number,
-                 const Triangles           &triangles,
-                 const BoundUnits          &units,
-                 const Bound               &upper,
-                 const Bound               &lower,
-                 const std::vector<double> &gap);
+    write_fields(const double number, const FieldTable &table);
 
     /** Returns the topic "bounds" of the summary; requires at least one level. */
     Json

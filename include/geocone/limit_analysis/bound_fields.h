@@ -1,0 +1,24 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_limit_analysis_bound_fields_h
+#define geocone_limit_analysis_bound_fields_h
+
+#include <geocone/limit_analysis/certificate.h>
+#include <geocone/output/triangle_table.h>
+
+#include <vector>
+
+namespace geocone::GEOCONE_DIM
+{
+  /** Field file of the triangles with both mechanisms and their contributions to the
+   *  gap. The arguments must outlive it. */
+  TriangleTable
+  table_of_bounds(const Triangles           &triangles,
+                  const BoundUnits          &units,
+                  const Bound               &upper,
+                  const Bound               &lower,
+                  const std::vector<double> &gap);
+} // namespace geocone::GEOCONE_DIM
+
+#endif

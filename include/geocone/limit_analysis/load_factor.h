@@ -1,0 +1,30 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_limit_analysis_load_factor_h
+#define geocone_limit_analysis_load_factor_h
+
+#include <geocone/base/types.h>
+
+namespace geocone::GEOCONE_DIM
+{
+  /** Loads multiplied by the load factor of a limit analysis. */
+  enum class LoadFactor
+  {
+    automatic,
+    velocity,  ///< none: the load is the reaction to prescribed velocities
+    weight,    ///< the weight; tractions are dead loads
+    tractions, ///< the tractions; the weight is a dead load
+    all        ///< weight and tractions
+  };
+
+  /** Units of a limit analysis, chosen so that all numbers are of order one. */
+  struct BoundUnits
+  {
+    double length   = 1.; ///< (m)
+    double stress   = 1.; ///< (Pa)
+    double velocity = 1.; ///< (m/s)
+  };
+} // namespace geocone::GEOCONE_DIM
+
+#endif

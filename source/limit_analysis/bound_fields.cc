@@ -1,0 +1,47 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/cone/second_order_cone.h>
+#include <geocone/limit_analysis/bound_fields.h>
+
+#include <algorithm>
+
+namespace geocone::GEOCONE_DIM
+{
+  TriangleTable
+  table_of_bounds(const Triangles           &triangles,
+                  const BoundUnits          &units,
+                  const Bound               &upper,
+                  const Bound               &lower,
+                  const std::vector<double> &gap)
+  {
+    TriangleTable table(triangles);
+    using Index = unsigned int;
+    table.add("velocity", dim, [&](const Index, const Index v, const Index d) {
+      return upper.q.size() > 0 ? upper.q[dim * v + d] : 0.;
+    });
+    // Translation of each triangle, from the dual of the lower bound.
+    table.add(
+      "velocity_lower", dim, [&](const Index p, const Index, const Index d) {
+        return lower.q.size() > 0 ? lower.q[dim * (p / 3) + d] : 0.;
+      });
+    const char *const names[] = {"stress_xx", "stress_yy", "stress_xy"};
+    for (Index i = 0; i < 3; ++i)
+      table.add(names[i], 1, [&, i](const Index p, const Index, const Index) {
+        const Mandel s = from_cone_axes(Mandel(lower.s[p]));
+        return units.stress * (i == 2 ? s[2] / sqrt2 : s[i]);
+      });
+    // Contribution of a triangle to the gap, over the mean.
+    double total = 0.;
+    for (const double part : gap)
+      total += std::max(part, 0.);
+    table.add(
+      "part_of_gap", 1, [&, total](const Index p, const Index, const Index) {
+        return total > 0. ? gap[p / 3] / total * triangles.cells.size() : 0.;
+      });
+    table.add("material", 1, [&](const Index p, const Index, const Index) {
+      return static_cast<double>(triangles.material[p / 3]);
+    });
+    return table;
+  }
+} // namespace geocone::GEOCONE_DIM
