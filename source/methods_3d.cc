@@ -3,6 +3,7 @@
 
 // Methods of three-dimensional scenes, instead of methods.cc.
 #include <geocone/base/exceptions.h>
+#include <geocone/limit_analysis/solid_limit_analysis.h>
 #include <geocone/methods.h>
 #include <geocone/run/explicit_simulation.h>
 #include <geocone/run/implicit_simulation.h>
@@ -18,10 +19,12 @@ namespace geocone::GEOCONE_DIM
     Runs(const ParameterFile &file, Log &log)
       : implicit(MPI_COMM_WORLD, file, log, {})
       , explicit_mpm(MPI_COMM_WORLD, file, log)
+      , limit_analysis(MPI_COMM_WORLD, file, log)
     {}
 
     ImplicitSimulation implicit;
     ExplicitSimulation explicit_mpm;
+    SolidLimitAnalysis limit_analysis;
   };
 
   namespace
@@ -48,7 +51,7 @@ namespace geocone::GEOCONE_DIM
   Methods::Methods(const ParameterFile &file, Log &log)
   {
     check(file, "Discretisation/Method", {"FEM", "MPM", "explicit MPM"});
-    check(file, "Analysis/Kind", {"steps"});
+    check(file, "Analysis/Kind", {"steps", "limit load"});
     runs = std::make_unique<Runs>(file, log);
   }
 
@@ -57,6 +60,8 @@ namespace geocone::GEOCONE_DIM
   Simulation &
   Methods::chosen()
   {
+    if (runs->limit_analysis.is_chosen())
+      return runs->limit_analysis;
     if (ParameterFile::value("Discretisation/Method") == "explicit MPM")
       return runs->explicit_mpm;
     return runs->implicit;

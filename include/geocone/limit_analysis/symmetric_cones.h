@@ -129,13 +129,7 @@ namespace geocone
     }
 
     static V
-    raised(const V &x, const double least)
-    {
-      const Eigen::SelfAdjointEigenSolver<M> solver(matrix(x));
-      const Eigen::Vector3d l = solver.eigenvalues().cwiseMax(least);
-      return vector(solver.eigenvectors() * l.asDiagonal() *
-                    solver.eigenvectors().transpose());
-    }
+    raised(const V &x, const double least);
 
     static V
     product(const V &u, const V &v)
@@ -151,19 +145,7 @@ namespace geocone
      */
     struct Scaling
     {
-      Scaling(const V &x, const V &z)
-      {
-        const M L_1 = matrix(x).llt().matrixL(),
-                L_2 = matrix(z).llt().matrixL();
-        const Eigen::JacobiSVD<M> svd(
-          L_2.transpose() * L_1, Eigen::ComputeFullU | Eigen::ComputeFullV);
-        l                       = svd.singularValues();
-        const Eigen::Vector3d r = l.cwiseSqrt().cwiseInverse();
-        R                       = L_1 * svd.matrixV() * r.asDiagonal();
-        R_inverse =
-          r.asDiagonal() * svd.matrixU().transpose() * L_2.transpose();
-        lambda = vector(M(l.asDiagonal()));
-      }
+      Scaling(const V &x, const V &z);
 
       V
       x_hat(const V &d) const
@@ -190,15 +172,7 @@ namespace geocone
         return vector(m);
       }
       double
-      step(const V &d) const
-      {
-        const Eigen::Vector3d r = l.cwiseSqrt().cwiseInverse();
-        const M               m = r.asDiagonal() * matrix(d) * r.asDiagonal();
-        const double          least =
-          Eigen::SelfAdjointEigenSolver<M>(m, Eigen::EigenvaluesOnly)
-            .eigenvalues()[0];
-        return least < -0.99 ? -1. / least : 1. / 0.99;
-      }
+      step(const V &d) const;
 
       M               R, R_inverse;
       Eigen::Vector3d l;

@@ -1,0 +1,81 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_limit_analysis_conic_solver_h
+#define geocone_limit_analysis_conic_solver_h
+
+#include <geocone/limit_analysis/point_group.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace geocone
+{
+  /**
+   * The pair of programmes of limit analysis over groups of points with symmetric cones,
+   *   static    max lambda: sum V B's = lambda f + F0 in free dofs, X = k o - A y in K,
+   *   kinematic min sum V/w k o.Z - F0.q: A'Z = (w B q, 0), Z in K, f.q = 1,
+   * or, for f = 0, with prescribed velocities and the power of their reactions as load.
+   */
+  struct ConicProblem
+  {
+    std::vector<std::unique_ptr<PointGroup>> groups;
+
+    std::vector<bool> is_prescribed; ///< by dof
+    Eigen::VectorXd   prescribed;    ///< prescribed values, else 0
+    Eigen::VectorXd   dead, live;    ///< F0 and f by dof
+
+    unsigned int
+    n_dofs() const
+    {
+      return prescribed.size();
+    }
+    bool
+    has_factor() const
+    {
+      return live.squaredNorm() > 0.;
+    }
+    bool
+    has_free_direction() const;
+    unsigned int
+    n_unknowns() const;
+  };
+
+  struct ConicOptions
+  {
+    double       tolerance      = 1e-3; ///< inner gap, relative to the load
+    double       flow_tolerance = 1e-8; ///< relative to |B q|
+    double       equilibrium_tolerance = 1e-7; ///< relative to the forces
+    double       flow_margin    = 0.; ///< of rates in their cones, likewise
+    unsigned int max_iterations = 80;
+  };
+
+  struct ConicSolution
+  {
+    Eigen::VectorXd q;                   ///< velocities of all dofs
+    double          load           = 0.; ///< from the stresses
+    unsigned int    factorisations = 0;
+    bool            converged      = false;
+    std::string     reason;        ///< why it did not converge
+    bool            grows = false; ///< stresses are unbounded: no limit load
+  };
+
+  /**
+   * Primal-dual interior-point method with Nesterov-Todd scaling and Mehrotra's corrector,
+   * for any symmetric cones: the cones stay in their points, so that a sparse Cholesky
+   * factorisation with the pattern of the elastic stiffness is all that an iteration needs.
+   * Constrained rates (e.g. the volume for phi = 0) are found by the method of
+   * multipliers. The groups hold the stresses of the result.
+   */
+  ConicSolution
+  solve(ConicProblem &problem, const ConicOptions &options);
+
+  /** Projects velocities onto those whose constrained rates vanish, in the metric of B'B:
+   *  no volume change and no normal jump for phi = 0.
+   *  @return whether it was possible */
+  bool
+  constrain_rates(ConicProblem &problem, Eigen::VectorXd &q);
+} // namespace geocone
+
+#endif

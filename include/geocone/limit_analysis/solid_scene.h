@@ -1,0 +1,155 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_limit_analysis_solid_scene_h
+#define geocone_limit_analysis_solid_scene_h
+
+#include <geocone/base/choice.h>
+#include <geocone/limit_analysis/load_factor.h>
+#include <geocone/mesh/tetrahedra.h>
+#include <geocone/scene/scene.h>
+
+#include <deal.II/base/parameter_acceptor.h>
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace geocone::GEOCONE_DIM
+{
+  /** Strength of a material of three-dimensional bounds, in units. */
+  struct SolidStrength
+  {
+    /** Whether it is the circular cone |s_t| <= a s_n + k, instead of Mohr-Coulomb's
+     *  (1 + a) s_1 - (1 - a) s_3 <= k. */
+    bool   is_circular = false;
+    double a = 0., k = 0.;
+
+    /** Growth of k with depth (in units, per m). */
+    Material::Growth growth;
+
+    double
+    k_at(const dealii::Point<dim> &x) const
+    {
+      return k + growth.at(x[1]);
+    }
+
+    /** Coulomb's |s_t| <= c - mu s_n of a face on which velocities jump, whose
+     *  dissipation is that of the material (doc/theory/limit_analysis.md). */
+    double
+    face_friction() const;
+    double
+    face_cohesion_per_k() const;
+  };
+
+  /** Velocity prescribed on a boundary facet, in units. */
+  struct HeldFacet
+  {
+    enum class Kind
+    {
+      free,
+      fixed, ///< all components
+      plane  ///< the normal component alone
+    };
+    Kind                   kind = Kind::free;
+    dealii::Tensor<1, dim> velocity;
+    unsigned int           axis = 0; ///< of the normal, for a plane
+  };
+
+  /** Input of three-dimensional bounds: the scene, its tetrahedra, the load and the
+   *  strengths. */
+  class SolidScene
+  {
+  public:
+    const Scene               *scene      = nullptr;
+    const Tetrahedra          *tetrahedra = nullptr;
+    LoadFactor                 factor     = LoadFactor::automatic;
+    BoundUnits                 units;
+    std::vector<SolidStrength> strengths; ///< of the materials
+    std::vector<HeldFacet>     held;      ///< of the facets
+
+    /** Body force of a cell, and traction at the vertices of a facet, in units: those that
+     *  are constant and those multiplied by the load factor. */
+    struct Load
+    {
+      dealii::Tensor<1, dim> dead, live;
+    };
+    Load
+    body_force(const unsigned int cell) const;
+    std::array<Load, 3>
+    tractions(const unsigned int facet) const
+    {
+      return traction_of_facet[facet];
+    }
+
+    /** k at the vertices of a cell. */
+    std::array<double, 4>
+    strength_at_vertices(const unsigned int cell) const;
+
+    std::vector<std::array<Load, 3>> traction_of_facet;
+  };
+
+  /** The load that three-dimensional bounds are of: its choice, and the units. */
+  class SolidLoad
+  {
+  public:
+    /** Declares "Load factor of" in a section. */
+    void
+    declare(dealii::ParameterAcceptor &section);
+
+    /**
+     * @param scene prepared
+     * @throws InputError where strict bounds are not possible
+     */
+    void
+    prepare(const Scene &scene, const Tetrahedra &tetrahedra);
+
+    /** Input of the bounds on a mesh. */
+    SolidScene
+    on(const Scene &scene, const Tetrahedra &tetrahedra) const;
+
+    std::string
+    word() const;
+
+    /** Load that a problem's 1 corresponds to: (N) for a reaction, else 1. */
+    double
+    value_of_unit() const
+    {
+      return load_unit;
+    }
+    bool
+    is_reaction() const
+    {
+      return chosen == LoadFactor::velocity;
+    }
+    /** Whether the dilatancy of some material is smaller than its friction. */
+    bool
+    non_associated() const
+    {
+      return less_dilatant;
+    }
+
+  private:
+    void
+    take_strengths(const Scene &scene);
+    std::vector<HeldFacet>
+    held_facets(const Scene &scene, const Tetrahedra &tetrahedra) const;
+    void
+    choose_factor(const Scene &scene, const std::vector<HeldFacet> &held);
+    void
+    choose_units(const Tetrahedra &tetrahedra);
+
+    Choice<LoadFactor>         asked  = {{{"automatic", LoadFactor::automatic},
+                                          {"velocity", LoadFactor::velocity},
+                                          {"weight", LoadFactor::weight},
+                                          {"tractions", LoadFactor::tractions}}};
+    LoadFactor                 chosen = LoadFactor::automatic;
+    double                     load_unit = 1.;
+    BoundUnits                 units;
+    std::vector<SolidStrength> strengths; ///< (Pa)
+    bool                       less_dilatant = false;
+  };
+} // namespace geocone::GEOCONE_DIM
+
+#endif

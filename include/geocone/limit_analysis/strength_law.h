@@ -1,0 +1,173 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_limit_analysis_strength_law_h
+#define geocone_limit_analysis_strength_law_h
+
+#include <geocone/limit_analysis/small_matrices.h>
+#include <geocone/limit_analysis/symmetric_cones.h>
+
+#include <Eigen/Dense>
+
+#include <cmath>
+
+namespace geocone
+{
+  /**
+   * Strength of a point as a symmetric cone: a stress s is admissible if some y = (s, own
+   * variables) has
+   *   X = k o - A y in the cone.
+   * Flow is A'Z = (e, 0) with Z in the cone and dissipates k o.Z. All matrices are those of
+   * k = 1, which scales with o alone.
+   */
+  template <typename ConeOfLaw, int n_rows, int n_own>
+  struct StrengthLaw
+  {
+    using Cone                = ConeOfLaw;
+    static constexpr int rows = n_rows, columns = n_rows + n_own,
+                         size = Cone::size;
+
+    using Y = Eigen::Matrix<double, columns, 1>;
+    using S = Eigen::Matrix<double, rows, 1>;
+    using X = typename Cone::V;
+
+    Eigen::Matrix<double, size, columns> A;
+    X                                    o = X::Zero();
+
+    /** Unit vector of y that X does not depend on, or zero. */
+    Y free = Y::Zero();
+
+    Y start  = Y::Zero(); ///< y with X inside the cone
+    S inside = S::Zero(); ///< rate inside the cone of flow, or zero
+
+    /** @name Derived by finish() */
+    /** @{ */
+    Eigen::Matrix<double, size, columns> pseudo_inverse; ///< of A'
+
+    /** Orthonormal basis of the null space of A', of n_null columns. */
+    Eigen::Matrix<double, size, size> null;
+    int                               n_null = 0;
+    /** @} */
+
+    void
+    finish()
+    {
+      n_null = small_matrices::pseudo_inverse_of_transpose(
+        size, columns, A.data(), pseudo_inverse.data(), null.data());
+    }
+  };
+
+  /** Ratio of X at the start to k: the more friction, the farther from the apex. */
+  inline double
+  start_of_friction(const double a)
+  {
+    return std::pow((1. + a) / (1. - a), 2);
+  }
+
+  /** Mohr-Coulomb's law (1 + S) s_1 - (1 - S) s_3 <= k, k = 2 c cos(phi), S = sin(phi), as
+   *  two semidefinite matrices, (k + t) I - (1 + S) s and (1 - S) s - t I; Tresca's for S =
+   *  0. Stresses are Mandel vectors, tension positive. */
+  using MohrCoulombCones =
+    StrengthLaw<ProductCone<SemidefiniteCone, SemidefiniteCone>, 6, 1>;
+
+  inline MohrCoulombCones
+  mohr_coulomb_cones(const double sine)
+  {
+    const Eigen::Matrix<double, 6, 1> m = SemidefiniteCone::unit();
+    const double                      K = start_of_friction(sine);
+    MohrCoulombCones                  law;
+    law.A.setZero();
+    law.A.topLeftCorner<6, 6>().diagonal().setConstant(1. + sine);
+    law.A.bottomLeftCorner<6, 6>().diagonal().setConstant(-(1. - sine));
+    law.A.topRightCorner<6, 1>()    = -m;
+    law.A.bottomRightCorner<6, 1>() = m;
+    law.o.head<6>()                 = m;
+    if (sine > 0.)
+      {
+        const double p      = (K - 1.) / (2. * sine);
+        law.start.head<6>() = -p * m;
+        law.start[6]        = -(1. - sine) * p - K / 2.;
+        law.inside          = m / std::sqrt(3.);
+      }
+    else
+      {
+        law.free.head<6>() = m / 2.;
+        law.free[6]        = 1. / 2.;
+        law.start[6]       = -1. / 2.;
+      }
+    law.finish();
+    return law;
+  }
+
+  /** The circular cone |s_t| <= a s_n + k about n = -(1, 1, 0, 1, 0, 0)/sqrt3; von Mises'
+   *  law for a = 0. */
+  using CircularCone = StrengthLaw<SecondOrderCone<6>, 6, 0>;
+
+  inline CircularCone
+  circular_cone(const double a)
+  {
+    const Eigen::Matrix<double, 6, 1> n =
+      -SemidefiniteCone::unit() / std::sqrt(3.);
+    // Rows n and five orthonormal deviators.
+    Eigen::Matrix<double, 6, 6> Q = Eigen::Matrix<double, 6, 6>::Zero();
+    Q.row(0)                      = n.transpose();
+    Q(1, 0)                       = M_SQRT1_2;
+    Q(1, 1)                       = -M_SQRT1_2;
+    Q(2, 0) = Q(2, 1) = 1. / std::sqrt(6.);
+    Q(2, 3)           = -2. / std::sqrt(6.);
+    Q(3, 2) = Q(4, 4) = Q(5, 5) = 1.;
+    CircularCone law;
+    law.A = -Q;
+    law.A.row(0) *= a;
+    law.o[0] = 1.;
+    if (a > 0.)
+      {
+        law.start  = (start_of_friction(a) - 1.) / a * n;
+        law.inside = -n;
+      }
+    else
+      law.free = n;
+    law.finish();
+    return law;
+  }
+
+  /** A face on which velocities jump: |s_t| <= k - mu s_n, s = (s_n, s_t1, s_t2). */
+  using FaceCone = StrengthLaw<SecondOrderCone<3>, 3, 0>;
+
+  inline FaceCone
+  face_cone(const double mu)
+  {
+    FaceCone law;
+    law.A.setZero();
+    law.A(0, 0) = mu;
+    law.A(1, 1) = law.A(2, 2) = -1.;
+    law.o[0]                  = 1.;
+    if (mu > 0.)
+      {
+        const double a = std::min(mu / std::sqrt(1. + mu * mu), 0.9);
+        law.start[0]   = -(start_of_friction(a) - 1.) / mu;
+        law.inside[0]  = 1.;
+      }
+    else
+      law.free[0] = 1.;
+    law.finish();
+    return law;
+  }
+
+  /** A plane of symmetry beside which soil may open: s_n <= k. */
+  using OpeningCone = StrengthLaw<SecondOrderCone<1>, 1, 0>;
+
+  inline OpeningCone
+  opening_cone()
+  {
+    OpeningCone law;
+    law.A(0, 0)   = 1.;
+    law.o[0]      = 1.;
+    law.start[0]  = -1.;
+    law.inside[0] = 1.;
+    law.finish();
+    return law;
+  }
+} // namespace geocone
+
+#endif

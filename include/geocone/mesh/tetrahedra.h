@@ -1,0 +1,71 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_mesh_tetrahedra_h
+#define geocone_mesh_tetrahedra_h
+
+#include <geocone/mesh/coarse_mesh.h>
+#include <geocone/scene/boundary_conditions.h>
+
+#include <array>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace geocone::GEOCONE_DIM
+{
+  /** Tetrahedra of a mesh as plain arrays. */
+  struct Tetrahedra
+  {
+    /** @param mesh of tetrahedra, or a tensor grid, whose hexahedra become six
+     *  tetrahedra each */
+    explicit Tetrahedra(const CoarseMesh &mesh);
+
+    static constexpr unsigned int none = -1;
+
+    struct Facet
+    {
+      std::array<unsigned int, 3> vertices; ///< in increasing order
+      /** The cells of both sides, the second of which may be none. */
+      std::array<unsigned int, 2> cells = {{none, none}};
+      int                         side  = -1; ///< boundary id, or -1 inside
+    };
+
+    std::vector<dealii::Point<dim>>          vertices;
+    std::vector<std::array<unsigned int, 4>> cells; ///< of positive volume
+    std::vector<unsigned int>                material;
+    std::vector<std::array<unsigned int, 4>>
+                       facets_of_cell; ///< facet i is opposite to vertex i
+    std::vector<Facet> facets;
+
+    std::map<std::string, dealii::types::boundary_id> sides;
+
+    /** Boundary facets on which a condition acts.
+     *  @throws InputError if there is none, or if one is partly in its box */
+    std::vector<unsigned int>
+    held_facets(const BoundaryPart &condition) const;
+
+    double
+    volume(const unsigned int cell) const;
+
+    dealii::Point<dim>
+    centre(const unsigned int cell) const;
+
+    /** The gradients of the barycentric coordinates of a cell (1/m). */
+    std::array<dealii::Tensor<1, dim>, 4>
+    gradients(const unsigned int cell) const;
+
+    double
+    area(const unsigned int facet) const;
+
+    /** Unit normal of a facet out of its first cell. */
+    dealii::Tensor<1, dim>
+    normal(const unsigned int facet) const;
+
+    /** Index in a cell of a vertex of the mesh that it has. */
+    unsigned int
+    index_in_cell(const unsigned int cell, const unsigned int vertex) const;
+  };
+} // namespace geocone::GEOCONE_DIM
+
+#endif

@@ -1,0 +1,428 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/log.h>
+#include <geocone/limit_analysis/solid_certificate.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace geocone::GEOCONE_DIM
+{
+  using dealii::Tensor;
+
+  namespace
+  {
+    /** Tolerated rounding error of equilibrium and of incompressibility. */
+    constexpr double rounding = 1e-8;
+
+    /** Error of computed eigenvalues of symmetric 3 x 3 matrices, relative to their norm:
+     *  some ten units of the last place, by Weyl's theorem. */
+    constexpr double of_eigenvalues = 1e-14;
+
+    Eigen::Matrix3d
+    tensor_of(const Mandel &s)
+    {
+      Eigen::Matrix3d m;
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+          m(i, j) = s[place_of_component[i][j]] / (i == j ? 1. : sqrt2);
+      return m;
+    }
+
+    Eigen::Vector3d
+    eigenvalues_of(const Eigen::Matrix3d &m)
+    {
+      return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(
+               m, Eigen::EigenvaluesOnly)
+        .eigenvalues();
+    }
+
+    Tensor<1, dim>
+    traction_of(const Mandel &s, const Tensor<1, dim> &n)
+    {
+      const Eigen::Matrix3d m = tensor_of(s);
+      Tensor<1, dim>        t;
+      for (unsigned int i = 0; i < dim; ++i)
+        for (unsigned int j = 0; j < dim; ++j)
+          t[i] += m(i, j) * n[j];
+      return t;
+    }
+
+    /** Violation of the strength, with the rounding of eigenvalues. */
+    double
+    excess_of(const SolidStrength &one, const double k, const Mandel &s)
+    {
+      const double guard = of_eigenvalues * s.norm();
+      if (one.is_circular)
+        {
+          const double mean     = (s[0] + s[1] + s[3]) / 3.;
+          Mandel       deviator = s;
+          for (const int i : place_of_normal)
+            deviator[i] -= mean;
+          return deviator.norm() + one.a * std::sqrt(3.) * mean - k + guard;
+        }
+      const Eigen::Vector3d l = eigenvalues_of(tensor_of(s));
+      return (1. + one.a) * l[2] - (1. - one.a) * l[0] - k + 4. * guard;
+    }
+
+    /** Dissipation of a strain rate or a jump, and its distance from admissible ones. */
+    struct Flow
+    {
+      double dissipation = 0., miss = 0.;
+      double constrained = 0.; ///< rate that must vanish
+    };
+
+    Flow
+    flow_of(const SolidStrength &one, const double k, const Eigen::Matrix3d &e)
+    {
+      Flow         flow;
+      const double trace = e.trace(), guard = of_eigenvalues * e.norm();
+      if (one.is_circular)
+        {
+          const double shear =
+            (e - trace / 3. * Eigen::Matrix3d::Identity()).norm();
+          const double expansion = trace / std::sqrt(3.);
+          if (one.a > 0.)
+            {
+              flow.miss        = one.a * shear - expansion + guard;
+              flow.dissipation = k / one.a * expansion;
+            }
+          else
+            {
+              flow.constrained = std::abs(trace);
+              flow.dissipation = k * shear;
+            }
+          return flow;
+        }
+      const double sum = eigenvalues_of(e).cwiseAbs().sum();
+      if (one.a > 0.)
+        {
+          flow.miss        = one.a * sum - trace + 4. * guard;
+          flow.dissipation = k / (2. * one.a) * trace;
+        }
+      else
+        {
+          flow.constrained = std::abs(trace);
+          flow.dissipation = k / 2. * sum;
+        }
+      return flow;
+    }
+
+    /** Of a jump u_n along the normal and u_t along the face, for the cohesion c. */
+    Flow
+    flow_of_jump(const double mu,
+                 const double c,
+                 const double u_n,
+                 const double u_t)
+    {
+      Flow flow;
+      if (mu > 0.)
+        {
+          flow.miss = mu * u_t - u_n + of_eigenvalues * std::hypot(u_n, u_t);
+          flow.dissipation = c / mu * u_n;
+        }
+      else
+        {
+          flow.constrained = std::abs(u_n);
+          flow.dissipation = c * u_t;
+        }
+      return flow;
+    }
+  } // namespace
+
+  SolidBound
+  certify_lower(const SolidScene          &bound,
+                const unsigned int         order,
+                const std::vector<Mandel> &stress,
+                const double               lambda)
+  {
+    const Tetrahedra  &tetrahedra = *bound.tetrahedra;
+    const double       L          = bound.units.length;
+    const unsigned int n_nodes    = simplex_nodes::n_in_cell(order),
+                       n_facet    = simplex_nodes::n_on_facet(order);
+    SolidBound result;
+    result.stress      = stress;
+    double     largest = std::numeric_limits<double>::min(), theta = 1.;
+    bool       is_dead = false;
+    const auto total   = [&](const SolidScene::Load &load) {
+      is_dead = is_dead || load.dead.norm() > 0.;
+      return load.dead + lambda * load.live;
+    };
+    for (unsigned int c = 0; c < tetrahedra.cells.size(); ++c)
+      {
+        const SolidStrength &one = bound.strengths[tetrahedra.material[c]];
+        const auto           k   = bound.strength_at_vertices(c);
+        const Mandel *const  s   = &stress[n_nodes * c];
+        for (unsigned int i = 0; i < n_nodes; ++i)
+          {
+            const double k_i = i < 4 ? k[i]
+                                     : (k[simplex_nodes::edges[i - 4][0]] +
+                                        k[simplex_nodes::edges[i - 4][1]]) /
+                                         2.;
+            largest          = std::max(largest, s[i].norm());
+            const double f   = excess_of(one, k_i, s[i]);
+            if (!(f <= 0.))
+              {
+                result.violation = std::max(result.violation, f);
+                // Scaled stresses have the rounding of eigenvalues again.
+                theta = std::min(theta, k_i / (k_i + f) * (1. - 1e-13));
+              }
+          }
+        const auto           g = tetrahedra.gradients(c);
+        const Tensor<1, dim> b = total(bound.body_force(c));
+        for (unsigned int i = 0; i < (order == 1 ? 1 : 4); ++i)
+          {
+            Tensor<1, dim> divergence;
+            for (unsigned int j = 0; j < 4; ++j)
+              divergence +=
+                order *
+                traction_of(s[order == 1 ? j : simplex_nodes::node(i, j)],
+                            L * g[j]);
+            result.error = std::max(result.error,
+                                    (divergence + b).norm() *
+                                      std::cbrt(tetrahedra.volume(c)) / L);
+          }
+      }
+    double power = 0.; // of the reactions to prescribed velocities
+    for (unsigned int f = 0; f < tetrahedra.facets.size(); ++f)
+      {
+        const auto          &facet = tetrahedra.facets[f];
+        const HeldFacet     &held  = bound.held[f];
+        const Tensor<1, dim> n     = tetrahedra.normal(f);
+        const double         A     = tetrahedra.area(f) / (L * L);
+        const auto           first = nodes_in_cell(tetrahedra, order, f, 0);
+        const auto           given = bound.tractions(f);
+        for (unsigned int i = 0; i < n_facet; ++i)
+          {
+            Tensor<1, dim> left =
+              traction_of(stress[n_nodes * facet.cells[0] + first[i]], n);
+            if (facet.cells[1] != Tetrahedra::none)
+              left -=
+                traction_of(stress[n_nodes * facet.cells[1] +
+                                   nodes_in_cell(tetrahedra, order, f, 1)[i]],
+                            n);
+            else if (i < 3)
+              left -= total(given[i]);
+            else
+              for (const unsigned int end :
+                   simplex_nodes::edges_of_facet[i - 3])
+                left -= total(given[end]) / 2.;
+            for (unsigned int d = 0; d < dim; ++d)
+              if (held.kind == HeldFacet::Kind::fixed ||
+                  (held.kind == HeldFacet::Kind::plane && held.axis == d))
+                power += A / n_facet * left[d] * held.velocity[d];
+              else
+                result.error = std::max(result.error, std::abs(left[d]));
+          }
+      }
+    result.violation /= largest;
+    result.error /= largest;
+    const bool is_scaled = !is_dead && theta > 0.;
+    if (!is_scaled && theta < 1.)
+      result.rejection = format(
+        "its stresses exceed the strength by %.1e of the largest one, and a "
+        "dead load leaves nothing to scale",
+        result.violation);
+    result.load = (is_scaled ? theta : 1.) *
+                  (bound.factor == LoadFactor::velocity ? power : lambda);
+    if (!std::isfinite(result.load + result.error + largest))
+      result.rejection = "it is not a number";
+    else if (!(result.error < rounding))
+      result.rejection =
+        format("its stresses miss equilibrium by %.1e of the largest one",
+               result.error);
+    result.certified = result.rejection.empty();
+    return result;
+  }
+
+  SolidBound
+  certify_upper(const SolidScene                  &bound,
+                const unsigned int                 order,
+                const std::vector<Tensor<1, dim>> &velocity)
+  {
+    const Tetrahedra  &tetrahedra = *bound.tetrahedra;
+    const double       L          = bound.units.length;
+    const unsigned int n_nodes    = simplex_nodes::n_in_cell(order),
+                       n_facet    = simplex_nodes::n_on_facet(order);
+    SolidBound result;
+    result.velocity = velocity;
+    double power = 0., work = 0.;
+    double largest_rate = std::numeric_limits<double>::min(),
+           largest_jump = largest_rate, rate_missed = 0., jump_missed = 0.,
+           volume_change = 0., normal_jump = 0.;
+    for (unsigned int c = 0; c < tetrahedra.cells.size(); ++c)
+      {
+        const auto                  g = tetrahedra.gradients(c);
+        const double                V = tetrahedra.volume(c) / (L * L * L);
+        const Tensor<1, dim> *const v = &velocity[n_nodes * c];
+        const auto                  k = strength_of_rates(bound, order, c);
+        for (unsigned int i = 0; i < k.size(); ++i)
+          {
+            Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero();
+            for (unsigned int j = 0; j < 4; ++j)
+              {
+                const Tensor<1, dim> &v_j =
+                  v[order == 1 ? j : simplex_nodes::node(i, j)];
+                for (unsigned int a = 0; a < dim; ++a)
+                  for (unsigned int b = 0; b < dim; ++b)
+                    gradient(a, b) += order * v_j[a] * L * g[j][b];
+              }
+            const Eigen::Matrix3d e = (gradient + gradient.transpose()) / 2.;
+            const Flow            flow =
+              flow_of(bound.strengths[tetrahedra.material[c]], k[i], e);
+            power += V / k.size() * flow.dissipation;
+            largest_rate  = std::max(largest_rate, e.norm());
+            rate_missed   = std::max(rate_missed, flow.miss);
+            volume_change = std::max(volume_change, flow.constrained);
+          }
+        const SolidScene::Load load = bound.body_force(c);
+        for (unsigned int i = 0; i < n_nodes; ++i)
+          {
+            power -= V / n_nodes * load.dead * v[i];
+            work += V / n_nodes * load.live * v[i];
+          }
+      }
+    for (unsigned int f = 0; f < tetrahedra.facets.size(); ++f)
+      {
+        const auto      &facet    = tetrahedra.facets[f];
+        const HeldFacet &held     = bound.held[f];
+        const double     A        = tetrahedra.area(f) / (L * L);
+        const auto       first    = nodes_in_cell(tetrahedra, order, f, 0);
+        const bool       is_inner = facet.cells[1] != Tetrahedra::none;
+        const auto       axes     = axes_of_facet(tetrahedra, f);
+        const double     mu =
+          bound.strengths[tetrahedra.material[cell_of_jump(bound, f)]]
+            .face_friction();
+        const auto                  k = strength_of_jumps(bound, order, f);
+        std::vector<Tensor<1, dim>> outer; // of the nodes
+        for (unsigned int i = 0; i < n_facet; ++i)
+          outer.push_back(velocity[n_nodes * facet.cells[0] + first[i]]);
+        if (!is_inner)
+          {
+            std::array<Tensor<1, dim>, 3> dead, live;
+            for (unsigned int i = 0; i < 3; ++i)
+              {
+                dead[i] = bound.tractions(f)[i].dead;
+                live[i] = bound.tractions(f)[i].live;
+              }
+            const auto F      = forces_of_traction(order, dead),
+                       f_live = forces_of_traction(order, live);
+            for (unsigned int i = 0; i < n_facet; ++i)
+              {
+                power -= A * F[i] * outer[i];
+                work += A * f_live[i] * outer[i];
+              }
+          }
+        if (!is_inner && held.kind == HeldFacet::Kind::free)
+          continue;
+        std::vector<unsigned int> second;
+        if (is_inner)
+          second = nodes_in_cell(tetrahedra, order, f, 1);
+        for (unsigned int i = 0; i < n_facet; ++i)
+          {
+            const Tensor<1, dim> u =
+              (is_inner ? velocity[n_nodes * facet.cells[1] + second[i]]
+                        : held.velocity) -
+              outer[i];
+            // Along a plane of symmetry, or a smooth one, soil slides freely.
+            const double slip = held.kind == HeldFacet::Kind::plane
+                                  ? 0.
+                                  : std::hypot(u * axes[1], u * axes[2]);
+            const Flow   flow = flow_of_jump(mu, k[i], u * axes[0], slip);
+            power += A / n_facet * flow.dissipation;
+            largest_jump = std::max(largest_jump, u.norm());
+            jump_missed  = std::max(jump_missed, flow.miss);
+            normal_jump  = std::max(normal_jump, flow.constrained);
+          }
+      }
+    // A body that moves by prescribed velocities has no other measure of its jumps.
+    double fastest = std::numeric_limits<double>::min();
+    for (const Tensor<1, dim> &v : velocity)
+      fastest = std::max(fastest, v.norm());
+    result.violation =
+      std::max(rate_missed / largest_rate, jump_missed / fastest);
+    result.error =
+      std::max(volume_change / largest_rate, normal_jump / fastest);
+    if (bound.factor == LoadFactor::velocity)
+      work = 1.;
+    result.load = power / work;
+    if (!std::isfinite(power + work + result.error + fastest) || !(work > 0.))
+      result.rejection = "its velocities do no work";
+    else if (!(result.error < rounding))
+      result.rejection = format(
+        "its volume and its normal jumps change by %.1e of the largest rate "
+        "where phi = 0",
+        result.error);
+    else if (rate_missed > 0. || jump_missed > 0.)
+      result.rejection = format(
+        "its rates miss the cone by %.1e of the largest one", result.violation);
+    result.certified = result.rejection.empty();
+    return result;
+  }
+
+  namespace
+  {
+    void
+    add_solution(SolidBound          &side,
+                 const ConicSolution &solution,
+                 const ConicProblem  &problem)
+    {
+      side.factorisations = solution.factorisations;
+      side.n_unknowns     = problem.n_unknowns();
+      side.converged      = solution.converged;
+      side.reason         = solution.reason;
+      side.grows          = solution.grows;
+    }
+  } // namespace
+
+  SolidBound
+  certified_upper(const SolidScene  &bound,
+                  const unsigned int order,
+                  const double       tolerance)
+  {
+    ConicProblem problem = upper_problem(bound, order);
+    ConicOptions options;
+    options.tolerance             = tolerance;
+    options.equilibrium_tolerance = std::max(tolerance, 1e-7);
+    const bool is_constrained     = problem.has_free_direction();
+    options.flow_tolerance        = is_constrained ? 1e-6 : 1e-8;
+    // The margin of flow where phi > 0, which no projection repairs.
+    options.flow_margin    = 10. * options.flow_tolerance;
+    ConicSolution solution = solve(problem, options);
+    if (is_constrained && solution.q.allFinite())
+      {
+        constrain_rates(problem, solution.q);
+        ++solution.factorisations;
+      }
+    std::vector<Tensor<1, dim>> velocity(simplex_nodes::n_in_cell(order) *
+                                         bound.tetrahedra->cells.size());
+    for (unsigned int i = 0; i < velocity.size(); ++i)
+      for (unsigned int d = 0; d < dim; ++d)
+        velocity[i][d] = solution.q[dim * i + d];
+    SolidBound side = certify_upper(bound, order, velocity);
+    add_solution(side, solution, problem);
+    return side;
+  }
+
+  SolidBound
+  certified_lower(const SolidScene  &bound,
+                  const unsigned int order,
+                  const double       tolerance)
+  {
+    ConicProblem problem = lower_problem(bound, order);
+    ConicOptions options;
+    options.tolerance            = tolerance;
+    options.flow_tolerance       = tolerance;
+    const ConicSolution solution = solve(problem, options);
+    std::vector<Mandel> stress;
+    const unsigned int  n_nodes = simplex_nodes::n_in_cell(order);
+    for (const StressPlace &place : places_of_stresses(bound, order))
+      for (unsigned int i = 0; i < n_nodes; ++i)
+        stress.push_back(problem.groups[place.group]->stress(place.point + i));
+    SolidBound side = certify_lower(bound, order, stress, solution.load);
+    add_solution(side, solution, problem);
+    return side;
+  }
+} // namespace geocone::GEOCONE_DIM
