@@ -24,11 +24,17 @@ def column(table, name):
     return table[full], full[len(name):].strip(" ()")
 
 
+def cells_of(table):
+    """The numbers of cells, and their name: triangles, in three dimensions tetrahedra."""
+    name = next(key for key in table if key in ("triangles (-)", "tetrahedra (-)"))
+    return table[name], name.split()[0]
+
+
 def draw_bounds(run, path):
-    """Draws the bounds against the triangles and, of several meshes, the gap against those
+    """Draws the bounds against the cells and, of several meshes, the gap against those
     and time."""
     table = run.table("bounds")
-    cells = table["triangles (-)"]
+    cells, _ = cells_of(table)
     if len(cells) < 2:
         raise Skipped("there is one mesh only")
     trend = len(cells) >= FEWEST
@@ -55,7 +61,7 @@ def plain_ticks(axis):
 
 def draw_levels(axes, run, table):
     """Draws both bounds of each mesh."""
-    cells = table["triangles (-)"]
+    cells, name_of_cells = cells_of(table)
     lower, unit = column(table, "lower bound")
     upper, _ = column(table, "upper bound")
     sure = table["certified (-)"] > 0.
@@ -71,26 +77,28 @@ def draw_levels(axes, run, table):
     if reference is not None:
         axes.axhline(reference / factor, color="k", linestyle="--", linewidth=1.2,
                      label="reference")
-    axes.set(xlabel="triangles", title="bounds",
+    axes.set(xlabel=name_of_cells, title="bounds",
              ylabel=(f"load ({name})" if name else "load factor (-)"
                      if run.method == "limit load" else "factor of safety (-)"))
     axes.legend()
 
 
 def draw_gaps(axes_of, run, table):
-    """Draws the gap against the triangles and against time."""
-    cells, gap = table["triangles (-)"], 100. * table["gap (-)"]
+    """Draws the gap against the cells and against time."""
+    cells, name_of_cells = cells_of(table)
+    gap = 100. * table["gap (-)"]
     seconds = np.cumsum(table["CPU time (s)"] + table["CPU time of the mesh (s)"])
     tolerance = 100. * float(run.parameters["Analysis/Gap tolerance"])
     for axes, x, label in zip(axes_of, (cells, seconds),
-                              ("triangles", "CPU time of all meshes (s)")):
+                              (name_of_cells, "CPU time of all meshes (s)")):
         axes.loglog(x, gap, "o-", color=BLUE)
         axes.axhline(tolerance, color=GREY, linestyle=":", label="tolerance")
         axes.set(xlabel=label, ylabel="gap (%)")
     axes_of[0].loglog(cells, gap[-1] * cells[-1] / cells, "k--", linewidth=1.,
-                      label="one over the triangles")
+                      label=f"one over the {name_of_cells}")
     order = run.value("bounds/order")
-    axes_of[0].set_title("gap" if order is None else f"gap: order {order:.2f} in the triangles")
+    axes_of[0].set_title("gap" if order is None else
+                         f"gap: order {order:.2f} in the {name_of_cells}")
     axes_of[1].set_title("gap against time")
     for axes in axes_of:
         axes.legend(loc="lower left")
@@ -100,6 +108,8 @@ def draw_gaps(axes_of, run, table):
 def draw_mechanism(run, path):
     """Draws the mechanisms of both bounds (that of the upper one proves it, that of the lower
     one is its dual), and the triangles' parts of the gap."""
+    if cells_of(run.table("bounds"))[1] == "tetrahedra":
+        raise Skipped("bounds in three dimensions have no fields yet")
     field, = run.states("bounds")
     part = field.data["part_of_gap"][:, 0]
     mechanisms = [(name, of) for name, of in (("velocity", "upper"),

@@ -5,6 +5,7 @@
 import numpy as np
 from matplotlib.ticker import FuncFormatter
 
+from geocone.plots.bounds import cells_of
 from geocone.reader import ReadError, Run
 from geocone.report.figures import COLORS, MARKERS
 from geocone.report.schema import POSITIVE, takes
@@ -25,7 +26,7 @@ def gaps(rows, options):
             continue
         i = groups.index(row["group"])
         seconds = np.cumsum(table["CPU time (s)"] + table["CPU time of the mesh (s)"])
-        for axes, x in zip(panels, (table["triangles (-)"], seconds)):
+        for axes, x in zip(panels, (cells_of(table)[0], seconds)):
             axes.loglog(x, 100. * table["gap (-)"], color=COLORS[i % len(COLORS)],
                         marker=MARKERS[i % len(MARKERS)], markersize=4., linewidth=1.,
                         label=None if row["group"] in drawn else plain(row["group"]))
