@@ -269,7 +269,7 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
-  SolidLoad::choose_units(const Tetrahedra &tetrahedra)
+  SolidLoad::choose_units(const Scene &scene, const Tetrahedra &tetrahedra)
   {
     double volume = 0.;
     units.stress  = 0.;
@@ -282,8 +282,8 @@ namespace geocone::GEOCONE_DIM
             const double k = strengths[m].k_at(tetrahedra.vertices[v]);
             if (!(k > 0.))
               throw InputError(
-                "Materials/cohesion of material " + std::to_string(m),
-                k,
+                "Materials/" + scene.materials.name(m) + "/Cohesion",
+                0,
                 "> 0 Pa everywhere where loads are bounded in three "
                 "dimensions",
                 "give a small cohesion, e.g. a hundredth of weight times "
@@ -341,7 +341,7 @@ namespace geocone::GEOCONE_DIM
     take_strengths(scene);
     const std::vector<HeldFacet> held = held_facets(scene, tetrahedra);
     choose_factor(scene, held);
-    choose_units(tetrahedra);
+    choose_units(scene, tetrahedra);
     check_rigid_motions(tetrahedra, held, units.length);
     if (chosen == LoadFactor::velocity)
       load_unit = units.stress * units.length * units.length *

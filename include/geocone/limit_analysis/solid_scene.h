@@ -138,7 +138,7 @@ namespace geocone::GEOCONE_DIM
     void
     choose_factor(const Scene &scene, const std::vector<HeldFacet> &held);
     void
-    choose_units(const Tetrahedra &tetrahedra);
+    choose_units(const Scene &scene, const Tetrahedra &tetrahedra);
 
     Choice<LoadFactor>         asked  = {{{"automatic", LoadFactor::automatic},
                                           {"velocity", LoadFactor::velocity},
