@@ -115,7 +115,7 @@ namespace geocone
     /** "SECTION/NAME" if exactly one other section has a parameter of this
      *  name. */
     std::string
-    place_of(const std::string &name, const Declared &declared)
+    path_of_entry(const std::string &name, const Declared &declared)
     {
       std::string place;
       for (const auto &[section, part] : declared.sections)
@@ -562,7 +562,7 @@ namespace geocone
                                  "the option --run-gmsh-script");
               }
             const std::string elsewhere =
-              set.sections.size() == 1 ? place_of(set.name, declared) : "";
+              set.sections.size() == 1 ? path_of_entry(set.name, declared) : "";
             throw InputError(set.line->place() + ": unknown parameter '" +
                              printable(path) + "'" +
                              (elsewhere.empty()

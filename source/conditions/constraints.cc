@@ -517,7 +517,7 @@ namespace geocone::GEOCONE_DIM
         for (unsigned int i = first_part[cell]; i < first_part[cell + 1]; ++i)
           {
             const Part &part = parts[i];
-            exerted[part.place] += mean[place_of_normal[part.component]] *
+            exerted[part.place] += mean[index_of_normal[part.component]] *
                                    part.weight[part.component];
             for (int k = 0; k < n_shears; ++k)
               {

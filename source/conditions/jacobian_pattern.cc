@@ -97,7 +97,7 @@ namespace geocone::GEOCONE_DIM
       std::size_t(n_dofs) * (one_triangle ? n_dofs + 1 : 2 * n_dofs) / 2;
     places.reserve(points.n_cells() * places_of_cell);
     std::vector<int> rows(n_dofs);
-    const auto place_of = [&](const unsigned int i, const unsigned int j) {
+    const auto index_of = [&](const unsigned int i, const unsigned int j) {
       return rows[i] < 0 || rows[j] < 0 ? -1
              : one_triangle && rows[i] < rows[j]
                ? matrix.entry(rows[j], rows[i])
@@ -114,7 +114,7 @@ namespace geocone::GEOCONE_DIM
               const bool second =
                 j % dim == 1 && rows[i] >= 0 && rows[j - 1] >= 0 &&
                 rows[j] >= 0 && (!one_triangle || (j > i && rows[j] < rows[i]));
-              places.push_back(second ? places.back() + 1 : place_of(i, j));
+              places.push_back(second ? places.back() + 1 : index_of(i, j));
             }
       }
     diagonal.resize(matrix.n_rows());

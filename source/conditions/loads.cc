@@ -124,10 +124,10 @@ namespace geocone::GEOCONE_DIM
                   const Vector &weight_per_g,
                   const double  t,
                   const Stage  *stage,
-                  const bool    raised) const
+                  const bool    scaled) const
   {
     const auto counts = [&](const std::string &load) {
-      return stage == nullptr || stage->raises(load) == raised;
+      return stage == nullptr || stage->scales(load) == scaled;
     };
     std::vector<bool> acts;
     for (const auto &condition : scene.tractions.list)
@@ -162,7 +162,7 @@ namespace geocone::GEOCONE_DIM
           for (unsigned int dof = 0; dof < force.locally_owned_size(); ++dof)
             force.local_element(dof) +=
               g[dof % dim] * weight_per_g.local_element(dof);
-        if (scene.water.acts() && !raised)
+        if (scene.water.acts() && !scaled)
           {
             const std::vector<double> parts = scene.water.parts(t);
             for (unsigned int line = 0; line < of_water.size(); ++line)

@@ -215,13 +215,13 @@ namespace geocone::GEOCONE_DIM
   MovingConditions::add_tractions(Vector      &force,
                                   const double t,
                                   const Stage *stage,
-                                  const bool   raised) const
+                                  const bool   scaled) const
   {
     for (const auto &[condition, surface] : loads)
       {
         const BoundaryCondition &load = *scene.tractions.list[condition];
         const bool               acts =
-          stage == nullptr || stage->raises(load.name) == raised;
+          stage == nullptr || stage->scales(load.name) == scaled;
         const std::vector<SidePart> facets = surface.facets();
         const std::vector<double>   parts =
           for_each_point(mesh,
@@ -506,8 +506,8 @@ namespace geocone::GEOCONE_DIM
   }
 
   std::optional<Point<dim>>
-  MovingConditions::put_back(const Point<dim> &before,
-                             const Point<dim> &after) const
+  MovingConditions::return_to_boundary(const Point<dim> &before,
+                                       const Point<dim> &after) const
   {
     std::optional<Point<dim>> place;
     for (const HeldSide &side : supports)

@@ -476,7 +476,7 @@ namespace geocone::GEOCONE_DIM
     return Utilities::MPI::sum(sum.moment, comm);
   }
 
-  Multipliers::LightShare
+  Multipliers::LowMassShare
   Multipliers::light_share(const Vector &v,
                            const Vector &mass,
                            const Space  &space) const
@@ -506,7 +506,7 @@ namespace geocone::GEOCONE_DIM
             }
         }
     dealii::Utilities::MPI::sum(light, comm, light);
-    LightShare   share;
+    LowMassShare share;
     unsigned int worst = 0;
     // Components prescribed as zero along one axis and nonzero along the other
     // are compared with the nonzero velocity.

@@ -137,7 +137,7 @@ namespace geocone::GEOCONE_DIM
   }
 
   std::vector<BodyContact::PlacedFace>
-  BodyContact::placed(const std::vector<Face> &faces, const Place &place)
+  BodyContact::placed(const std::vector<Face> &faces, const Positions &place)
   {
     std::vector<PlacedFace> result;
     for (const Face &face : faces)
@@ -307,7 +307,7 @@ namespace geocone::GEOCONE_DIM
   }
 
   std::vector<FacingNode>
-  BodyContact::find(const Place &place, const double reach) const
+  BodyContact::find(const Positions &place, const double reach) const
   {
     std::vector<FacingNode> all;
     std::set<unsigned int>  taken;
@@ -357,7 +357,7 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
-  BodyContact::check_start(const Place &place) const
+  BodyContact::check_start(const Positions &place) const
   {
     for (const FacingNode &at : find(place, 0.))
       if (at.gap < -1e-3 * at.size)

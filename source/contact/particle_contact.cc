@@ -154,7 +154,7 @@ namespace geocone::GEOCONE_DIM
                                  const Space          &space)
     : scene(scene)
     , space(space)
-    , place_of(space.n_local_nodes(), numbers::invalid_unsigned_int)
+    , index_of(space.n_local_nodes(), numbers::invalid_unsigned_int)
     , layer_of(space.n_local_nodes(), 0)
   {
     size = 1e300;
@@ -186,11 +186,11 @@ namespace geocone::GEOCONE_DIM
               twins[i].push_back(space.local_node(of_cell[i]));
           }
         for (const std::vector<unsigned int> &place : twins)
-          if (place_of[place[0]] == numbers::invalid_unsigned_int)
+          if (index_of[place[0]] == numbers::invalid_unsigned_int)
             {
               for (unsigned int layer = 0; layer < place.size(); ++layer)
                 {
-                  place_of[place[layer]] = nodes.size();
+                  index_of[place[layer]] = nodes.size();
                   layer_of[place[layer]] = layer;
                 }
               nodes.push_back(place);
@@ -214,7 +214,7 @@ namespace geocone::GEOCONE_DIM
           return;
         const Point<dim> x = position_of(scene, points, p);
         for (unsigned int i = 0; i < at.n; ++i)
-          if (const unsigned int place = place_of[at.nodes[i]];
+          if (const unsigned int place = index_of[at.nodes[i]];
               at.N[i] > least_function &&
               unknowns.has_mass(dim * nodes[place][pair.first]) &&
               unknowns.has_mass(dim * nodes[place][pair.other]))

@@ -54,7 +54,7 @@ namespace geocone::GEOCONE_DIM
                    std::string           &changed)
         : law(law)
         , has_zz(has_zz)
-        , shown(law.shown())
+        , shown(law.output_quantities())
       {
         now.stress = {{stress[0], stress[1], stress[3]}};
         now.history.resize(law.n_history());
@@ -137,7 +137,7 @@ namespace geocone::GEOCONE_DIM
         std::vector<std::string> all;
         if (!shows_pressure())
           all = {"p (Pa)", "q (Pa)"};
-        for (const ConstitutiveLaw::Shown &one : shown)
+        for (const ConstitutiveLaw::OutputQuantity &one : shown)
           all.push_back(one.title);
         all.push_back("plastic strain (-)");
         return all;
@@ -157,7 +157,7 @@ namespace geocone::GEOCONE_DIM
                                  2. * std::hypot(half, now.stress[2])};
           }
         std::vector<double> values(shown.size());
-        law.show(now.stress, now.history.data(), values.data());
+        law.output(now.stress, now.history.data(), values.data());
         all.insert(all.end(), values.begin(), values.end());
         all.push_back(now.plastic_strain);
         return all;
@@ -204,7 +204,7 @@ namespace geocone::GEOCONE_DIM
 
       const ConstitutiveLaw                    &law;
       const bool                                has_zz; ///< strain along z
-      const std::vector<ConstitutiveLaw::Shown> shown;
+      const std::vector<ConstitutiveLaw::OutputQuantity> shown;
       State                                     now, trial;
     };
 

@@ -103,21 +103,21 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
-  ElementTest::begin(const Place &place)
+  ElementTest::begin(const TimePoint &now)
   {
-    driven.begin(path.list[place.stage]->control(*driven.point));
+    driven.begin(path.list[now.stage]->control(*driven.point));
   }
 
-  Simulation::Ended
-  ElementTest::advance(Place &place)
+  Simulation::StepOutcome
+  ElementTest::advance(TimePoint &now)
   {
-    const ElementStage &stage = *path.list[place.stage];
-    if (place.in_stage == 0 || positions.empty()) // of this stage, or resumed
+    const ElementStage &stage = *path.list[now.stage];
+    if (now.in_stage == 0 || positions.empty()) // of this stage, or resumed
       positions = stage.positions();
-    driven.follow(positions[place.in_stage], stage.name);
-    add_line(place.stage + 1);
-    return stage.stops(element_output.last_line().data()) ? Ended::stage
-                                                          : Ended::well;
+    driven.follow(positions[now.in_stage], stage.name);
+    add_line(now.stage + 1);
+    return stage.stops(element_output.last_line().data()) ? StepOutcome::stage
+                                                          : StepOutcome::well;
   }
 
   void
@@ -136,7 +136,7 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
-  ElementTest::record(const Place &)
+  ElementTest::record(const TimePoint &)
   {
     if (element_output.verbosity >= 2)
       log.print(format("  f = %.4g, p = %.6g Pa, q = %.6g Pa",
@@ -146,16 +146,16 @@ namespace geocone::GEOCONE_DIM
   }
 
   std::string
-  ElementTest::progress(const Place &place) const
+  ElementTest::progress(const TimePoint &now) const
   {
     // Increments take microseconds.
-    return place.step % 100000 == 0 ? path.list[place.stage]->name : "";
+    return now.step % 100000 == 0 ? path.list[now.stage]->name : "";
   }
 
   void
-  ElementTest::end(const Place &place)
+  ElementTest::end(const TimePoint &now)
   {
-    const ElementStage &stage = *path.list[place.stage];
+    const ElementStage &stage = *path.list[now.stage];
     element_output.end_stage(stage.name);
     if (element_output.verbosity >= 1)
       log.print(format("%s%s: p = %.6g Pa, q = %.6g Pa, eps_v = %.4g %%",

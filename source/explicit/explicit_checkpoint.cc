@@ -52,7 +52,7 @@ namespace geocone::GEOCONE_DIM
       {
         unsigned int material  = group.of_material;
         std::string  variables = group.variables();
-        list(material, group.fading, variables);
+        list(material, group.ramped, variables);
       }
     archive.write_row("groups", list);
     for (unsigned int g = 0; g < groups.size(); ++g)
@@ -129,14 +129,14 @@ namespace geocone::GEOCONE_DIM
     while (!list.at_end())
       {
         unsigned int material = 0;
-        bool         fading   = false;
+        bool         ramped   = false;
         std::string  variables;
-        list(material, fading, variables);
+        list(material, ramped, variables);
         if (material >= scene->materials.size())
           throw RunError("the checkpoint has other materials");
         groups.push_back(make_group(material));
         PointArrays &group = groups.back();
-        group.fading       = fading;
+        group.ramped       = ramped;
         check_variables(variables, group.variables());
         const unsigned int        size = group.n_numbers();
         const std::vector<double> rows = points_of_rank(

@@ -200,7 +200,7 @@ namespace geocone::GEOCONE_DIM
     b_bar        = space.has_b_bar();
     axisymmetric = scene->geometry.is_axisymmetric();
     check_parameters();
-    check_round_body(*scene);
+    check_axisymmetric_body(*scene);
     seeding.prepare(*scene);
     balance.prepare();
     kernels = &transfer_kernels();

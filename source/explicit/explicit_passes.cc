@@ -101,7 +101,7 @@ namespace geocone::GEOCONE_DIM
       {
         bound_positions(points);
         // The pass that moves points is the last of a step.
-        if (groups[points.group].fading)
+        if (groups[points.group].ramped)
           fade_points(points);
       }
   }
@@ -186,7 +186,7 @@ namespace geocone::GEOCONE_DIM
     {
       double mean = 0.;
       for (unsigned int d = 0; d < dim; ++d)
-        mean += points.s[place_of_component[d][d]][k] / dim;
+        mean += points.s[index_of_component[d][d]][k] / dim;
       return mean;
     }
   } // namespace

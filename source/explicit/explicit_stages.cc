@@ -205,12 +205,12 @@ namespace geocone::GEOCONE_DIM
     double                   removed_mass = 0.;
     Tensor<1, dim>           momentum;
     const bool               at_once = stage.removal_duration == 0.;
-    std::vector<PointArrays> fading;
+    std::vector<PointArrays> ramped;
     for (PointArrays &group : groups)
       {
         std::vector<unsigned int> staying;
-        fading.push_back(make_group(group.of_material));
-        fading.back().fading = true;
+        ramped.push_back(make_group(group.of_material));
+        ramped.back().ramped = true;
         std::vector<double> row(group.n_numbers());
         for (unsigned int p = 0; p < group.n_points(); ++p)
           {
@@ -227,7 +227,7 @@ namespace geocone::GEOCONE_DIM
             else
               {
                 group.get(p, row.data());
-                fading.back().append(row.data());
+                ramped.back().append(row.data());
               }
           }
         if (staying.size() < group.n_points())
@@ -237,7 +237,7 @@ namespace geocone::GEOCONE_DIM
     momentum     = Utilities::MPI::sum(momentum, comm);
     if (!at_once)
       {
-        for (PointArrays &group : fading)
+        for (PointArrays &group : ramped)
           {
             group.pad();
             groups.push_back(group);
@@ -329,12 +329,12 @@ namespace geocone::GEOCONE_DIM
   {
     // Remainders of the points by rounding are removed with them.
     for (PointArrays &group : groups)
-      if (group.fading)
+      if (group.ramped)
         for (unsigned int p = 0; p < group.n_points(); ++p)
           take_away(group, p);
     std::vector<PointArrays> staying;
     for (PointArrays &group : groups)
-      if (!group.fading)
+      if (!group.ramped)
         staying.push_back(std::move(group));
     groups.swap(staying);
     fade_end     = 0.;

@@ -184,7 +184,7 @@ namespace geocone::GEOCONE_DIM
             v[d] += change[d];
           }
       }
-    for (const Held &node : held)
+    for (const HeldNode &node : held)
       {
         double *v = read + node_size * node.node + node.component;
 

@@ -128,8 +128,8 @@ namespace geocone::GEOCONE_DIM
                            "take it, or leave out 'Structures/Names'");
         bars = std::make_unique<Bars>(scene->structures, mesh_, space_);
       }
-    RaisedLoads::check(*scene);
-    check_round_body(*scene);
+    ScaledLoads::check(*scene);
+    check_axisymmetric_body(*scene);
     integration.check(*scene, "Time stepping/");
     points = make_quadrature_points(*scene, mesh_, space_);
     if (scene->loading.changes_body())
@@ -244,9 +244,9 @@ namespace geocone::GEOCONE_DIM
                               const MaterialPoints & /* points */,
                               const double t,
                               const Stage *stage,
-                              const bool   raised)
+                              const bool   scaled)
   {
-    loads->evaluate(dst, weight_per_g, t, stage, raised);
+    loads->evaluate(dst, weight_per_g, t, stage, scaled);
   }
 
   void
@@ -369,7 +369,7 @@ namespace geocone::GEOCONE_DIM
                             const MaterialPoints & /* points */,
                             const Vector & /* prescribed */)
   {
-    if (scene->loading.raises_loads())
+    if (scene->loading.scales_loads())
       constraints->multipliers.clear();
     velocity_L = kinematics.velocity;
     constraints->turn(velocity_L);
@@ -445,7 +445,7 @@ namespace geocone::GEOCONE_DIM
   {
     save_points(archive, points);
     if (scene->loading.changes_body())
-      fading.save(archive, *mesh, *space);
+      ramped.save(archive, *mesh, *space);
     if (bars)
       {
         StateRow forces;
@@ -470,7 +470,7 @@ namespace geocone::GEOCONE_DIM
   {
     take_points(archive, points);
     if (scene->loading.changes_body())
-      fading.load(archive, *mesh, *space);
+      ramped.load(archive, *mesh, *space);
     if (bars)
       {
         StateRow forces = archive.read_row("bars");

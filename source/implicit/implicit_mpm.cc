@@ -32,8 +32,8 @@ namespace geocone::GEOCONE_DIM
     check_parameters();
     scene->structures.refuse("Discretisation/Method = MPM",
                              "set Discretisation/Method = FEM");
-    RaisedLoads::check(*scene);
-    check_round_body(*scene);
+    ScaledLoads::check(*scene);
+    check_axisymmetric_body(*scene);
 
     for (const auto &condition : scene->dirichlet.list)
       condition->refuse_normal("free with MPM",
@@ -377,15 +377,15 @@ namespace geocone::GEOCONE_DIM
                               const MaterialPoints &points,
                               const double          t,
                               const Stage          *stage,
-                              const bool            raised)
+                              const bool            scaled)
   {
     dst = 0.;
     const bool has_weight =
-      stage == nullptr || stage->raises("weight") == raised;
+      stage == nullptr || stage->scales("weight") == scaled;
     const Tensor<1, dim> g =
       has_weight ? scene->gravity.at(t) : Tensor<1, dim>();
-    moving->add_tractions(dst, t, stage, raised);
-    if (scene->water.acts() && !raised)
+    moving->add_tractions(dst, t, stage, scaled);
+    if (scene->water.acts() && !scaled)
       add_water(points, t, dst);
     for (unsigned int dof = 0; dof < dst.locally_owned_size(); ++dof)
       dst.local_element(dof) =
@@ -526,8 +526,8 @@ namespace geocone::GEOCONE_DIM
       }
     report.motion = {n_light_of_step,
                      moving->n_behind(points),
-                     trial.n_put_back,
-                     trial.put_back,
+                     trial.n_returned,
+                     trial.returned_by,
                      trial.share.largest,
                      front_of(points)};
   }

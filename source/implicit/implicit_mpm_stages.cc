@@ -75,7 +75,7 @@ namespace geocone::GEOCONE_DIM
   ImplicitMPM::save_grid(Archive &archive) const
   {
     if (scene->loading.changes_body())
-      fading.save(archive, *mesh, *space);
+      ramped.save(archive, *mesh, *space);
     Vector mass(velocity_L);
     for (unsigned int i = 0; i < mass.locally_owned_size(); ++i)
       mass.local_element(i) = had_mass.empty() || had_mass[i];
@@ -114,7 +114,7 @@ namespace geocone::GEOCONE_DIM
   ImplicitMPM::load_grid(const Archive &archive)
   {
     if (scene->loading.changes_body())
-      fading.load(archive, *mesh, *space);
+      ramped.load(archive, *mesh, *space);
     StateRow row = archive.read_row("sides");
     moving->state(row);
     obstacles->state(row);

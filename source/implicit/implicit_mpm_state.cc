@@ -80,7 +80,7 @@ namespace geocone::GEOCONE_DIM
   }
 
   std::string
-  ImplicitMPM::objection_to_move(const MaterialPoints          &points,
+  ImplicitMPM::rejection_of_move(const MaterialPoints          &points,
                                  const unsigned int             p,
                                  const double                   ratio,
                                  const Tensor<1, dim>          &move,
@@ -182,7 +182,7 @@ namespace geocone::GEOCONE_DIM
           }
 
         if (const std::string why =
-              objection_to_move(points, p, ratio, move, extent);
+              rejection_of_move(points, p, ratio, move, extent);
             !why.empty())
           obstacle = why;
       });
@@ -190,7 +190,7 @@ namespace geocone::GEOCONE_DIM
   }
 
   std::string
-  ImplicitMPM::rejection(const Multipliers::LightShare &share) const
+  ImplicitMPM::rejection(const Multipliers::LowMassShare &share) const
   {
     // Sound steps have up to 0.02, spurious velocities 1.6 and more.
     if (!(share.largest > 0.3))
@@ -267,7 +267,7 @@ namespace geocone::GEOCONE_DIM
               points.held_by[p] > 0 ||
                   scene->regions.are_fixed(points.material[p])
                 ? std::nullopt
-                : moving->put_back(points.position[p], next.position))
+                : moving->return_to_boundary(points.position[p], next.position))
           {
             const Tensor<1, dim> change = *place - next.position;
             next.position               = *place;
@@ -277,8 +277,8 @@ namespace geocone::GEOCONE_DIM
           }
       }
     const MPI_Comm comm = force.get_mpi_communicator();
-    trial.n_put_back    = Utilities::MPI::sum(n, comm);
-    trial.put_back      = Utilities::MPI::max(largest, comm);
+    trial.n_returned    = Utilities::MPI::sum(n, comm);
+    trial.returned_by   = Utilities::MPI::max(largest, comm);
   }
 
   Point<dim>

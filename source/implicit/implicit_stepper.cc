@@ -48,7 +48,7 @@ namespace geocone::GEOCONE_DIM
       begin(points, timer);
       difference -= net_force(points, t);
       change_nodes(had_mass, kinematics, difference);
-      fading.add(std::move(difference), t, duration);
+      ramped.add(std::move(difference), t, duration);
     };
     if (stage.removes())
       take(stage.removal_duration,
@@ -71,16 +71,16 @@ namespace geocone::GEOCONE_DIM
     return change;
   }
 
-  RaisedLoads
+  ScaledLoads
   ImplicitStepper::begin_step(const TimeStep       &step,
                               const Kinematics     &kinematics,
                               const MaterialPoints &points,
                               TimerOutput          &timer)
   {
     const Stage &stage      = scene->loading.stage_at(step.t + step.h / 2.);
-    const bool   raises     = stage.raises_loads();
+    const bool   scales     = stage.scales_loads();
     Vector       prescribed = problem->make_vector();
-    RaisedLoads  raised;
+    ScaledLoads  scaled;
     {
       TimerOutput::Scope scope(timer, section);
       constraints->set_values(prescribed, step.prescribed_at);
@@ -88,26 +88,26 @@ namespace geocone::GEOCONE_DIM
       if (integration.is_newmark())
         {
           Vector net = net_force(points, step.t);
-          fading.add_to(net, step.t);
+          ramped.add_to(net, step.t);
           constraints->turn(net);
           predicted = velocity_L;
           integration.predict(step, net, lumped_mass, *constraints, predicted);
           predicted.update_ghost_values();
         }
-      if (raises)
+      if (scales)
         {
-          Vector of_raised = problem->make_vector();
-          evaluate_force(of_raised, points, step.solved_at, &stage, true);
-          constraints->turn(of_raised);
-          raised.add_row(stage, of_raised, prescribed, *constraints);
+          Vector of_scaled = problem->make_vector();
+          evaluate_force(of_scaled, points, step.solved_at, &stage, true);
+          constraints->turn(of_scaled);
+          scaled.add_row(stage, of_scaled, prescribed, *constraints);
         }
       if (has_force())
         {
           // At rotated dofs, the vectors of the problem have components along
           // these.
           evaluate_force(
-            force, points, step.solved_at, raises ? &stage : nullptr);
-          fading.add_to(force, step.solved_at);
+            force, points, step.solved_at, scales ? &stage : nullptr);
+          ramped.add_to(force, step.solved_at);
           constraints->turn(force);
         }
     }
@@ -126,7 +126,7 @@ namespace geocone::GEOCONE_DIM
     if (!has_pattern || problem->needs_pattern())
       system->set_pattern(*problem, timer);
     has_pattern = true;
-    return raised;
+    return scaled;
   }
 
   ImplicitStepper::WorksOnNodes
@@ -246,7 +246,7 @@ namespace geocone::GEOCONE_DIM
     if (!begun)
       begin(points, timer);
     const TimeStep    step   = integration.step(t, h);
-    const RaisedLoads raised = begin_step(step, kinematics, points, timer);
+    const ScaledLoads scaled = begin_step(step, kinematics, points, timer);
     StepReport        report;
     report.unknowns = unknowns = constraints->n_rows;
     report.multipliers         = constraints->multipliers.n_rows();
@@ -277,7 +277,7 @@ namespace geocone::GEOCONE_DIM
       }
     accept_move(step, points, v);
     report.load_factor =
-      raised.take(*constraints, problem->multipliers(), force, residual);
+      scaled.take(*constraints, problem->multipliers(), force, residual);
     const InternalForces &forces = problem->internal_forces();
     const double          excess = forces.excess_work();
     report.quality               = forces.quality(excess);

@@ -81,7 +81,7 @@ namespace geocone::GEOCONE_DIM
                       remedy = "take the theta-scheme or backward Euler";
     scene.refuse_contact(what, remedy);
     scene.absorbing.refuse(what, remedy);
-    if (scene.loading.raises_loads())
+    if (scene.loading.scales_loads())
       throw InputError(section + "Integration",
                        word(),
                        "another one in stages with 'Raised loads'",

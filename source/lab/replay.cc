@@ -213,7 +213,7 @@ namespace geocone::GEOCONE_DIM
     {
       std::array<std::string, n_mandel> names;
       for (unsigned int d = 0; d < dim; ++d)
-        names[place_of_normal[d]] = std::string(2, coordinate[d]);
+        names[index_of_normal[d]] = std::string(2, coordinate[d]);
       for (int k = 0; k < n_shears; ++k)
         {
           const auto [place, a, b] = shears[k];

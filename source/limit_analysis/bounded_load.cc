@@ -183,7 +183,7 @@ namespace geocone::GEOCONE_DIM
         const Material     &law = scene.materials[triangles.material[c]];
         std::vector<double> history(law.n_history());
         for (const unsigned int v : triangles.cells[c])
-          law.take_place(triangles.vertices[v], history.data());
+          law.initialise_at(triangles.vertices[v], history.data());
       }
   }
 

@@ -410,8 +410,8 @@ namespace geocone::GEOCONE_DIM
     return asked_cells;
   }
 
-  Simulation::Ended
-  LimitAnalysis::advance(Place &place)
+  Simulation::StepOutcome
+  LimitAnalysis::advance(TimePoint &now)
   {
     dealii::Timer mesh_time;
     if (sizes)
@@ -435,7 +435,7 @@ namespace geocone::GEOCONE_DIM
     const auto &levels = limit_output.all_records();
     level.number       = levels.size() + 1;
     limit_output.add_record(level);
-    place.time = levels.size();
+    now.time = levels.size();
 
     const auto best      = certified_by(levels).gap();
     const bool is_narrow = best && *best < gap_tolerance;
@@ -444,11 +444,11 @@ namespace geocone::GEOCONE_DIM
                          !refines() || levels.size() == most_levels;
     if (!is_last)
       sizes = adapted_sizes(*triangles, bounds.uneven, next_cells(level));
-    return is_last ? Ended::stage : Ended::well;
+    return is_last ? StepOutcome::stage : StepOutcome::well;
   }
 
   void
-  LimitAnalysis::record(const Place &)
+  LimitAnalysis::record(const TimePoint &)
   {
     if (limit_output.verbosity >= 1)
       {
@@ -470,7 +470,7 @@ namespace geocone::GEOCONE_DIM
   }
 
   std::string
-  LimitAnalysis::progress(const Place &) const
+  LimitAnalysis::progress(const TimePoint &) const
   {
     return "";
   }

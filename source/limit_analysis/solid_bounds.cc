@@ -141,7 +141,7 @@ namespace geocone::GEOCONE_DIM
     symmetric_product(const unsigned int component, const Tensor<1, dim> &g)
     {
       Eigen::Matrix<double, 6, 1> e = Eigen::Matrix<double, 6, 1>::Zero();
-      e[place_of_normal[component]] = g[component];
+      e[index_of_normal[component]] = g[component];
       for (const auto &[place, i, j] : shears)
         {
           if (component == static_cast<unsigned int>(i))

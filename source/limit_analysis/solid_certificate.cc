@@ -27,7 +27,7 @@ namespace geocone::GEOCONE_DIM
       Eigen::Matrix3d m;
       for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j)
-          m(i, j) = s[place_of_component[i][j]] / (i == j ? 1. : sqrt2);
+          m(i, j) = s[index_of_component[i][j]] / (i == j ? 1. : sqrt2);
       return m;
     }
 
@@ -59,7 +59,7 @@ namespace geocone::GEOCONE_DIM
         {
           const double mean     = (s[0] + s[1] + s[3]) / 3.;
           Mandel       deviator = s;
-          for (const int i : place_of_normal)
+          for (const int i : index_of_normal)
             deviator[i] -= mean;
           return deviator.norm() + one.a * std::sqrt(3.) * mean - k + guard;
         }

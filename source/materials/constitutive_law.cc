@@ -182,7 +182,8 @@ namespace geocone::GEOCONE_DIM
   ShownValue::ShownValue(const ConstitutiveLaw &law, const std::string &name)
     : law(&law)
   {
-    const std::vector<ConstitutiveLaw::Shown> all = law.shown();
+    const std::vector<ConstitutiveLaw::OutputQuantity> all =
+      law.output_quantities();
     values.resize(all.size());
     while (place < all.size() && all[place].name != name)
       ++place;
@@ -194,7 +195,7 @@ namespace geocone::GEOCONE_DIM
   {
     if (place == values.size())
       return std::numeric_limits<double>::quiet_NaN();
-    law->show(stress, history, values.data());
+    law->output(stress, history, values.data());
     return values[place];
   }
 } // namespace geocone::GEOCONE_DIM

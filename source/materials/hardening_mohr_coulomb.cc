@@ -185,10 +185,10 @@ namespace geocone::GEOCONE_DIM
     return MohrCoulomb::initialise(stress, size, history);
   }
 
-  std::vector<ConstitutiveLaw::Shown>
-  HardeningMohrCoulomb::shown() const
+  std::vector<ConstitutiveLaw::OutputQuantity>
+  HardeningMohrCoulomb::output_quantities() const
   {
-    std::vector<Shown> all = MohrCoulomb::shown();
+    std::vector<OutputQuantity> all = MohrCoulomb::output_quantities();
     all.push_back({"cohesion", "cohesion (Pa)"});
     if (!friction_curve.is_constant())
       all.push_back({"friction_angle", "friction angle (degrees)"});
@@ -196,12 +196,12 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
-  HardeningMohrCoulomb::show(const Components &stress,
-                             const double     *history,
-                             double           *values) const
+  HardeningMohrCoulomb::output(const Components &stress,
+                               const double     *history,
+                               double           *values) const
   {
-    MohrCoulomb::show(stress, history, values);
-    const unsigned int first = MohrCoulomb::shown().size();
+    MohrCoulomb::output(stress, history, values);
+    const unsigned int first = MohrCoulomb::output_quantities().size();
     const double       kappa = history[plastic_shear()];
     values[first]            = cohesion_at(kappa);
     if (!friction_curve.is_constant())

@@ -271,7 +271,8 @@ namespace geocone::GEOCONE_DIM
   {
     std::vector<std::string> names;
     for (const auto &law : list)
-      for (const ConstitutiveLaw::Shown &shown : law->shown())
+      for (const ConstitutiveLaw::OutputQuantity &shown :
+           law->output_quantities())
         if (std::find(names.begin(), names.end(), shown.name) == names.end())
           names.push_back(shown.name);
     return names;

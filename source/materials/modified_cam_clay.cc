@@ -344,7 +344,7 @@ namespace geocone::GEOCONE_DIM
   {
     const SpatialMandel I    = unit_tensor<n_spatial>();
     const StrainStep    step = {pressure(stress_n),
-                                history_n[place_of_pc()] + a,
+                                history_n[index_of_pc()] + a,
                                 -trace(strain),
                                 deviator(strain),
                                 deviator(stress_n)};
@@ -356,7 +356,7 @@ namespace geocone::GEOCONE_DIM
       const double q = equivalent(s) / M, least = std::max(P, lowest());
       stress = s - (least - a) * I;
       if (history != nullptr)
-        history[place_of_pc()] =
+        history[index_of_pc()] =
           (opens ? std::max(Pc, least + q * q / least) : Pc) - a;
       return opens ? Mode::apex : mode;
     };
@@ -399,7 +399,7 @@ namespace geocone::GEOCONE_DIM
     SpatialLaw::initialise(stress, size, history);
     SpatialMandel s = SpatialMandel::Zero();
     for (int i = 0; i < 3; ++i)
-      s[place_of_normal[i]] = stress[i];
+      s[index_of_normal[i]] = stress[i];
     for (int i = 0; i < n_shears; ++i)
       s[shears[i].place] = sqrt2 * stress[3 + i];
     const double      P  = pressure(s);
@@ -429,14 +429,14 @@ namespace geocone::GEOCONE_DIM
                          through - a);
         Pc      = through;
       }
-    history[place_of_pc()] = Pc - a;
+    history[index_of_pc()] = Pc - a;
     return changed;
   }
 
-  std::vector<ConstitutiveLaw::Shown>
-  ModifiedCamClay::shown() const
+  std::vector<ConstitutiveLaw::OutputQuantity>
+  ModifiedCamClay::output_quantities() const
   {
-    std::vector<Shown> all = SpatialLaw::shown();
+    std::vector<OutputQuantity> all = SpatialLaw::output_quantities();
     all.push_back({"mean_pressure", "p (Pa)"});
     all.push_back({"deviatoric_stress", "q (Pa)"});
     all.push_back({"preconsolidation_pressure", "pc (Pa)"});
@@ -445,16 +445,16 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
-  ModifiedCamClay::show(const Components &stress,
-                        const double     *history,
-                        double           *values) const
+  ModifiedCamClay::output(const Components &stress,
+                          const double     *history,
+                          double           *values) const
   {
-    SpatialLaw::show(stress, history, values);
-    values += SpatialLaw::shown().size();
+    SpatialLaw::output(stress, history, values);
+    values += SpatialLaw::output_quantities().size();
     const SpatialMandel s = whole_stress(mandel_of_components(stress), history);
     values[0]             = -trace(s) / 3.;
     values[1]             = equivalent(deviator(s));
-    values[2]             = history[place_of_pc()];
+    values[2]             = history[index_of_pc()];
     values[3]             = (values[2] + a) / size_through(s);
   }
 
@@ -462,7 +462,7 @@ namespace geocone::GEOCONE_DIM
   ModifiedCamClay::overstress(const Mandel &stress, const double *history) const
   {
     return size_through(whole_stress(stress, history)) -
-           (history[place_of_pc()] + a);
+           (history[index_of_pc()] + a);
   }
 
   void

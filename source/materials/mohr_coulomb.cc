@@ -76,8 +76,11 @@ namespace geocone::GEOCONE_DIM
                            const double   *history_n,
                            const StepLaw  &step) const
   {
-    const Past past = past_of(step, history_n, to_cone_axes(stress_n)[0]);
-    return past.part > 0. ? exact.delayed(past.part, past.stress) : exact;
+    const FrictionHistory friction_history =
+      friction_history_of(step, history_n, to_cone_axes(stress_n)[0]);
+    return friction_history.part > 0.
+             ? exact.delayed(friction_history.part, friction_history.stress)
+             : exact;
   }
 
   Mode
@@ -110,24 +113,24 @@ namespace geocone::GEOCONE_DIM
   MohrCoulomb::strength(const double *history) const
   {
     const std::optional<FlowCone> exact = flow_cone(history);
-    return memory.time() > 0. ? exact->delayed(1., history[place_of_memory()])
+    return memory.time() > 0. ? exact->delayed(1., history[index_of_memory()])
                               : exact;
   }
 
   void
   MohrCoulomb::advance(const PointBlock &block, LawCounts &counts) const
   {
-    const bool only_remembers = memory.time() > 0. && !cohesion_grows() &&
-                                has_constant_stiffness() &&
-                                n_history() == MohrCoulomb::n_history();
-    if (!only_remembers || cone.is_cut())
+    const bool only_has_memory = memory.time() > 0. && !cohesion_grows() &&
+                                 has_constant_stiffness() &&
+                                 n_history() == MohrCoulomb::n_history();
+    if (!only_has_memory || cone.is_cut())
       return Material::advance(block, counts);
     counts.updates += block.n_points;
     advance_cone(cone,
                  elasticity(),
                  block,
                  memory.remembered(block.step),
-                 place_of_memory());
+                 index_of_memory());
   }
 
   void
@@ -167,8 +170,8 @@ namespace geocone::GEOCONE_DIM
           {
             double *history = response.history + first;
             if (memory.time() > 0.)
-              history[place_of_memory()] = memory.next(
-                history[place_of_memory()], returned[0], increment.step.size);
+              history[index_of_memory()] = memory.next(
+                history[index_of_memory()], returned[0], increment.step.size);
             add_to_history(slip, history);
           }
         // Elastic points keep their trial stress exactly.

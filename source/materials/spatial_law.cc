@@ -69,9 +69,10 @@ namespace geocone::GEOCONE_DIM
     own.cohesion = grown_cohesion(history_n);
     if (non_associativity() > 0.)
       {
-        const Past past = past_of(step, history_n, normal_stress(stress_n));
-        own.part        = past.part;
-        own.normal      = past.stress;
+        const FrictionHistory friction_history =
+          friction_history_of(step, history_n, normal_stress(stress_n));
+        own.part   = friction_history.part;
+        own.normal = friction_history.stress;
       }
     return own;
   }
@@ -94,7 +95,7 @@ namespace geocone::GEOCONE_DIM
   {
     if (memory.time() > 0.)
       {
-        double &p = history[place_of_memory()];
+        double &p = history[index_of_memory()];
         p         = memory.next(p, normal_stress(stress), step.size);
       }
   }

@@ -135,14 +135,14 @@ namespace geocone::GEOCONE_DIM
     pyramid.two_G  = elasticity().two_G;
     if (memory.time() > 0.)
       {
-        pyramid.memory  = place_of_memory();
+        pyramid.memory  = index_of_memory();
         pyramid.part    = memory.remembered(block.step);
         pyramid.lagging = pyramid.part * (exact.sine - sin_theta);
       }
     pyramid.sine = exact.sine - pyramid.lagging;
     if (cohesion_grows())
       {
-        pyramid.growth            = place_of_growth();
+        pyramid.growth            = index_of_growth();
         pyramid.size_per_cohesion = size_per_cohesion;
       }
     advance_pyramid(pyramid, block);

@@ -230,7 +230,7 @@ namespace geocone::GEOCONE_DIM
                   initial_Rb,
                   "Initial structure ratio Rb [-], >= Rbf.");
     add_parameter("Output tensors",
-                  show_tensors,
+                  output_tensors,
                   "Whether fields and tables also contain the components of "
                   "the similarity centre a (Pa) and the inclination beta (-).");
     if_outside.declare(

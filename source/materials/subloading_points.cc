@@ -210,21 +210,21 @@ namespace geocone::GEOCONE_DIM
     return state_of(stress, [&](const unsigned int k) { return history[k]; });
   }
 
-  std::vector<ConstitutiveLaw::Shown>
-  Subloading::shown() const
+  std::vector<ConstitutiveLaw::OutputQuantity>
+  Subloading::output_quantities() const
   {
-    std::vector<Shown> all;
+    std::vector<OutputQuantity> all;
     if (dim == 2)
       all.push_back({"stress_zz", "stress zz (Pa)"});
-    for (const Shown &shown :
-         std::vector<Shown>{{"mean_pressure", "p (Pa)"},
-                            {"deviatoric_stress", "q (Pa)"},
-                            {"subloading_ratio", "R (-)"},
-                            {"structure_ratio", "Rb (-)"},
-                            {"yield_surface_size", "pcb (Pa)"},
-                            {"anisotropy", "anisotropy (-)"}})
+    for (const OutputQuantity &shown :
+         std::vector<OutputQuantity>{{"mean_pressure", "p (Pa)"},
+                                     {"deviatoric_stress", "q (Pa)"},
+                                     {"subloading_ratio", "R (-)"},
+                                     {"structure_ratio", "Rb (-)"},
+                                     {"yield_surface_size", "pcb (Pa)"},
+                                     {"anisotropy", "anisotropy (-)"}})
       all.push_back(shown);
-    if (show_tensors)
+    if (output_tensors)
       for (const bool is_centre : {false, true})
         for (int k = 0; k < n_spatial; ++k)
           all.push_back(
@@ -235,9 +235,9 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
-  Subloading::show(const Components &stress,
-                   const double     *history,
-                   double           *values) const
+  Subloading::output(const Components &stress,
+                     const double     *history,
+                     double           *values) const
   {
     const SubloadingState<n_spatial> y = state(stress, history);
     const double p = (y.stress[0] + y.stress[1] + y.stress[2]) / 3.;
@@ -251,7 +251,7 @@ namespace geocone::GEOCONE_DIM
     *values++ = y.Rb;
     *values++ = y.pcb;
     *values++ = std::sqrt(1.5) * y.beta.norm();
-    if (show_tensors)
+    if (output_tensors)
       for (const int first : {inclination, centre})
         for (int k = 0; k < n_spatial; ++k)
           *values++ = history[first + k];

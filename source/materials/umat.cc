@@ -147,16 +147,16 @@ namespace geocone::GEOCONE_DIM
                    double       *history) const
   {
     SpatialLaw::initialise(stress, size, history);
-    std::fill(history + place_of_state(), history + n_history(), 0.);
-    std::copy(state.begin(), state.end(), history + place_of_state());
-    history[place_of_size()] = size;
+    std::fill(history + index_of_state(), history + n_history(), 0.);
+    std::copy(state.begin(), state.end(), history + index_of_state());
+    history[index_of_size()] = size;
     return "";
   }
 
-  std::vector<ConstitutiveLaw::Shown>
-  Umat::shown() const
+  std::vector<ConstitutiveLaw::OutputQuantity>
+  Umat::output_quantities() const
   {
-    std::vector<Shown> all = SpatialLaw::shown();
+    std::vector<OutputQuantity> all = SpatialLaw::output_quantities();
     for (unsigned int i = 1; i <= n_state; ++i)
       all.push_back({"state_variable_" + std::to_string(i),
                      "state variable " + std::to_string(i)});
@@ -164,13 +164,14 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
-  Umat::show(const Components &stress,
-             const double     *history,
-             double           *values) const
+  Umat::output(const Components &stress,
+               const double     *history,
+               double           *values) const
   {
-    SpatialLaw::show(stress, history, values);
-    std::copy_n(
-      history + place_of_state(), n_state, values + SpatialLaw::shown().size());
+    SpatialLaw::output(stress, history, values);
+    std::copy_n(history + index_of_state(),
+                n_state,
+                values + SpatialLaw::output_quantities().size());
   }
 
   void
@@ -191,14 +192,14 @@ namespace geocone::GEOCONE_DIM
         const auto                   l = block.gradient(p);
         std::array<double, n_mandel> e;
         for (int i = 0; i < n_mandel; ++i)
-          e[i] = block.history[place_of_strain() + i][p];
+          e[i] = block.history[index_of_strain() + i][p];
         Spin(l).turn(e);
         for (int i = 0; i < n_mandel; ++i)
-          block.history[place_of_strain() + i][p] = e[i];
+          block.history[index_of_strain() + i][p] = e[i];
         for (unsigned int r = 0; r < n_rotations; ++r)
           {
             const auto [a, b] = plane_of_rotation[r];
-            block.history[place_of_spin() + r][p] =
+            block.history[index_of_spin() + r][p] =
               0.25 * (l[dim * b + a] - l[dim * a + b]);
           }
       }
@@ -225,21 +226,21 @@ namespace geocone::GEOCONE_DIM
 
     SpatialMandel total;
     for (int i = 0; i < n; ++i)
-      total[i] = history_n[place_of_strain() + i] * (is_shear(i) ? sqrt2 : 1.);
+      total[i] = history_n[index_of_strain() + i] * (is_shear(i) ? sqrt2 : 1.);
     const UmatComponents     e_n = umat_strain(total), de = umat_strain(strain);
     UmatComponents           s        = umat_stress(stress_n);
-    const double             times[2] = {history_n[place_of_time()],
-                                         history_n[place_of_time()]};
+    const double                times[2] = {history_n[index_of_time()],
+                                            history_n[index_of_time()]};
     std::array<double, n *n> D        = {};
     std::array<double, n>    ddsddt = {}, drplde = {};
     const std::array<double, 9> rotation =
-      rotation_of_spin(history_n + place_of_spin());
+      rotation_of_spin(history_n + index_of_spin());
 
     // Guards behind the values show a law that writes more of them.
     constexpr double                 guard = -7.2e302;
     thread_local std::vector<double> variables;
-    variables.assign(history_n + place_of_state(),
-                     history_n + place_of_state() + n_state);
+    variables.assign(history_n + index_of_state(),
+                     history_n + index_of_state() + n_state);
     variables.resize(n_state + n_guards, guard);
     const int n_variables = n_state, n_constants = constants.size();
     double    sse = 0., spd = 0., scd = 0., rpl = 0., drpldt = 0., pnewdt = 1.;
@@ -271,7 +272,7 @@ namespace geocone::GEOCONE_DIM
          position,
          rotation.data(),
          &pnewdt,
-         history_n + place_of_size(),
+         history_n + index_of_size(),
          unit,
          unit,
          &one,
@@ -298,13 +299,13 @@ namespace geocone::GEOCONE_DIM
             umat_factor(i) * D[i + n * j] * umat_factor(j);
     if (history != nullptr)
       {
-        std::copy_n(variables.begin(), n_state, history + place_of_state());
+        std::copy_n(variables.begin(), n_state, history + index_of_state());
         for (int i = 0; i < n; ++i)
-          history[place_of_strain() + i] =
-            history_n[place_of_strain() + i] +
+          history[index_of_strain() + i] =
+            history_n[index_of_strain() + i] +
             strain[i] / (is_shear(i) ? sqrt2 : 1.);
-        std::fill_n(history + place_of_spin(), n_rotations, 0.);
-        history[place_of_time()] = history_n[place_of_time()] + step.size;
+        std::fill_n(history + index_of_spin(), n_rotations, 0.);
+        history[index_of_time()] = history_n[index_of_time()] + step.size;
       }
     const SpatialMandel change = elasticity().stress(strain);
     return (stress - stress_n - change).norm() <=

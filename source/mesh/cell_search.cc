@@ -43,7 +43,7 @@ namespace geocone::GEOCONE_DIM
       }
   }
 
-  std::optional<CellSearch::Place>
+  std::optional<CellSearch::Location>
   CellSearch::find(const Point<dim>  &x,
                    const Cell        &hint,
                    const unsigned int layer) const
@@ -54,12 +54,12 @@ namespace geocone::GEOCONE_DIM
     if (hint.state() == IteratorState::valid)
       {
         if (const auto unit = mesh.unit_point(hint, x))
-          return Place{hint, *unit};
+          return Location{hint, *unit};
         const unsigned int c = hint->active_cell_index();
         for (unsigned int i = first_neighbour[c]; i < first_neighbour[c + 1];
              ++i)
           if (const auto unit = mesh.unit_point(cells[neighbours[i]], x))
-            return Place{cells[neighbours[i]], *unit};
+            return Location{cells[neighbours[i]], *unit};
       }
     // Slightly enlarged boxes, for points on the boundary of the mesh.
     Point<dim> lower = x, upper = x;
@@ -69,7 +69,7 @@ namespace geocone::GEOCONE_DIM
         upper[d] += BackgroundMesh::tolerance * smallest;
       }
     namespace bgi = boost::geometry::index;
-    std::optional<Place> found;
+    std::optional<Location> found;
     const auto           rank = [&](const Cell &cell) {
       return std::make_pair(owner(cell), cell->active_cell_index());
     };
@@ -79,7 +79,7 @@ namespace geocone::GEOCONE_DIM
       if (mesh.layer_of(cell) == layer &&
           (!found || rank(cell) < rank(found->cell)))
         if (const auto unit = mesh.unit_point(cell, x))
-          found = Place{cell, *unit};
+          found = Location{cell, *unit};
     return found;
   }
 } // namespace geocone::GEOCONE_DIM

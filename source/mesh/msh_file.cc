@@ -556,7 +556,7 @@ namespace geocone::GEOCONE_DIM
   MshData::index_of_groups(const std::vector<int> &groups)
   {
     const auto [list, is_new] =
-      place_of_list.emplace(groups, group_lists.size());
+      index_of_list.emplace(groups, group_lists.size());
     if (is_new)
       group_lists.push_back(groups);
     return list->second;

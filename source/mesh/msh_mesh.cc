@@ -383,7 +383,7 @@ namespace geocone::GEOCONE_DIM
             if (vertex[n] == CoarseMesh::no_vertex)
               {
                 vertex[n] = points.size();
-                points.push_back(place_of(nodes[n]));
+                points.push_back(position_of(nodes[n]));
               }
             vertices.push_back(vertex[n]);
           }
@@ -424,7 +424,7 @@ namespace geocone::GEOCONE_DIM
       }
 
       Point<dim>
-      place_of(const MshData::Node &node) const
+      position_of(const MshData::Node &node) const
       {
         const auto &x = node.x;
         if (dim == 2 && !(std::abs(x[2]) <= 1e-9 * largest))

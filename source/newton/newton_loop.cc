@@ -16,7 +16,7 @@ namespace geocone::GEOCONE_DIM
     // In load stepping to the limit load, the Jacobian without the row of the
     // loads becomes singular, as the body yields. The effect of the blend is
     // negligible, since the row fixes the rate.
-    const double wanted = std::max(asked, work.traits.raises_loads ? 1e-8 : 0.);
+    const double wanted = std::max(asked, work.traits.scales_loads ? 1e-8 : 0.);
     // A few apex points can make a Jacobian without mass singular.
     for (const double least : {0., 1e-6, 1e-3, 0.1})
       {

@@ -227,7 +227,7 @@ namespace geocone::GEOCONE_DIM
     newton.allowed_if_far       = next.iterations_if_far;
     newton.elastic_first        = elastic_first && next.elastic_first;
     newton.exact_contact        = next.contact == ContactLaw::exact;
-    newton.law.contact_holds    = next.contact == ContactLaw::bilateral;
+    newton.law.contact_is_bilateral = next.contact == ContactLaw::bilateral;
     newton.law.contact_friction = next.contact != ContactLaw::without_friction;
     std::optional<NaturalMap> map;
     if (next.natural_map)
@@ -267,7 +267,7 @@ namespace geocone::GEOCONE_DIM
     continuation.allowed_on_path    = next.iterations;
     continuation.elastic_first      = elastic_first;
     continuation.keeps_lag = friction.kind == Friction::Kind::automatic &&
-                             !work.traits.law.remembers();
+                             !work.traits.law.has_friction_memory();
     if (next.globalisation == GlobalisationMethod::explicit_friction)
       {
         continuation.solve_from_explicit_friction(work);

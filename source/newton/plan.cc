@@ -134,7 +134,7 @@ namespace geocone::GEOCONE_DIM
             associated ? 150 : 60);
         return tries;
       }
-    if (chosen == Method::automatic && law.remembers() && by_itself)
+    if (chosen == Method::automatic && law.has_friction_memory() && by_itself)
       {
         // The tangent of friction with memory is nearly elliptic. If the line
         // search has not converged early it rarely does. Then the natural map

@@ -221,8 +221,8 @@ namespace geocone::GEOCONE_DIM
             one["water_levels"] = stage->water_levels;
           if (stage->strength_factor > 0.)
             one["strength_factor"] = stage->strength_factor;
-          if (stage->raises_loads())
-            one["raised_loads"] = stage->raised_loads;
+          if (stage->scales_loads())
+            one["scaled_loads"] = stage->scaled_loads;
           all.push_back(one);
         }
       return all;

@@ -80,12 +80,12 @@ namespace geocone::GEOCONE_DIM
       table.add("strength factor (-)", [this](const Record &r) {
         return scene->loading.strength_factor(r.time);
       });
-    if (scene->loading.raises_loads())
+    if (scene->loading.scales_loads())
       {
         table.add("load factor (-)",
                   [](const Record &r) { return r.last.load_factor; });
-        table.add("displacement of raised loads (m)",
-                  [](const Record &r) { return r.raised; });
+        table.add("displacement of scaled loads (m)",
+                  [](const Record &r) { return r.scaled; });
       }
   }
 
@@ -150,7 +150,7 @@ namespace geocone::GEOCONE_DIM
       add("removed energy (J/m)",
           [this](const Record &) { return balance.removed(); });
     add_loss_columns();
-    if (scene->materials.traits().remembers())
+    if (scene->materials.traits().has_friction_memory())
       add_work("work of friction memory (J/m)", &Works::of_excess);
     if (points_move)
       add_work("work of ghost stiffness (J/m)", &Works::of_ghosts);

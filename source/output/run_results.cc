@@ -204,8 +204,8 @@ namespace geocone::GEOCONE_DIM
     return {
       {"load_drops", n_drops},
       {"points_behind", worst.points_behind},
-      {"points_put_back_max", worst.points_put_back},
-      {"put_back_max_m", worst.put_back},
+      {"points_put_back_max", worst.points_returned},
+      {"put_back_max_m", worst.returned_by},
       {"empty_functions", worst.light_functions},
       {"light_share_max", worst.light_share},
       {"front_x_m", front[0]},
@@ -327,7 +327,7 @@ namespace geocone::GEOCONE_DIM
       {"steps_at_rounding_floor", at_floor},
       {"steps_with_friction_lag", lagging},
       {"friction_lag_max", lag}};
-    if (scene->materials.traits().remembers())
+    if (scene->materials.traits().has_friction_memory())
       json["friction_memory"] = friction_memory();
     if (scene->has_contact())
       json["contact"] = contact();
@@ -451,7 +451,7 @@ namespace geocone::GEOCONE_DIM
         summary["quality"]["cone_excess_max_Pa"].get<double>(),
         100. * summary["quality"]["excess_work_relative"].get<double>(),
         100. * summary["quality"]["excess_work_step_max"].get<double>()));
-    if (scene->materials.traits().remembers())
+    if (scene->materials.traits().has_friction_memory())
       warn_of_memory();
     if (summary.contains("safety"))
       print_safety();
@@ -481,7 +481,7 @@ namespace geocone::GEOCONE_DIM
   bool
   RunOutput::load_is_number() const
   {
-    return scene->observation.of_raised_loads &&
+    return scene->observation.of_scaled_loads &&
            std::abs(scene->observation.factor) == 1.;
   }
 

@@ -48,7 +48,7 @@ namespace geocone::GEOCONE_DIM
       unsigned int     n_outside = 0;
       for (const Point<dim> &x : points)
         {
-          const std::optional<CellSearch::Place> place = cells.find(x);
+          const std::optional<CellSearch::Location> place = cells.find(x);
           n_outside += !place;
           if (n_outside > (structure.may_be_fixed() ? 1u : 0u))
             throw InputError(

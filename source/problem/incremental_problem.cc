@@ -94,7 +94,7 @@ namespace geocone::GEOCONE_DIM
     if (contact_term)
       {
         contact_term->replace(
-          dst, v, scale(), law.contact_friction, law.contact_holds);
+          dst, v, scale(), law.contact_friction, law.contact_is_bilateral);
         // Forces required by obstacles on a body at rest are part of the
         // reference.
         const Contact::Sums sums_of_contact = contact_term->sums();
@@ -163,7 +163,7 @@ namespace geocone::GEOCONE_DIM
     step.has_constraints    = unknowns.multipliers.n_rows() > 0;
     step.has_cell_pressures = internal.has_cell_pressures();
     step.points_move        = of_particles;
-    step.raises_loads       = unknowns.multipliers.has_loads();
+    step.scales_loads       = unknowns.multipliers.has_loads();
     return step;
   }
 

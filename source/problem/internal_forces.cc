@@ -367,7 +367,7 @@ namespace geocone::GEOCONE_DIM
       is_undrained() ? total_n
                      : static_cast<const std::vector<Mandel> &>(points.stress),
       [&](const unsigned int p) {
-        return whole_stress_n(p)[place_of_normal[2]] -
+        return whole_stress_n(p)[index_of_normal[2]] -
                (is_undrained() ? points.excess_pressure(p) : 0.);
       },
       part);

@@ -78,29 +78,29 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
-  ExplicitSimulation::begin(const Place &place)
+  ExplicitSimulation::begin(const TimePoint &now)
   {
-    const Stage &stage = stage_of(place);
-    for (const std::string &remark : stepper.begin_stage(stage, place.time))
+    const Stage &stage = stage_of(now);
+    for (const std::string &remark : stepper.begin_stage(stage, now.time))
       log.print("stage " + stage.name + ": " + remark);
   }
 
-  Simulation::Ended
-  ExplicitSimulation::advance(Place &place)
+  Simulation::StepOutcome
+  ExplicitSimulation::advance(TimePoint &now)
   {
-    const double h = step_size(place);
-    report         = stepper.advance(stage_of(place), place.time, h);
-    place.time += h;
-    return Ended::well;
+    const double h = step_size(now);
+    report         = stepper.advance(stage_of(now), now.time, h);
+    now.time += h;
+    return StepOutcome::well;
   }
 
   void
-  ExplicitSimulation::record(const Place &place)
+  ExplicitSimulation::record(const TimePoint &now)
   {
     state           = stepper.state();
     state.reactions = std::move(report.reactions);
-    explicit_output.add_step({{place.step,
-                               place.time,
+    explicit_output.add_step({{now.step,
+                               now.time,
                                state,
                                observed_points.displacements(stepper.points())},
                               step_loop.last_cpu_time(),
@@ -109,17 +109,17 @@ namespace geocone::GEOCONE_DIM
   }
 
   std::string
-  ExplicitSimulation::progress(const Place &place) const
+  ExplicitSimulation::progress(const TimePoint &now) const
   {
     return format(
-             "t = %.4g s  %lu explicit steps  ", place.time, stepper.n_steps) +
+             "t = %.4g s  %lu explicit steps  ", now.time, stepper.n_steps) +
            explicit_output.text_of_motion(state);
   }
 
   void
-  ExplicitSimulation::end(const Place &place)
+  ExplicitSimulation::end(const TimePoint &now)
   {
-    stepper.check_equilibrium(stage_of(place), state, report);
+    stepper.check_equilibrium(stage_of(now), state, report);
   }
 
   void

@@ -307,18 +307,18 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
-  ImplicitSimulation::begin(const Place &place)
+  ImplicitSimulation::begin(const TimePoint &now)
   {
-    const Stage &stage = stage_of(place);
+    const Stage &stage = stage_of(now);
     if (stage.reset_displacement)
       {
         stepper->reset(kinematics, points);
-        raised = 0.;
+        scaled = 0.;
       }
     if (stage.changes_body())
       {
         const BodyChange change =
-          stepper->change_body(stage, place.time, timer, kinematics, points);
+          stepper->change_body(stage, now.time, timer, kinematics, points);
         run_output.change_body(change);
         for (const std::string &remark : change.remarks)
           log.print("stage " + stage.name + ": " + remark);
@@ -330,34 +330,34 @@ namespace geocone::GEOCONE_DIM
                        first_part * scene.materials.traits().friction_memory);
   }
 
-  Simulation::Ended
-  ImplicitSimulation::advance(Place &place)
+  Simulation::StepOutcome
+  ImplicitSimulation::advance(TimePoint &now)
   {
-    const Stage       &stage = stage_of(place);
-    const double       h     = step_size(place);
-    const unsigned int step  = place.step + 1;
+    const Stage       &stage = stage_of(now);
+    const double       h     = step_size(now);
+    const unsigned int step  = now.step + 1;
     if (!is_in_step)
       {
         is_in_step   = true;
         present      = {};
         present.step = step;
-        present.time = place.time + h;
+        present.time = now.time + h;
         // A substep that covered the full step grows with the steps.
-        if (place.in_stage > 0 && substep >= last_size * (1. - 1e-6))
+        if (now.in_stage > 0 && substep >= last_size * (1. - 1e-6))
           substep = h;
         substep   = std::min(substep, largest_substep(h));
         last_size = h;
       }
     try
       {
-        solve_step(step, place.time, h);
+        solve_step(step, now.time, h);
       }
     catch (const StepFailure &failure)
       {
         if (!stage.until_failure)
           {
             if (scene.loading.reduces_strength() &&
-                scene.loading.strength_factor(place.time) >= 1.)
+                scene.loading.strength_factor(now.time) >= 1.)
               log.warn("a body that does not carry its loads has a factor of "
                        "safety below 1: let the stages begin with a 'Strength "
                        "factor' below 1, e.g. 0.5, and rise from there");
@@ -367,7 +367,7 @@ namespace geocone::GEOCONE_DIM
         if (done > 0.)
           {
             present.time = reached;
-            Place end    = place;
+            TimePoint end = now;
             ++end.in_stage;
             ++end.step;
             end.time = reached;
@@ -376,12 +376,12 @@ namespace geocone::GEOCONE_DIM
         run_output.set_failure(
           {stage.name, reached, reached + 2. * substep, failure.what()});
         write_fields(reached);
-        return Ended::run;
+        return StepOutcome::run;
       }
     done       = 0.;
     is_in_step = false;
-    place.time += h;
-    return Ended::well;
+    now.time += h;
+    return StepOutcome::well;
   }
 
   void
@@ -426,8 +426,8 @@ namespace geocone::GEOCONE_DIM
           halved_for_excess = 0;
         done    = size == left ? h : done + size;
         reached = t + done;
-        raised +=
-          size * scene.loading.stage_at(reached - size / 2.).raising_velocity;
+        scaled +=
+          size * scene.loading.stage_at(reached - size / 2.).control_velocity;
         ++present.substeps;
         if (run_output.verbosity == 1 && done < h && present.substeps % 20 == 0)
           log.progress(format("step %u  t = %.4g s  %u substeps, %u iterations "
@@ -512,18 +512,18 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
-  ImplicitSimulation::record(const Place &place)
+  ImplicitSimulation::record(const TimePoint &now)
   {
     const Observation &observation = scene.observation;
-    present.resets = place.in_stage == 1 && stage_of(place).reset_displacement;
+    present.resets = now.in_stage == 1 && stage_of(now).reset_displacement;
     present.displacements =
       observed_points.displacements(points, kinematics.displacement);
     if (scene.materials.traits().undrained)
       present.pressures = observed_points.pressures(points);
-    present.raised = raised;
-    if (observation.of_raised_loads)
+    present.scaled = scaled;
+    if (observation.of_scaled_loads)
       {
-        present.displacement = raised;
+        present.displacement = scaled;
         present.load = std::abs(observation.factor) * present.last.load_factor;
       }
     else if (!observation.conditions.empty())
@@ -538,7 +538,7 @@ namespace geocone::GEOCONE_DIM
   }
 
   std::string
-  ImplicitSimulation::progress(const Place &place) const
+  ImplicitSimulation::progress(const TimePoint &now) const
   {
     const std::string result = !scene.observation.has_load()
                                  ? run_output.text_of_motion(present.last)
@@ -546,7 +546,7 @@ namespace geocone::GEOCONE_DIM
                                           1e3 * present.displacement,
                                           present.load,
                                           scene.geometry.unit("N/m").c_str());
-    return format("t = %.4g s  ", place.time) + result +
+    return format("t = %.4g s  ", now.time) + result +
            format("  %u iterations%s",
                   present.iterations,
                   present.last.newton.friction_lag > 0. ? " (friction lags)"
@@ -602,7 +602,7 @@ namespace geocone::GEOCONE_DIM
         is_in_step,
         present,
         reached,
-        raised,
+        scaled,
         kinematics.supports);
   }
 

@@ -30,9 +30,9 @@ namespace geocone::GEOCONE_DIM
   }
 
   const Stage &
-  SceneSimulation::stage_of(const Place &place) const
+  SceneSimulation::stage_of(const TimePoint &now) const
   {
-    return *scene.loading.list[place.stage];
+    return *scene.loading.list[now.stage];
   }
 
   void
@@ -43,17 +43,17 @@ namespace geocone::GEOCONE_DIM
   }
 
   double
-  SceneSimulation::step_size(const Place &place)
+  SceneSimulation::step_size(const TimePoint &now)
   {
-    if (place.in_stage == 0 || sizes.empty()) // new stage, or resumed
-      sizes = stage_of(place).step_sizes();
-    return sizes[place.in_stage];
+    if (now.in_stage == 0 || sizes.empty()) // new stage, or resumed
+      sizes = stage_of(now).step_sizes();
+    return sizes[now.in_stage];
   }
 
   bool
-  SceneSimulation::wants_fields(const Place &place) const
+  SceneSimulation::wants_fields(const TimePoint &now) const
   {
-    const unsigned int every = stage_of(place).output_every;
-    return every > 0 && place.in_stage % every == 0;
+    const unsigned int every = stage_of(now).output_every;
+    return every > 0 && now.in_stage % every == 0;
   }
 } // namespace geocone::GEOCONE_DIM

@@ -155,17 +155,18 @@ namespace geocone::GEOCONE_DIM
     return records;
   }
 
-  Simulation::Ended
-  SeepageSimulation::advance(Place &place)
+  Simulation::StepOutcome
+  SeepageSimulation::advance(TimePoint &now)
   {
     // A resumed run solves the earlier flows again: they take less time than steps of
     // other methods, and are not stored.
-    while (results.size() < place.in_stage)
+    while (results.size() < now.in_stage)
       solve_next();
     for (const FlowLevel &record : solve_next())
       seepage_output.add_record(record);
-    place.time = steps[place.in_stage].time;
-    return results.size() == steps.size() ? Ended::stage : Ended::well;
+    now.time = steps[now.in_stage].time;
+    return results.size() == steps.size() ? StepOutcome::stage
+                                          : StepOutcome::well;
   }
 
   void

@@ -60,7 +60,7 @@ namespace geocone::GEOCONE_DIM
         if (!options.resumes)
           record_start();
         follow_programme();
-        finish(place.time);
+        finish(now.time);
         write_summary("finished");
         output().print_result();
         output().report();
@@ -86,7 +86,7 @@ namespace geocone::GEOCONE_DIM
                   log.warn(std::string("no checkpoint: ") + failure.what());
                 }
             write_summary(status);
-            write_fields(place.time);
+            write_fields(now.time);
           });
         if (!together)
           end_all_ranks(error.what());
@@ -98,40 +98,40 @@ namespace geocone::GEOCONE_DIM
   void
   Simulation::follow_programme()
   {
-    for (; place.stage < n_in_stage.size(); ++place.stage)
+    for (; now.stage < n_in_stage.size(); ++now.stage)
       {
-        if (!place.is_in)
+        if (!now.is_in)
           {
-            begin(place);
-            place.is_in    = true;
-            place.in_stage = 0;
+            begin(now);
+            now.is_in    = true;
+            now.in_stage = 0;
           }
-        while (place.in_stage < n_in_stage[place.stage])
+        while (now.in_stage < n_in_stage[now.stage])
           {
             stop_if_asked(comm);
             step_loop.start();
-            const Ended ended = advance(place);
+            const StepOutcome ended = advance(now);
             step_loop.stop();
-            if (ended == Ended::run)
+            if (ended == StepOutcome::run)
               return;
-            ++place.in_stage;
-            ++place.step;
-            const bool is_last = ended == Ended::stage ||
-                                 place.in_stage == n_in_stage[place.stage];
+            ++now.in_stage;
+            ++now.step;
+            const bool is_last = ended == StepOutcome::stage ||
+                                 now.in_stage == n_in_stage[now.stage];
             output_time.start();
-            record(place);
+            record(now);
             print_progress();
             write_if_due(is_last);
             output_time.stop();
             if (is_last)
               {
-                end(place);
-                place.in_stage = n_in_stage[place.stage];
+                end(now);
+                now.in_stage = n_in_stage[now.stage];
               }
-            if (checkpoint.is_due(place.step))
+            if (checkpoint.is_due(now.step))
               save_checkpoint();
           }
-        place.is_in = false;
+        now.is_in = false;
       }
   }
 
@@ -140,12 +140,12 @@ namespace geocone::GEOCONE_DIM
   {
     if (output().verbosity < 1)
       return;
-    const std::string text = progress(place);
+    const std::string text = progress(now);
     if (!text.empty())
-      log.progress(format("step %u/%u  ", place.step, n_steps) + text +
+      log.progress(format("step %u/%u  ", now.step, n_steps) + text +
                    format("  %.0f s left",
-                          total.wall_time() / (place.step - first_step) *
-                            (n_steps - place.step)));
+                          total.wall_time() / (now.step - first_step) *
+                            (n_steps - now.step)));
   }
 
   void
@@ -159,9 +159,9 @@ namespace geocone::GEOCONE_DIM
   void
   Simulation::write_if_due(const bool is_last)
   {
-    if (is_last || wants_fields(place))
+    if (is_last || wants_fields(now))
       {
-        write_fields(place.time);
+        write_fields(now.time);
         write_summary("running");
       }
     else if (output().summary_is_old())
@@ -171,9 +171,9 @@ namespace geocone::GEOCONE_DIM
   void
   Simulation::save_checkpoint()
   {
-    checkpoint.write(output().folder(), place.step, [&](Archive &archive) {
+    checkpoint.write(output().folder(), now.step, [&](Archive &archive) {
       StateRow row;
-      row(place);
+      row(now);
       output().state_of_run(row);
       state(row);
       archive.write_row("run", row);
@@ -186,7 +186,7 @@ namespace geocone::GEOCONE_DIM
   {
     checkpoint.read(output().folder(), log, [&](const Archive &archive) {
       StateRow row = archive.read_row("run");
-      row(place);
+      row(now);
       // Tables are written by the first rank.
       std::string why_not;
       try
@@ -206,10 +206,10 @@ namespace geocone::GEOCONE_DIM
       return why_not;
     });
     log.open(output().folder() + "/log.txt", true);
-    first_step = place.step;
+    first_step = now.step;
     log.print(format("resumed at t = %.6g s, after step %u of %u",
-                     place.time,
-                     place.step,
+                     now.time,
+                     now.step,
                      n_steps));
   }
 } // namespace geocone::GEOCONE_DIM

@@ -7,23 +7,23 @@ namespace geocone
 {
   namespace
   {
-    using Held  = Imposition::Held;
+    using PrescribedParticle = Imposition::PrescribedParticle;
     using Share = Imposition::Share;
 
     Share
-    own_row(const Held &particle)
+    own_row(const PrescribedParticle &particle)
     {
       return {particle.id, 1.};
     }
 
     Share
-    mean_of_cell(const Held &particle)
+    mean_of_cell(const PrescribedParticle &particle)
     {
       return {particle.cell, particle.of_cell};
     }
 
     Share
-    mean_of_all(const Held &particle)
+    mean_of_all(const PrescribedParticle &particle)
     {
       return {0, particle.of_all};
     }

@@ -76,15 +76,15 @@ namespace geocone::GEOCONE_DIM
         "reports the time of failure (topic 'failure').");
       stage.add_parameter(
         "Raised loads",
-        stage.raised_loads,
+        stage.scaled_loads,
         "FEM and MPM: loads multiplied by a load factor: names in "
         "'Tractions/Names', or 'weight'. The factor is found in each step so "
         "that the body moves at the 'Raising velocity', also past the peak "
         "load. Other loads are not scaled.");
       stage.add_parameter(
         "Raising velocity",
-        stage.raising_velocity,
-        "Mean velocity along the raised loads [m/s], F.v/sum |F| with their "
+        stage.control_velocity,
+        "Mean velocity along the scaled loads [m/s], F.v/sum |F| with their "
         "nodal forces F; > 0 to load, < 0 to unload.");
     }
 
@@ -241,7 +241,7 @@ namespace geocone::GEOCONE_DIM
          {std::pair<std::string, std::string>(
             "Added materials",
             added_materials.empty() ? "" : added_materials.front()),
-          {"Raised loads", raises_loads() ? raised_loads.front() : ""},
+          {"Raised loads", scales_loads() ? scaled_loads.front() : ""},
           {"Water table", water_table.empty() ? "" : "a line"},
           {"Water levels",
            water_levels.empty() ? "" : water_levels.begin()->first},
@@ -341,12 +341,12 @@ namespace geocone::GEOCONE_DIM
                        strength_factor,
                        "0, or 0.01 to 1000",
                        "3 with 'Until failure' = true is usual");
-    if (raises_loads()
-          ? !(raising_velocity != 0. && std::isfinite(raising_velocity))
-          : raising_velocity != 0.)
+    if (scales_loads()
+          ? !(control_velocity != 0. && std::isfinite(control_velocity))
+          : control_velocity != 0.)
       throw InputError(section + "Raising velocity",
-                       raising_velocity,
-                       "a number other than zero where loads are raised, and 0 "
+                       control_velocity,
+                       "a number other than zero where loads are scaled, and 0 "
                        "elsewhere",
                        "give 'Raised loads' and the velocity, both or none");
     if (!(damping >= 0. && damping < 1.))
@@ -374,10 +374,10 @@ namespace geocone::GEOCONE_DIM
   }
 
   bool
-  Stage::raises(const std::string &load) const
+  Stage::scales(const std::string &load) const
   {
-    return std::find(raised_loads.begin(), raised_loads.end(), load) !=
-           raised_loads.end();
+    return std::find(scaled_loads.begin(), scaled_loads.end(), load) !=
+           scaled_loads.end();
   }
 
   double
@@ -503,10 +503,10 @@ namespace geocone::GEOCONE_DIM
   }
 
   bool
-  LoadingProgramme::raises_loads() const
+  LoadingProgramme::scales_loads() const
   {
     return std::any_of(list.begin(), list.end(), [](const auto &stage) {
-      return stage->raises_loads();
+      return stage->scales_loads();
     });
   }
 
@@ -556,7 +556,7 @@ namespace geocone::GEOCONE_DIM
     for (const auto &stage : list)
       {
         stage->prepare();
-        for (const std::string &load : stage->raised_loads)
+        for (const std::string &load : stage->scaled_loads)
           if (std::count(tractions.begin(), tractions.end(), load) +
                 (load == "weight") !=
               1)

@@ -110,7 +110,7 @@ namespace geocone::GEOCONE_DIM
   Observation::prepare(const std::vector<std::string> &supports,
                        const Materials                &materials,
                        const Gravity                  &gravity,
-                       const bool                      raises_loads)
+                       const bool                      scales_loads)
   {
     conditions.clear();
     for (const std::string &name : names)
@@ -124,7 +124,7 @@ namespace geocone::GEOCONE_DIM
                            "check the spelling");
         conditions.push_back(found - supports.begin());
       }
-    of_raised_loads = raises_loads && conditions.empty();
+    of_scaled_loads = scales_loads && conditions.empty();
     component = observed == Component::x ? 0 : observed == Component::y ? 1 : 2;
     if (!std::isfinite(factor) || factor == 0. || std::abs(factor) > 1e6)
       throw InputError("Observation/Factor",

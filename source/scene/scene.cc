@@ -162,7 +162,7 @@ namespace geocone::GEOCONE_DIM
     regions.prepare(geometry, is_made);
     prepare_weight();
     for (const auto &stage : loading.list)
-      if (stage->raises("weight") && !gravity.acts())
+      if (stage->scales("weight") && !gravity.acts())
         throw InputError("Loading/" + stage->name + "/Raised loads",
                          "weight",
                          "names of tractions where there is no gravity",
@@ -185,7 +185,7 @@ namespace geocone::GEOCONE_DIM
                        "other names than those of boundary conditions, "
                        "obstacles and contacts",
                        "all can be observed by name: rename one of them");
-    observation.prepare(supports(), materials, gravity, loading.raises_loads());
+    observation.prepare(supports(), materials, gravity, loading.scales_loads());
     if (observation.reference_name == "Prandtl")
       geometry.refuse_axis("'Observation/Reference' = Prandtl",
                            "it is the load of a strip; set it to none or to "

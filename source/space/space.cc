@@ -252,12 +252,12 @@ namespace geocone::GEOCONE_DIM
           for (unsigned int i = 0; i < nodes.size(); ++i)
             if (layout->in_local_range(dim * nodes[i]) ||
                 layout->is_ghost_entry(dim * nodes[i]))
-              positions[local_node(nodes[i])] = place_of_node(cell, i);
+              positions[local_node(nodes[i])] = index_of_node(cell, i);
         }
   }
 
   Point<dim>
-  Space::place_of_node(const Cell &cell, const unsigned int i) const
+  Space::index_of_node(const Cell &cell, const unsigned int i) const
   {
     Point<dim> x;
     if (is_spline())
@@ -295,7 +295,7 @@ namespace geocone::GEOCONE_DIM
             untied_nodes(cell, nodes);
             for (unsigned int i = 0; i < nodes.size(); ++i)
               if (is_on_face(i, f))
-                places[nodes[i]] = place_of_node(cell, i);
+                places[nodes[i]] = index_of_node(cell, i);
           }
     return {places.begin(), places.end()};
   }

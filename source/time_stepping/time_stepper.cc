@@ -17,7 +17,7 @@ namespace geocone::GEOCONE_DIM
   using namespace dealii;
 
   void
-  check_round_body(const Scene &scene)
+  check_axisymmetric_body(const Scene &scene)
   {
     if (!scene.geometry.is_axisymmetric())
       return;

@@ -312,7 +312,7 @@ namespace geocone::GEOCONE_DIM
                       static_cast<int>(function[d]) < stored[d].end;
         if (!is_stored)
           continue;
-        p.node = stored_place_of(function);
+        p.node = stored_index_of(function);
         p.mine = is_mine(function[0]);
         prescribed.push_back(p);
       }
@@ -337,7 +337,7 @@ namespace geocone::GEOCONE_DIM
   }
 
   std::size_t
-  CartesianTransfer::stored_place_of(
+  CartesianTransfer::stored_index_of(
     const std::array<unsigned int, dim> &function) const
   {
     std::size_t place = 0;
@@ -441,7 +441,7 @@ namespace geocone::GEOCONE_DIM
         std::array<unsigned int, dim> lowest;
         for (unsigned int d = 0; d < dim; ++d)
           lowest[d] = grid.axes[d].interval(points.x[d][k]);
-        numbers[k] = stored_place_of(lowest);
+        numbers[k] = stored_index_of(lowest);
       }
   }
 

@@ -77,7 +77,7 @@ namespace cone_pyramid_step_01
       {
         const double pressure = kind == 3 ? -2e4 : random(-2e4, 1e3);
         for (unsigned int d = 0; d < dim; ++d)
-          a.s[place_of_normal[d]][p] = pressure;
+          a.s[index_of_normal[d]][p] = pressure;
         if (random(0., 1.) > 0.5)
           a.s[0][p] += random(-1e3, 1e3);
         if (kind == 1 && random(0., 1.) > 0.5)
@@ -126,7 +126,7 @@ namespace cone_pyramid_step_01
               continue;
             Eigen::Matrix3d tensor = Eigen::Matrix3d::Zero();
             for (unsigned int d = 0; d < dim; ++d)
-              tensor(d, d) = a.s[place_of_normal[d]][p];
+              tensor(d, d) = a.s[index_of_normal[d]][p];
             for (int i = 0; i < n_shears; ++i)
               tensor(shears[i].second, shears[i].first) =
                 tensor(shears[i].first, shears[i].second) =

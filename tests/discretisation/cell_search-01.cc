@@ -33,8 +33,8 @@ namespace discretisation_cell_search_01
 
     const unsigned int n_cells = mesh.triangulation().n_active_cells();
     const unsigned int rank    = mpi::this_mpi_process(MPI_COMM_WORLD);
-    const auto         is_at   = [&](const CellSearch::Place &place,
-                           const Point<dim>        &x) {
+    const auto         is_at   = [&](const CellSearch::Location &place,
+                           const Point<dim>           &x) {
       return mesh.mapping()
                .transform_unit_to_real_cell(place.cell, place.unit)
                .distance(x) < 1e-12;

@@ -64,10 +64,10 @@ namespace subloading_initial_01
         const auto made = law(parameters);
         made->prepare();
         std::vector<double> history(made->n_history()),
-          shown(made->shown().size());
+          shown(made->output_quantities().size());
         const std::string changed =
           made->initialise(stress, 0., history.data());
-        made->show(
+        made->output(
           {{stress[0], stress[1], stress[3]}}, history.data(), shown.data());
         if (!changed.empty())
           std::cout << "  " << changed << std::endl;

@@ -73,7 +73,7 @@ namespace geocone::GEOCONE_DIM
 
   /** Indices of the normal components in Mandel vectors, and of the shear
    *  components with their two directions. */
-  constexpr int place_of_normal[3] = {0, 1, 3};
+  constexpr int index_of_normal[3] = {0, 1, 3};
   struct ShearPlace
   {
     int place, first, second;
@@ -82,7 +82,7 @@ namespace geocone::GEOCONE_DIM
   constexpr int        n_shears  = dim == 2 ? 1 : 3;
 
   /** Index of t_ij in the order of Mandel vectors. */
-  constexpr int place_of_component[3][3] = {{0, 2, 5}, {2, 1, 4}, {5, 4, 3}};
+  constexpr int index_of_component[3][3] = {{0, 2, 5}, {2, 1, 4}, {5, 4, 3}};
 
   /** Trace of a Mandel vector, plane or spatial. */
   template <int n>
@@ -169,7 +169,7 @@ namespace geocone::GEOCONE_DIM
   {
     Mandel t;
     for (unsigned int d = 0; d < dim; ++d)
-      t[place_of_normal[d]] = l[(dim + 1) * d];
+      t[index_of_normal[d]] = l[(dim + 1) * d];
     for (int i = 0; i < n_shears; ++i)
       {
         const auto [place, a, b] = shears[i];
@@ -184,7 +184,7 @@ namespace geocone::GEOCONE_DIM
   {
     Eigen::Matrix3d tensor;
     for (int d = 0; d < 3; ++d)
-      tensor(d, d) = t[place_of_normal[d]];
+      tensor(d, d) = t[index_of_normal[d]];
     for (const auto &[place, a, b] : shears)
       tensor(a, b) = tensor(b, a) = t[place] / sqrt2;
     return tensor;
@@ -195,7 +195,7 @@ namespace geocone::GEOCONE_DIM
   {
     Eigen::Matrix<double, 6, 1> t;
     for (int d = 0; d < 3; ++d)
-      t[place_of_normal[d]] = tensor(d, d);
+      t[index_of_normal[d]] = tensor(d, d);
     for (const auto &[place, a, b] : shears)
       t[place] = (tensor(a, b) + tensor(b, a)) / sqrt2;
     return t;

@@ -45,14 +45,14 @@ namespace geocone::GEOCONE_DIM
     /**
      * Evaluates the nodal forces F at time t (N/m).
      * @param stage null: all loads; otherwise, loads that the load factor of the
-     * stage scales, if @p raised, or all other loads
+     * stage scales, if @p scaled, or all other loads
      */
     void
     evaluate(Vector       &force,
              const Vector &weight_per_g,
              const double  t,
              const Stage  *stage  = nullptr,
-             const bool    raised = false) const;
+             const bool    scaled = false) const;
 
     bool
     exist() const

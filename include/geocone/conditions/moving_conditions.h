@@ -49,14 +49,14 @@ namespace geocone::GEOCONE_DIM
 
     /**
      * Adds the nodal forces of the tractions at time t to @p force. Collective.
-     * @param stage,raised as in Loads::evaluate()
+     * @param stage,scaled as in Loads::evaluate()
      * @throws StepFailure if a boundary segment has left the mesh
      */
     void
     add_tractions(Vector      &force,
                   const double t,
                   const Stage *stage  = nullptr,
-                  const bool   raised = false) const;
+                  const bool   scaled = false) const;
 
     /** Transfer of velocities from nodes to particles in a step. The step is solved
      *  for v = v^L + part (v_end - v^L); the particle velocity at the end of the
@@ -113,8 +113,8 @@ namespace geocone::GEOCONE_DIM
      * @param before,after position of the point before and after the step
      */
     std::optional<dealii::Point<dim>>
-    put_back(const dealii::Point<dim> &before,
-             const dealii::Point<dim> &after) const;
+    return_to_boundary(const dealii::Point<dim> &before,
+                       const dealii::Point<dim> &after) const;
 
     /** Number of points, over all ranks, that have penetrated a boundary segment
      *  with prescribed normal velocity by more than a tenth of the point size.

@@ -187,7 +187,7 @@ namespace geocone::GEOCONE_DIM
            const Space              &space) const;
 
     /** Largest relative contribution of low-mass basis functions to a row. */
-    struct LightShare
+    struct LowMassShare
     {
       double             largest   = 0.; ///< maximum over all rows (-)
       unsigned int       condition = 0;  ///< condition of the row
@@ -201,7 +201,7 @@ namespace geocone::GEOCONE_DIM
      * 1e-3 of the largest mass in the row are low-mass. The ratio is 0.02 in sound
      * steps, and above 1 if spurious velocities satisfy the row. Collective.
      */
-    LightShare
+    LowMassShare
     light_share(const Vector &v, const Vector &mass, const Space &space) const;
 
     /** Mean prescribed velocity of a condition, for a component (m/s); 0 if none is

@@ -44,7 +44,7 @@ namespace geocone::GEOCONE_DIM
                 const Space          &space);
 
     /** Current position of a local node. */
-    using Place = std::function<dealii::Point<dim>(unsigned int)>;
+    using Positions = std::function<dealii::Point<dim>(unsigned int)>;
 
     /**
      * Finds the potential contact nodes, the same on all ranks. Each node appears
@@ -55,12 +55,12 @@ namespace geocone::GEOCONE_DIM
      * belongs to the other body of a later contact
      */
     std::vector<FacingNode>
-    find(const Place &place, const double reach) const;
+    find(const Positions &place, const double reach) const;
 
     /** Checks that bodies do not overlap in the initial state.
      *  @throws InputError if bodies overlap */
     void
-    check_start(const Place &place) const;
+    check_start(const Positions &place) const;
 
   private:
     /** A boundary face of a cell: an edge in two dimensions. */
@@ -91,7 +91,7 @@ namespace geocone::GEOCONE_DIM
       FacePlane   plane;
     };
     static std::vector<PlacedFace>
-    placed(const std::vector<Face> &faces, const Place &place);
+    placed(const std::vector<Face> &faces, const Positions &place);
 
     /** Evaluates the shape functions N of a face's nodes at a point s in unit
      *  coordinates of the face. */

@@ -120,9 +120,9 @@ namespace geocone::GEOCONE_DIM
     std::vector<Pair> pairs;
 
     /** Local nodes of the layers by position; and position and layer by local
-     *  node (place_of, layer_of). */
+     *  node (index_of, layer_of). */
     std::vector<std::vector<unsigned int>> nodes;
-    std::vector<unsigned int>              place_of, layer_of;
+    std::vector<unsigned int>              index_of, layer_of;
   };
 } // namespace geocone::GEOCONE_DIM
 

@@ -40,15 +40,15 @@ namespace geocone::GEOCONE_DIM
     void
     record_start() override;
     void
-    begin(const Place &place) override;
-    Ended
-    advance(Place &place) override;
+    begin(const TimePoint &now) override;
+    StepOutcome
+    advance(TimePoint &now) override;
     void
-    record(const Place &place) override;
+    record(const TimePoint &now) override;
     std::string
-    progress(const Place &place) const override;
+    progress(const TimePoint &now) const override;
     void
-    end(const Place &place) override;
+    end(const TimePoint &now) override;
     Json
     topics() override;
     void

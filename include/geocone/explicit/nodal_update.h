@@ -191,12 +191,12 @@ namespace geocone::GEOCONE_DIM
     Exchange                 &sum;
 
     /** Velocity component of a node that is prescribed in the current step. */
-    struct Held
+    struct HeldNode
     {
       unsigned int node, component;
       double       velocity, change;
     };
-    std::vector<Held>          held;
+    std::vector<HeldNode>      held;
     std::vector<unsigned char> is_held;         ///< per nodal component
     std::vector<Reaction>      support_impulse; ///< per boundary condition
     double                     unbalanced = 0.;

@@ -66,7 +66,7 @@ namespace geocone::GEOCONE_DIM
                    const MaterialPoints &points,
                    const double          t,
                    const Stage          *stage,
-                   const bool            raised) override;
+                   const bool            scaled) override;
 
     void
     begin_motion(const TimeStep       &step,

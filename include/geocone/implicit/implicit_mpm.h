@@ -185,7 +185,7 @@ namespace geocone::GEOCONE_DIM
     /** Reason for rejection of a solved step because of low-mass functions, or
      *  empty. */
     std::string
-    rejection(const Multipliers::LightShare &share) const;
+    rejection(const Multipliers::LowMassShare &share) const;
 
     bool
     has_force() const override
@@ -198,7 +198,7 @@ namespace geocone::GEOCONE_DIM
                    const MaterialPoints &points,
                    const double          t,
                    const Stage          *stage,
-                   const bool            raised) override;
+                   const bool            scaled) override;
 
     /** Adds the hydrostatic forces of water on the soil to dst. Collective. */
     void
@@ -286,7 +286,7 @@ namespace geocone::GEOCONE_DIM
      *  empty. @param ratio volume ratio of the step @param extent size of the
      *  cell (m) */
     std::string
-    objection_to_move(const MaterialPoints          &points,
+    rejection_of_move(const MaterialPoints          &points,
                       const unsigned int             p,
                       const double                   ratio,
                       const dealii::Tensor<1, dim>  &move,
@@ -324,7 +324,7 @@ namespace geocone::GEOCONE_DIM
                          const MaterialPoints &points) const;
 
     /** Returns points that have penetrated prescribed boundary segments to the
-     *  segments, MovingConditions::put_back(). */
+     *  segments, MovingConditions::return_to_boundary(). */
     void
     put_points_back(const MaterialPoints &points);
 
@@ -386,9 +386,9 @@ namespace geocone::GEOCONE_DIM
     struct Trial
     {
       std::vector<Moved>      moved;
-      Multipliers::LightShare share;
-      unsigned int            n_put_back = 0;  ///< returned points, all ranks
-      double                  put_back   = 0.; ///< largest distance (m)
+      Multipliers::LowMassShare share;
+      unsigned int              n_returned  = 0; ///< returned points, all ranks
+      double                    returned_by = 0.; ///< largest distance (m)
     };
     Trial trial;
   };

@@ -6,8 +6,8 @@
 
 #include <geocone/conditions/constraints.h>
 #include <geocone/contact/obstacle_contact.h>
-#include <geocone/implicit/fading_forces.h>
-#include <geocone/implicit/raised_loads.h>
+#include <geocone/implicit/ramped_forces.h>
+#include <geocone/implicit/scaled_loads.h>
 #include <geocone/implicit/time_integration.h>
 #include <geocone/problem/absorbing_boundary.h>
 #include <geocone/time_stepping/time_stepper.h>
@@ -106,13 +106,13 @@ namespace geocone::GEOCONE_DIM
 
     /** Evaluates the external nodal forces at time t along x and y, without
      *  ramped forces.
-     *  @param dst overwritten @param stage,raised as in Loads::evaluate() */
+     *  @param dst overwritten @param stage,scaled as in Loads::evaluate() */
     virtual void
     evaluate_force(Vector               &dst,
                    const MaterialPoints &points,
                    const double          t,
                    const Stage          *stage  = nullptr,
-                   const bool            raised = false) = 0;
+                   const bool            scaled = false) = 0;
 
     /** Sets the initial velocity vL and the constraints H v = q of the step.
      *  @param prescribed velocities */
@@ -247,7 +247,7 @@ namespace geocone::GEOCONE_DIM
     unsigned int                        unknowns = 0;     ///< of the last step
     bool                                begun    = false; ///< for the next step
     bool                                has_pattern = false; ///< set by begin()
-    FadingForces                        fading;              ///< in x and y
+    RampedForces                        ramped;              ///< in x and y
     Vector                              lumped_mass;
     Vector                              velocity_L; ///< vL, in rotated dofs
     Vector                              force;      ///< in rotated dofs
@@ -261,7 +261,7 @@ namespace geocone::GEOCONE_DIM
     /** Sets up the loads, prescribed velocities and potential contacts of a
      *  step in the incremental problem.
      *  @return loads controlled by a load factor. Collective. */
-    RaisedLoads
+    ScaledLoads
     begin_step(const TimeStep       &step,
                const Kinematics     &kinematics,
                const MaterialPoints &points,

@@ -85,7 +85,7 @@ namespace geocone::GEOCONE_DIM
           SpatialSpin<P>(l).turn(s);
           for (int i = 0; i < 3; ++i)
             {
-              const int place = place_of_normal[i];
+              const int place = index_of_normal[i];
               d[place]        = s[place] - m;
               strain[place]   = l[4 * i] - third * trace;
             }
@@ -131,15 +131,15 @@ namespace geocone::GEOCONE_DIM
 
   /** Implements advance_cone() for one instruction set, with or without
    *  friction with memory. */
-  template <typename Arch, bool remembers>
+  template <typename Arch, bool has_memory>
   void
   advance_cone_block(const ConeNumbers &cone, const PointBlock &block)
   {
     using P = Pack<Arch>;
     // With memory: aperture and radius of the delayed cone.
-    const double     lagging  = remembers ? cone.part * (cone.a - cone.b) : 0.;
+    const double     lagging  = has_memory ? cone.part * (cone.a - cone.b) : 0.;
     const double     aperture = cone.a - lagging;
-    double *const    memory   = remembers ? block.history[cone.place] : nullptr;
+    double *const    memory = has_memory ? block.history[cone.place] : nullptr;
     const P          one(1.), half(0.5), zero(0.), tiny(1e-300);
     const P          a(aperture), b(cone.b), k(cone.radius), apex(cone.apex);
     constexpr double root = dim == 2 ? sqrt2 : 1.73205080756887729353;
@@ -161,14 +161,14 @@ namespace geocone::GEOCONE_DIM
             turned.d[i] + P(Turned::part[i] * cone.two_G) * turned.strain[i];
         const P tau    = Turned::norm(trial);
         P       radius = k;
-        if constexpr (remembers)
+        if constexpr (has_memory)
           radius = k + part_of_p * max(P::load(memory + p), least);
         P       f = tau - (radius - a * mt);
         const P g = max(f, zero) * per_H;
         // Smooth part; the apex follows below.
         const P tau_1 = tau - G2 * g;
         P       m1, tau_2;
-        if constexpr (remembers)
+        if constexpr (has_memory)
           {
             // The cut-off is at the apex of the exact cone.
             const P m = mt - K * b * g;

@@ -42,7 +42,7 @@ namespace geocone::GEOCONE_DIM
       else
         for (int i = 0; i < 3; ++i)
           for (int j = i; j < 3; ++j)
-            s[place_of_component[i][j]] = y[0] * axis[0][i] * axis[0][j] +
+            s[index_of_component[i][j]] = y[0] * axis[0][i] * axis[0][j] +
                                           y[1] * axis[1][i] * axis[1][j] +
                                           y[2] * axis[2][i] * axis[2][j];
       return s;
@@ -92,8 +92,8 @@ namespace geocone::GEOCONE_DIM
       for (int i = 0; i < 3; ++i)
         {
           const int j = (i + 1) % 3, k = (i + 2) % 3;
-          value[i] = s[place_of_normal[i]];
-          off[i]   = s[place_of_component[j][k]];
+          value[i] = s[index_of_normal[i]];
+          off[i]   = s[index_of_component[j][k]];
           size += value[i] * value[i] + off[i] * off[i];
           for (int d = 0; d < 3; ++d)
             axis[i][d] = P(d == i ? 1. : 0.);
@@ -182,7 +182,7 @@ namespace geocone::GEOCONE_DIM
       for (int i = 0; i < n_mandel; ++i)
         s[i] = moved[i];
       for (unsigned int d = 0; d < dim; ++d)
-        strain[place_of_normal[d]] = l[(dim + 1) * d];
+        strain[index_of_normal[d]] = l[(dim + 1) * d];
       for (int i = 0; i < n_shears; ++i)
         {
           const auto [place, a, b] = shears[i];

@@ -84,7 +84,7 @@ namespace geocone::GEOCONE_DIM
     void
     turn(std::array<T, 6> &s) const
     {
-      constexpr auto &place = place_of_component;
+      constexpr auto &place = index_of_component;
       T               Qs[3][3];
       for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j)

@@ -151,14 +151,14 @@ namespace geocone::GEOCONE_DIM
     Json
     model() override;
     void
-    begin(const Place &) override
+    begin(const TimePoint &) override
     {}
-    Ended
-    advance(Place &place) override;
+    StepOutcome
+    advance(TimePoint &now) override;
     void
-    record(const Place &place) override;
+    record(const TimePoint &now) override;
     std::string
-    progress(const Place &place) const override;
+    progress(const TimePoint &now) const override;
     void
     write_fields(const double t) override;
     Json

@@ -159,7 +159,8 @@ namespace geocone::GEOCONE_DIM
      *  initialise(). @throws InputError at a position where the law is not
      *  valid */
     virtual void
-    take_place(const dealii::Point<dim> & /*place*/, double * /*history*/) const
+    initialise_at(const dealii::Point<dim> & /*place*/,
+                  double * /*history*/) const
     {}
 
     /** Name of a parameter that is a formula in the initial position; empty:
@@ -190,13 +191,13 @@ namespace geocone::GEOCONE_DIM
     wave_modulus(const Stress &stress, const double *history) const = 0;
 
     /** An output quantity of a law besides the stress components. */
-    struct Shown
+    struct OutputQuantity
     {
       std::string name;  ///< field name, e.g. "stress_zz"
       std::string title; ///< column title with unit, e.g. "stress zz (Pa)"
     };
-    virtual std::vector<Shown>
-    shown() const = 0;
+    virtual std::vector<OutputQuantity>
+    output_quantities() const = 0;
 
     /** Sections of the yield surfaces at a given state, outermost first; empty
      *  for laws that do not provide them. */
@@ -208,11 +209,11 @@ namespace geocone::GEOCONE_DIM
       return {};
     }
 
-    /** Computes the output quantities in the order of shown(). */
+    /** Computes the output quantities in the order of output_quantities(). */
     virtual void
-    show(const Components &stress,
-         const double     *history,
-         double           *values) const = 0;
+    output(const Components &stress,
+           const double     *history,
+           double           *values) const = 0;
     /** @} */
 
   protected:
@@ -246,7 +247,7 @@ namespace geocone::GEOCONE_DIM
   public:
     ShownValue(const ConstitutiveLaw &law, const std::string &name);
 
-    /** Value of the output quantity, see ConstitutiveLaw::show(). */
+    /** Value of the output quantity, see ConstitutiveLaw::output(). */
     double
     operator()(const ConstitutiveLaw::Components &stress,
                const double                      *history);

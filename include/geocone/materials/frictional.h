@@ -35,7 +35,7 @@ namespace geocone::GEOCONE_DIM
 
   public:
     using typename Remembering::Components;
-    using typename Remembering::Shown;
+    using typename Remembering::OutputQuantity;
     using typename Remembering::Stress;
 
     void
@@ -83,9 +83,10 @@ namespace geocone::GEOCONE_DIM
     }
 
     void
-    take_place(const dealii::Point<dim> &place, double *history) const override
+    initialise_at(const dealii::Point<dim> &place,
+                  double                   *history) const override
     {
-      Remembering::take_place(place, history);
+      Remembering::initialise_at(place, history);
       if (given.gradient == 0. && !profile)
         return;
       const double more =
@@ -99,7 +100,7 @@ namespace geocone::GEOCONE_DIM
           profile ? "limit it from below, e.g. max(1000, ...)"
                   : "give 'Cohesion' at the top of the soil, and its y as "
                     "'Cohesion level'");
-      history[place_of_growth()] = more;
+      history[index_of_growth()] = more;
     }
 
     std::string
@@ -109,28 +110,28 @@ namespace geocone::GEOCONE_DIM
     {
       const std::string remark = Remembering::initialise(stress, size, history);
       if (ratio > 0.)
-        history[place_of_growth()] = std::max(-ratio * stress[1] - given.c, 0.);
+        history[index_of_growth()] = std::max(-ratio * stress[1] - given.c, 0.);
       return remark;
     }
 
-    std::vector<Shown>
-    shown() const override
+    std::vector<OutputQuantity>
+    output_quantities() const override
     {
-      std::vector<Shown> all = Remembering::shown();
+      std::vector<OutputQuantity> all = Remembering::output_quantities();
       if (cohesion_grows())
         all.push_back({"cohesion", "cohesion (Pa)"});
       return all;
     }
 
     void
-    show(const Components &stress,
-         const double     *history,
-         double           *values) const override
+    output(const Components &stress,
+           const double     *history,
+           double           *values) const override
     {
-      Remembering::show(stress, history, values);
+      Remembering::output(stress, history, values);
       if (cohesion_grows())
-        values[Remembering::shown().size()] =
-          given.c + history[place_of_growth()];
+        values[Remembering::output_quantities().size()] =
+          given.c + history[index_of_growth()];
     }
 
   protected:
@@ -166,14 +167,14 @@ namespace geocone::GEOCONE_DIM
     double
     grown_cohesion(const double *history) const
     {
-      return cohesion_grows() && history != nullptr ? history[place_of_growth()]
+      return cohesion_grows() && history != nullptr ? history[index_of_growth()]
                                                     : 0.;
     }
 
     /** Index of the cohesion increase among the history variables. @pre the
      *  cohesion varies in space */
     unsigned int
-    place_of_growth() const
+    index_of_growth() const
     {
       return Remembering::n_history();
     }

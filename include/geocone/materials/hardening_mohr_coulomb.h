@@ -54,13 +54,13 @@ namespace geocone::GEOCONE_DIM
       return length > 0. ? length * history[plastic_shear() + 1] : 0.;
     }
 
-    std::vector<Shown>
-    shown() const override;
+    std::vector<OutputQuantity>
+    output_quantities() const override;
 
     void
-    show(const Components &stress,
-         const double     *history,
-         double           *values) const override;
+    output(const Components &stress,
+           const double     *history,
+           double           *values) const override;
 
     bool
     hardens() const override

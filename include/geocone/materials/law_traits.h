@@ -29,7 +29,7 @@ namespace geocone
 
     /** Whether any law has friction with memory. */
     bool
-    remembers() const
+    has_friction_memory() const
     {
       return std::isfinite(friction_memory);
     }

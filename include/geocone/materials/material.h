@@ -128,8 +128,8 @@ namespace geocone::GEOCONE_DIM
     double
     stress_zz(const Components &stress, const double *history) const override;
 
-    std::vector<Shown>
-    shown() const override
+    std::vector<OutputQuantity>
+    output_quantities() const override
     {
       if (dim == 3)
         return {};
@@ -137,9 +137,9 @@ namespace geocone::GEOCONE_DIM
     }
 
     void
-    show(const Components &stress,
-         const double     *history,
-         double           *values) const override
+    output(const Components &stress,
+           const double     *history,
+           double           *values) const override
     {
       if (dim == 2)
         values[0] = stress_zz(stress, history);

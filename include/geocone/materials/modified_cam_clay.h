@@ -75,13 +75,13 @@ namespace geocone::GEOCONE_DIM
                const double  size,
                double       *history) const override;
 
-    std::vector<Shown>
-    shown() const override;
+    std::vector<OutputQuantity>
+    output_quantities() const override;
 
     void
-    show(const Components &stress,
-         const double     *history,
-         double           *values) const override;
+    output(const Components &stress,
+           const double     *history,
+           double           *values) const override;
 
     std::optional<double>
     overstress(const Mandel &stress, const double *history) const override;
@@ -123,7 +123,7 @@ namespace geocone::GEOCONE_DIM
     double
     preconsolidation(const double *history) const
     {
-      return history[place_of_pc()];
+      return history[index_of_pc()];
     }
     /** @} */
 
@@ -180,7 +180,7 @@ namespace geocone::GEOCONE_DIM
     size_through(const SpatialMandel &stress) const;
 
     unsigned int
-    place_of_pc() const
+    index_of_pc() const
     {
       return SpatialLaw::n_history();
     }

@@ -69,13 +69,13 @@ namespace geocone::GEOCONE_DIM
       return history[0];
     }
 
-    std::vector<Shown>
-    shown() const override;
+    std::vector<OutputQuantity>
+    output_quantities() const override;
 
     void
-    show(const Components &stress,
-         const double     *history,
-         double           *values) const override;
+    output(const Components &stress,
+           const double     *history,
+           double           *values) const override;
 
     std::vector<YieldCurve>
     yield_curves(const Components   &stress,
@@ -140,7 +140,7 @@ namespace geocone::GEOCONE_DIM
     double              zeta       = 0.;
     std::vector<double> given_beta = {0., 0., 0., 0.};
     std::vector<double> given_centre; ///< tension positive; empty: chi sigma
-    bool                show_tensors = false;
+    bool                output_tensors = false;
     double              initial_Rb   = 1.;
 
     Choice<Outside> if_outside = {

@@ -53,7 +53,7 @@ namespace geocone::GEOCONE_DIM
     unsigned int
     n_history() const override
     {
-      return place_of_size() + 1;
+      return index_of_size() + 1;
     }
 
     std::string
@@ -64,16 +64,16 @@ namespace geocone::GEOCONE_DIM
     double
     size(const double *history) const override
     {
-      return history[place_of_size()];
+      return history[index_of_size()];
     }
 
-    std::vector<Shown>
-    shown() const override;
+    std::vector<OutputQuantity>
+    output_quantities() const override;
 
     void
-    show(const Components &stress,
-         const double     *history,
-         double           *values) const override;
+    output(const Components &stress,
+           const double     *history,
+           double           *values) const override;
 
     SpatialMandel
     elastic_strain(const SpatialMandel &from,
@@ -106,29 +106,29 @@ namespace geocone::GEOCONE_DIM
 
   private:
     static unsigned int
-    place_of_state()
+    index_of_state()
     {
       return dim == 2 ? 1 : 0;
     }
     unsigned int
-    place_of_strain() const
+    index_of_strain() const
     {
-      return place_of_state() + n_state;
+      return index_of_state() + n_state;
     }
     unsigned int
-    place_of_spin() const
+    index_of_spin() const
     {
-      return place_of_strain() + n_spatial;
+      return index_of_strain() + n_spatial;
     }
     unsigned int
-    place_of_time() const
+    index_of_time() const
     {
-      return place_of_spin() + n_rotations;
+      return index_of_spin() + n_rotations;
     }
     unsigned int
-    place_of_size() const
+    index_of_size() const
     {
-      return place_of_time() + 1;
+      return index_of_time() + 1;
     }
 
     std::string         folder_of_parameters;

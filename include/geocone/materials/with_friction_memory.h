@@ -23,7 +23,7 @@ namespace geocone::GEOCONE_DIM
   {
   public:
     using Stress     = typename Base::Stress;
-    using Shown      = typename Base::Shown;
+    using OutputQuantity = typename Base::OutputQuantity;
     using Components = typename Base::Components;
 
     unsigned int
@@ -39,27 +39,27 @@ namespace geocone::GEOCONE_DIM
     {
       const std::string remark = Base::initialise(stress, size, history);
       if (memory.time() > 0.)
-        history[place_of_memory()] = remembered_stress(stress);
+        history[index_of_memory()] = remembered_stress(stress);
       return remark;
     }
 
-    std::vector<Shown>
-    shown() const override
+    std::vector<OutputQuantity>
+    output_quantities() const override
     {
-      std::vector<Shown> all = Base::shown();
+      std::vector<OutputQuantity> all = Base::output_quantities();
       if (memory.time() > 0.)
         all.push_back({"remembered_normal_stress", "remembered s_n (Pa)"});
       return all;
     }
 
     void
-    show(const Components &stress,
-         const double     *history,
-         double           *values) const override
+    output(const Components &stress,
+           const double     *history,
+           double           *values) const override
     {
-      Base::show(stress, history, values);
+      Base::output(stress, history, values);
       if (memory.time() > 0.)
-        values[Base::shown().size()] = history[place_of_memory()];
+        values[Base::output_quantities().size()] = history[index_of_memory()];
     }
 
     double
@@ -78,14 +78,14 @@ namespace geocone::GEOCONE_DIM
     /** Index of p among the history variables. @pre the relaxation time is
      *  positive */
     unsigned int
-    place_of_memory() const
+    index_of_memory() const
     {
       return Base::n_history();
     }
 
     /** Delayed part of the normal stress in a step: its weight (-), and the
-     *  past normal stress (Pa). */
-    struct Past
+     *  friction_history normal stress (Pa). */
+    struct FrictionHistory
     {
       double part, stress;
     };
@@ -93,16 +93,16 @@ namespace geocone::GEOCONE_DIM
     /** Delayed part of the normal stress in a step; lagged friction of a solver
      *  increases its weight, also without friction memory.
      *  @param s_n normal stress at the beginning of the step (Pa) */
-    Past
-    past_of(const StepLaw &step,
-            const double  *history_n,
-            const double   s_n) const
+    FrictionHistory
+    friction_history_of(const StepLaw &step,
+                        const double  *history_n,
+                        const double   s_n) const
     {
       if (memory.time() == 0.)
         return {step.friction_lag, s_n};
       const double part = memory.remembered(step.size);
       return {part + (1. - part) * step.friction_lag,
-              history_n[place_of_memory()]};
+              history_n[index_of_memory()]};
     }
 
     FrictionMemory memory;

@@ -27,7 +27,7 @@ namespace geocone::GEOCONE_DIM
   {
   public:
     using Stress     = typename Base::Stress;
-    using Shown      = typename Base::Shown;
+    using OutputQuantity = typename Base::OutputQuantity;
     using Components = typename Base::Components;
 
     explicit WithStiffnessFormula(const std::string &section)
@@ -69,9 +69,10 @@ namespace geocone::GEOCONE_DIM
     }
 
     void
-    take_place(const dealii::Point<dim> &place, double *history) const override
+    initialise_at(const dealii::Point<dim> &place,
+                  double                   *history) const override
     {
-      Base::take_place(place, history);
+      Base::initialise_at(place, history);
       if (!formula)
         return;
       const double E = formula->value(place, 0.);
@@ -80,7 +81,7 @@ namespace geocone::GEOCONE_DIM
                          text,
                          format("E > 0 Pa everywhere; here it is %g Pa", E),
                          "limit it from below, e.g. max(1e6, ...)");
-      history[place_of_modulus()] = E;
+      history[index_of_modulus()] = E;
     }
 
     Elasticity
@@ -110,23 +111,23 @@ namespace geocone::GEOCONE_DIM
       return own.lambda + own.two_G;
     }
 
-    std::vector<Shown>
-    shown() const override
+    std::vector<OutputQuantity>
+    output_quantities() const override
     {
-      std::vector<Shown> all = Base::shown();
+      std::vector<OutputQuantity> all = Base::output_quantities();
       if (formula)
         all.push_back({"young_modulus", "Young's modulus (Pa)"});
       return all;
     }
 
     void
-    show(const Components &stress,
-         const double     *history,
-         double           *values) const override
+    output(const Components &stress,
+           const double     *history,
+           double           *values) const override
     {
-      Base::show(stress, history, values);
+      Base::output(stress, history, values);
       if (formula)
-        values[Base::shown().size()] = history[place_of_modulus()];
+        values[Base::output_quantities().size()] = history[index_of_modulus()];
     }
 
   protected:
@@ -137,13 +138,13 @@ namespace geocone::GEOCONE_DIM
     Elasticity
     own_elasticity(const double *history) const
     {
-      return {history[place_of_modulus()], this->poisson()};
+      return {history[index_of_modulus()], this->poisson()};
     }
 
   private:
     /** Index of E in the history, if there is a formula. */
     unsigned int
-    place_of_modulus() const
+    index_of_modulus() const
     {
       return Base::n_history();
     }

@@ -24,7 +24,7 @@ namespace geocone::GEOCONE_DIM
     using Cell = BackgroundMesh::Cell;
 
     /** A cell, and the unit coordinates of the point in it. */
-    struct Place
+    struct Location
     {
       Cell               cell;
       dealii::Point<dim> unit;
@@ -39,7 +39,7 @@ namespace geocone::GEOCONE_DIM
      * rank searches.
      * @return no value outside of the mesh, or if x is NaN
      */
-    std::optional<Place>
+    std::optional<Location>
     find(const dealii::Point<dim> &x,
          const Cell               &hint  = Cell(),
          const unsigned int        layer = 0) const;

@@ -96,11 +96,11 @@ namespace geocone::GEOCONE_DIM
     serialize(Archive &archive, const unsigned int)
     {
       archive &nodes &cells &faces &group_lists &face_groups &face_names
-        &cell_names &place_of_list;
+        &cell_names &index_of_list;
     }
 
   private:
-    std::map<std::vector<int>, unsigned int> place_of_list = {{{}, 0}};
+    std::map<std::vector<int>, unsigned int> index_of_list = {{{}, 0}};
   };
 
   /** Remedy for a damaged file. */

@@ -30,7 +30,7 @@ namespace geocone::GEOCONE_DIM
     bool         resets       = false; ///< displacement is reset here
     double       displacement = 0.;    ///< of the load (m)
     double       load         = 0.;    ///< (N/m)
-    double       raised       = 0.;    ///< path under load control (m)
+    double       scaled       = 0.;    ///< path under load control (m)
     std::vector<double>
       pressures; ///< excess, of observed points in undrained soil
 
@@ -45,7 +45,7 @@ namespace geocone::GEOCONE_DIM
           resets,
           displacement,
           load,
-          raised,
+          scaled,
           pressures);
     }
   };

@@ -30,7 +30,7 @@ namespace geocone::GEOCONE_DIM
     {
       try
         {
-          law.take_place(place, history);
+          law.initialise_at(place, history);
           const std::string remark = law.initialise(stress, size, history);
           if (!remark.empty() && n_changed++ == 0)
             change = remark;

@@ -90,7 +90,7 @@ namespace geocone::GEOCONE_DIM
     const unsigned int of_material;
 
     /** Whether these points are being removed (see Stage). */
-    bool fading = false;
+    bool ramped = false;
 
   private:
     unsigned int n = 0;

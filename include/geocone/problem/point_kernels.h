@@ -84,7 +84,7 @@ namespace geocone::kernels
       }
     Mandel e;
     for (unsigned int d = 0; d < dim; ++d)
-      e[place_of_normal[d]] = normal[d];
+      e[index_of_normal[d]] = normal[d];
     for (int k = 0; k < n_shears; ++k)
       e[shears[k].place] = shear[k] / sqrt2;
     return e;
@@ -98,7 +98,7 @@ namespace geocone::kernels
     // Stress tensor; its product with the gradient is the force.
     double t[dim][dim];
     for (unsigned int d = 0; d < dim; ++d)
-      t[d][d] = s[place_of_normal[d]];
+      t[d][d] = s[index_of_normal[d]];
     for (int k = 0; k < n_shears; ++k)
       t[shears[k].first][shears[k].second] =
         t[shears[k].second][shears[k].first] = s[shears[k].place] / sqrt2;
@@ -114,7 +114,7 @@ namespace geocone::kernels
     constexpr PlacesOfTensor()
     {
       for (unsigned int d = 0; d < dim; ++d)
-        of[d][d] = place_of_normal[d];
+        of[d][d] = index_of_normal[d];
       for (int k = 0; k < n_shears; ++k)
         of[shears[k].first][shears[k].second] =
           of[shears[k].second][shears[k].first] = shears[k].place;
@@ -183,8 +183,8 @@ namespace geocone::kernels
             t[k] = C[q](r, k) / sqrt2;
           for (unsigned int d = 0; d < dim; ++d)
             {
-              t[place_of_normal[d]] = C[q](r, place_of_normal[d]);
-              if (r == place_of_normal[d])
+              t[index_of_normal[d]] = C[q](r, index_of_normal[d]);
+              if (r == index_of_normal[d])
                 part = 1.;
             }
           const auto at = [&](const int k) __attribute__((always_inline))

@@ -19,7 +19,7 @@ namespace geocone
     bool          has_constraints    = false; ///< linear constraints H v = q
     bool          has_cell_pressures = false; ///< CellPressures are used
     bool          points_move        = false; ///< material points (MPM)
-    bool          raises_loads       = false; ///< load stepping to the limit
+    bool          scales_loads       = false; ///< load stepping to the limit
 
     /** Whether stresses must be computed by return maps: some laws have no natural
      *  map, and cell pressures exclude it. */

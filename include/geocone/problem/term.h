@@ -29,7 +29,7 @@ namespace geocone::GEOCONE_DIM
 
     /** Whether initially active contacts are bilateral; the bilateral solution is
      *  an initial guess for the solution with separation. */
-    bool contact_holds = false;
+    bool contact_is_bilateral = false;
   };
 
   /**

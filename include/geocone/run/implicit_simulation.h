@@ -84,13 +84,13 @@ namespace geocone::GEOCONE_DIM
     Json
     model() override;
     void
-    begin(const Place &place) override;
-    Ended
-    advance(Place &place) override;
+    begin(const TimePoint &now) override;
+    StepOutcome
+    advance(TimePoint &now) override;
     void
-    record(const Place &place) override;
+    record(const TimePoint &now) override;
     std::string
-    progress(const Place &place) const override;
+    progress(const TimePoint &now) const override;
     void
     write_fields(const double t) override;
     Json
@@ -161,7 +161,7 @@ namespace geocone::GEOCONE_DIM
     unsigned int   halved_for_excess = 0;
     ImplicitRecord present;      ///< record of the current or last step
     double         reached = 0.; ///< time of the last converged substep (s)
-    double         raised  = 0.; ///< displacement path under load control (m)
+    double         scaled  = 0.; ///< displacement path under load control (m)
     /** @} */
 
     dealii::TimerOutput timer;

@@ -31,11 +31,11 @@ namespace geocone::GEOCONE_DIM
     /** @} */
 
     const Stage &
-    stage_of(const Place &place) const;
+    stage_of(const TimePoint &now) const;
 
     /** Size of the next step of the loading programme (s). */
     double
-    step_size(const Place &place);
+    step_size(const TimePoint &now);
 
     Scene          scene;
     Method         method;
@@ -49,7 +49,7 @@ namespace geocone::GEOCONE_DIM
     void
     record_start() override;
     bool
-    wants_fields(const Place &place) const override;
+    wants_fields(const TimePoint &now) const override;
 
     std::vector<double> sizes; ///< step sizes of the current stage (s)
   };

@@ -86,7 +86,7 @@ namespace geocone::GEOCONE_DIM
       return {static_cast<unsigned int>(steps.size())};
     }
     bool
-    wants_fields(const Place &) const override
+    wants_fields(const TimePoint &) const override
     {
       return true;
     }
@@ -100,15 +100,15 @@ namespace geocone::GEOCONE_DIM
     Json
     model() override;
     void
-    begin(const Place &) override
+    begin(const TimePoint &) override
     {}
-    Ended
-    advance(Place &place) override;
+    StepOutcome
+    advance(TimePoint &now) override;
     void
-    record(const Place &) override
+    record(const TimePoint &) override
     {}
     std::string
-    progress(const Place &) const override
+    progress(const TimePoint &) const override
     {
       return "";
     }

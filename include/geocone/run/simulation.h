@@ -39,7 +39,7 @@ namespace geocone::GEOCONE_DIM
     Simulation(const MPI_Comm comm, Log &log);
 
     /** Current position of the run in the loading programme. */
-    struct Place
+    struct TimePoint
     {
       unsigned int stage    = 0;     ///< index of the stage
       bool         is_in    = false; ///< whether the stage has begun
@@ -55,7 +55,7 @@ namespace geocone::GEOCONE_DIM
     };
 
     /** Outcome of a step of the loading programme. */
-    enum class Ended
+    enum class StepOutcome
     {
       well,
       stage, ///< step and stage are complete
@@ -96,33 +96,33 @@ namespace geocone::GEOCONE_DIM
     {}
 
     virtual void
-    begin(const Place &place) = 0;
+    begin(const TimePoint &now) = 0;
 
     /**
      * Solves a step of the loading programme, or the remainder of an interrupted step.
-     * @param[in,out] place position in the programme; its time advances if the step
+     * @param[in,out] now position in the programme; its time advances if the step
      * succeeds
      * @throws StepFailure, Stopped
      */
-    virtual Ended
-    advance(Place &place) = 0;
+    virtual StepOutcome
+    advance(TimePoint &now) = 0;
 
-    /** Appends the completed step to the tables. @param place at the end of the step */
+    /** Appends the completed step to the tables. @param now at the end of the step */
     virtual void
-    record(const Place &place) = 0;
+    record(const TimePoint &now) = 0;
 
     /** Text on the last step for the progress line. */
     virtual std::string
-    progress(const Place &place) const = 0;
+    progress(const TimePoint &now) const = 0;
 
     /** Called after the last step of a stage. */
     virtual void
-    end(const Place &)
+    end(const TimePoint &)
     {}
 
     /** Whether fields are written after a step that is not the last step of a stage. */
     virtual bool
-    wants_fields(const Place &) const
+    wants_fields(const TimePoint &) const
     {
       return false;
     }
@@ -183,7 +183,7 @@ namespace geocone::GEOCONE_DIM
     void
     resume();
 
-    Place                     place;
+    TimePoint                 now;
     std::vector<unsigned int> n_in_stage;     ///< steps of each stage
     unsigned int              n_steps    = 0; ///< steps of all stages
     unsigned int              first_step = 0; ///< first step of this process

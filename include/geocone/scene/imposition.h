@@ -26,7 +26,7 @@ namespace geocone
     };
 
     /** A particle controlled by a condition. */
-    struct Held
+    struct PrescribedParticle
     {
       unsigned int id;
       unsigned int cell; ///< index of the particle's cell
@@ -46,7 +46,7 @@ namespace geocone
 
     const char *word;
     On          on;
-    Share (*share)(const Held &); ///< constraint of a particle
+    Share (*share)(const PrescribedParticle &); ///< constraint of a particle
     bool single;                  ///< each particle has the prescribed velocity
     /** Whether constraints prescribe the velocity of particles at the end of
      *  the step, v_p + N (v - v^L), instead of the grid velocity N v (equations

@@ -80,15 +80,15 @@ namespace geocone::GEOCONE_DIM
      *  an unknown load factor, and their prescribed work-conjugate mean
      *  velocity (m/s) */
     /** @{ */
-    std::vector<std::string> raised_loads;
-    double                   raising_velocity = 0.;
+    std::vector<std::string> scaled_loads;
+    double                   control_velocity = 0.;
     bool
-    raises_loads() const
+    scales_loads() const
     {
-      return !raised_loads.empty();
+      return !scaled_loads.empty();
     }
     bool
-    raises(const std::string &load) const;
+    scales(const std::string &load) const;
     /** @} */
 
     /** Piezometric line (x, y) at the end of the stage; empty: unchanged. Pore
@@ -198,7 +198,7 @@ namespace geocone::GEOCONE_DIM
 
     /** Whether any stage uses load stepping. */
     bool
-    raises_loads() const;
+    scales_loads() const;
 
     /** Whether any stage reduces the strength. */
     bool

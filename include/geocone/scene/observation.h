@@ -44,16 +44,16 @@ namespace geocone::GEOCONE_DIM
     prepare(const std::vector<std::string> &supports,
             const Materials                &materials,
             const Gravity                  &gravity,
-            const bool                      raises_loads);
+            const bool                      scales_loads);
 
     /** Whether a load-displacement curve exists: of the first observed support
      *  or, if none is observed, of load stepping. */
     bool
     has_load() const
     {
-      return !conditions.empty() || of_raised_loads;
+      return !conditions.empty() || of_scaled_loads;
     }
-    bool of_raised_loads = false;
+    bool of_scaled_loads = false;
 
     /** Indices of the observed supports in Scene::supports(). */
     std::vector<unsigned int> conditions;

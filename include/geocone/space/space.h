@@ -258,7 +258,7 @@ namespace geocone::GEOCONE_DIM
 
     /** Position of a node of a cell. */
     dealii::Point<dim>
-    place_of_node(const Cell &cell, const unsigned int i) const;
+    index_of_node(const Cell &cell, const unsigned int i) const;
 
     /** cell_nodes() without ties. */
     void

@@ -32,8 +32,9 @@ namespace geocone::GEOCONE_DIM
   {
     unsigned int light_functions = 0;  ///< see GhostPlaces::n_light()
     unsigned int points_behind   = 0;  ///< see MovingConditions::n_behind()
-    unsigned int points_put_back = 0;  ///< see MovingConditions::put_back()
-    double       put_back        = 0.; ///< largest distance of a return (m)
+    unsigned int points_returned =
+      0; ///< see MovingConditions::return_to_boundary()
+    double       returned_by     = 0.; ///< largest distance of a return (m)
     double       light_share     = 0.; ///< see Multipliers::light_share()
 
     /** Largest coordinates of all points at the end of the step (m). */
@@ -44,8 +45,8 @@ namespace geocone::GEOCONE_DIM
     {
       light_functions = std::max(light_functions, other.light_functions);
       points_behind   = std::max(points_behind, other.points_behind);
-      points_put_back = std::max(points_put_back, other.points_put_back);
-      put_back        = std::max(put_back, other.put_back);
+      points_returned = std::max(points_returned, other.points_returned);
+      returned_by     = std::max(returned_by, other.returned_by);
       light_share     = std::max(light_share, other.light_share);
     }
 
@@ -54,8 +55,8 @@ namespace geocone::GEOCONE_DIM
     {
       row(light_functions,
           points_behind,
-          points_put_back,
-          put_back,
+          points_returned,
+          returned_by,
           light_share,
           front);
     }
@@ -143,7 +144,7 @@ namespace geocone::GEOCONE_DIM
 
   /** @throws InputError for features not available in axisymmetric scenes */
   void
-  check_round_body(const Scene &scene);
+  check_axisymmetric_body(const Scene &scene);
 
   /** Elastic energy of the points of all ranks, Energies::elastic (J/m).
    *  Collective. */

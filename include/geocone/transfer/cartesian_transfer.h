@@ -145,7 +145,7 @@ namespace geocone::GEOCONE_DIM
     /** Index of a basis function among the stored functions. @pre the function
      *  is stored */
     std::size_t
-    stored_place_of(const std::array<unsigned int, dim> &function) const;
+    stored_index_of(const std::array<unsigned int, dim> &function) const;
 
     GridView
     view(const bool with_mass);

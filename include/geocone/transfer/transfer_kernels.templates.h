@@ -564,7 +564,7 @@ namespace geocone::GEOCONE_DIM
               P slope[4] = {P(0.), P(0.), P(0.), P(0.)};
               for (unsigned int c = 0; c < dim; ++c)
                 slope[forces + c] =
-                  V * P::load(points.s[place_of_component[c][d]] + k);
+                  V * P::load(points.s[index_of_component[c][d]] + k);
               store(slope, 4 + 4 * d);
             }
         }
@@ -579,7 +579,7 @@ namespace geocone::GEOCONE_DIM
           const double V      = points.volume[k];
           double       change = -V * scratch.mean_stress[k];
           for (unsigned int d = 0; d < dim; ++d)
-            change += V * points.s[place_of_component[d][d]][k] / dim;
+            change += V * points.s[index_of_component[d][d]][k] / dim;
           double *out = scratch.given + BlockScratch::n_given * k;
           for (unsigned int d = 0; d < dim; ++d)
             out[4 + 4 * d + forces + d] += change;

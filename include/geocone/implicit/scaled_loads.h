@@ -1,8 +1,8 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-#ifndef geocone_implicit_raised_loads_h
-#define geocone_implicit_raised_loads_h
+#ifndef geocone_implicit_scaled_loads_h
+#define geocone_implicit_scaled_loads_h
 
 #include <geocone/conditions/constraints.h>
 #include <geocone/scene/scene.h>
@@ -17,7 +17,7 @@ namespace geocone::GEOCONE_DIM
    * the load factor as multiplier (doc/theory/stages.md); after the solution F
    * acts as an ordinary load.
    */
-  class RaisedLoads
+  class ScaledLoads
   {
   public:
     /** @throws InputError if a stage has load stepping and obstacles */
@@ -48,7 +48,7 @@ namespace geocone::GEOCONE_DIM
          Vector                &residual) const;
 
   private:
-    Vector raised; ///< loads F; empty without load stepping
+    Vector scaled; ///< loads F; empty without load stepping
   };
 } // namespace geocone::GEOCONE_DIM
 

@@ -2,28 +2,28 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
-#include <geocone/implicit/raised_loads.h>
+#include <geocone/implicit/scaled_loads.h>
 
 namespace geocone::GEOCONE_DIM
 {
   void
-  RaisedLoads::check(const Scene &scene)
+  ScaledLoads::check(const Scene &scene)
   {
-    if (scene.loading.raises_loads())
+    if (scene.loading.scales_loads())
       scene.refuse_contact("stages with 'Raised loads'",
                            "leave one of them out; bodies that press are "
                            "held by 'Boundary conditions'");
   }
 
   void
-  RaisedLoads::add_row(const Stage  &stage,
+  ScaledLoads::add_row(const Stage  &stage,
                        const Vector &force,
                        const Vector &prescribed,
                        Constraints  &constraints)
   {
-    raised = force;
+    scaled = force;
     if (!constraints.multipliers.add_loads(
-          raised, stage.raising_velocity, constraints, prescribed))
+          scaled, stage.control_velocity, constraints, prescribed))
       throw StepFailure(
         "'Loading/" + stage.name +
         "/Raised loads': they exert no force on what can move\n"
@@ -32,18 +32,18 @@ namespace geocone::GEOCONE_DIM
   }
 
   double
-  RaisedLoads::take(const Constraints     &constraints,
+  ScaledLoads::take(const Constraints     &constraints,
                     const Eigen::VectorXd &lambda,
                     Vector                &force,
                     Vector                &residual) const
   {
-    if (raised.size() == 0)
+    if (scaled.size() == 0)
       return 1.;
     const double factor = constraints.multipliers.load_factor(lambda);
-    force.add(factor, raised);
+    force.add(factor, scaled);
     for (unsigned int i = 0; i < residual.locally_owned_size(); ++i)
       if (constraints.is_prescribed(i))
-        residual.local_element(i) -= factor * raised.local_element(i);
+        residual.local_element(i) -= factor * scaled.local_element(i);
     return factor;
   }
 } // namespace geocone::GEOCONE_DIM

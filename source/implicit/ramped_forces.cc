@@ -1,7 +1,7 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-#include <geocone/implicit/fading_forces.h>
+#include <geocone/implicit/ramped_forces.h>
 #include <geocone/time_stepping/time_stepper.h>
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 namespace geocone::GEOCONE_DIM
 {
   void
-  FadingForces::add(Vector       difference,
+  RampedForces::add(Vector       difference,
                     const double begin,
                     const double duration)
   {
@@ -17,25 +17,25 @@ namespace geocone::GEOCONE_DIM
     list.erase(
       std::remove_if(list.begin(),
                      list.end(),
-                     [&](const Fading &other) { return other.begin < begin; }),
+                     [&](const Ramp &other) { return other.begin < begin; }),
       list.end());
     if (duration > 0.)
       list.push_back({std::move(difference), begin, duration});
   }
 
   void
-  FadingForces::add_to(Vector &force, const double t) const
+  RampedForces::add_to(Vector &force, const double t) const
   {
-    for (const Fading &fading : list)
+    for (const Ramp &ramped : list)
       {
-        const double left = 1. - (t - fading.begin) / fading.duration;
+        const double left = 1. - (t - ramped.begin) / ramped.duration;
         if (left > 1e-12)
-          force.add(left, fading.force);
+          force.add(left, ramped.force);
       }
   }
 
   void
-  FadingForces::save(Archive              &archive,
+  RampedForces::save(Archive              &archive,
                      const BackgroundMesh &mesh,
                      const Space          &space) const
   {
@@ -53,7 +53,7 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
-  FadingForces::load(const Archive        &archive,
+  RampedForces::load(const Archive        &archive,
                      const BackgroundMesh &mesh,
                      const Space          &space)
   {

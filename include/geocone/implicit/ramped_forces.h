@@ -1,8 +1,8 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-#ifndef geocone_implicit_fading_forces_h
-#define geocone_implicit_fading_forces_h
+#ifndef geocone_implicit_ramped_forces_h
+#define geocone_implicit_ramped_forces_h
 
 #include <geocone/base/archive.h>
 #include <geocone/base/types.h>
@@ -21,7 +21,7 @@ namespace geocone::GEOCONE_DIM
    * the forces by which the material supported the remaining body; for added
    * material, minus the weight of the added material.
    */
-  class FadingForces
+  class RampedForces
   {
   public:
     /** @param difference n_before - n_after (N/m) @param duration T (s), or 0 */
@@ -45,12 +45,12 @@ namespace geocone::GEOCONE_DIM
     /** @} */
 
   private:
-    struct Fading
+    struct Ramp
     {
       Vector force;
       double begin, duration;
     };
-    std::vector<Fading> list; ///< at most two: removal, addition
+    std::vector<Ramp> list; ///< at most two: removal, addition
   };
 } // namespace geocone::GEOCONE_DIM
 
