@@ -10,7 +10,7 @@ namespace geocone::GEOCONE_DIM
   ScaledLoads::check(const Scene &scene)
   {
     if (scene.loading.scales_loads())
-      scene.refuse_contact("stages with 'Raised loads'",
+      scene.refuse_contact("stages with 'Scaled loads'",
                            "leave one of them out; bodies that press are "
                            "held by 'Boundary conditions'");
   }
@@ -26,7 +26,7 @@ namespace geocone::GEOCONE_DIM
           scaled, stage.control_velocity, constraints, prescribed))
       throw StepFailure(
         "'Loading/" + stage.name +
-        "/Raised loads': they exert no force on what can move\n"
+        "/Scaled loads': they exert no force on what can move\n"
         "  remedy:  check their values in this stage, and whether their "
         "places are held");
   }

@@ -84,7 +84,7 @@ namespace geocone::GEOCONE_DIM
     if (scene.loading.scales_loads())
       throw InputError(section + "Integration",
                        word(),
-                       "another one in stages with 'Raised loads'",
+                       "another one in stages with 'Scaled loads'",
                        remedy);
     for (const auto &condition : scene.dirichlet.list)
       if (condition->moves())

@@ -230,7 +230,7 @@ namespace geocone::GEOCONE_DIM
           "the structure '" + bars[i].structure->name +
           "' is tied to a removed part of the body in the stage '" + stage +
           "'\n  remedy:  leave the stage out of '" +
-          bars[i].structure->parameter("Acts in") + "', or move its points");
+          bars[i].structure->parameter("Active in") + "', or move its points");
   }
 
   void

@@ -3,6 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
+#include <geocone/base/renamed_parameters.h>
 #include <geocone/base/unused_parameters.h>
 #include <geocone/functions/formula.h>
 #include <geocone/scene/loading.h>
@@ -16,13 +17,17 @@ namespace geocone::GEOCONE_DIM
 {
   namespace
   {
+    const RenamedParameter renamed_loads[] = {
+      {"Loading/*", "Raised loads", "Scaled loads"},
+      {"Loading/*", "Raising velocity", "Control velocity"}};
+
     const UsedWhere used_loading[] = {
       {"Gravity/*", "Discretisation/Method", {"FEM", "MPM", "explicit MPM"}},
       {"Loading/*", "Discretisation/Method", {"FEM", "MPM", "explicit MPM"}},
       {"Loading/*/*", "Discretisation/Method", {"FEM", "MPM", "explicit MPM"}},
       {"Loading/*/Until failure", "Discretisation/Method", {"FEM", "MPM"}},
       {"Loading/*/Strength factor", "Discretisation/Method", {"FEM", "MPM"}},
-      {"Loading/*/Raising velocity", "Discretisation/Method", {"FEM", "MPM"}},
+      {"Loading/*/Control velocity", "Discretisation/Method", {"FEM", "MPM"}},
       {"Loading/*/Damping", "Discretisation/Method", {"explicit MPM"}},
       {"Loading/*/Kinetic damping", "Discretisation/Method", {"explicit MPM"}},
       {"Loading/*/Largest unbalanced force",
@@ -56,7 +61,8 @@ namespace geocone::GEOCONE_DIM
       stage.add_parameter(
         "Water levels",
         stage.water_levels,
-        "FEM, MPM, seepage: NAME: LEVEL, ...: levels of open water [m] at the end of "
+        "FEM, MPM, seepage: NAME: LEVEL, ...: levels of open water [m] at the "
+        "end of "
         "the stage, of boundaries of 'Seepage/Names'; pore pressures change "
         "linearly in time from those of the steady flow before to those of "
         "the steady flow after. Empty: unchanged.");
@@ -75,14 +81,14 @@ namespace geocone::GEOCONE_DIM
         "time-dependent loads are increased until failure. summary.json "
         "reports the time of failure (topic 'failure').");
       stage.add_parameter(
-        "Raised loads",
+        "Scaled loads",
         stage.scaled_loads,
         "FEM and MPM: loads multiplied by a load factor: names in "
         "'Tractions/Names', or 'weight'. The factor is found in each step so "
-        "that the body moves at the 'Raising velocity', also past the peak "
+        "that the body moves at the 'Control velocity', also past the peak "
         "load. Other loads are not scaled.");
       stage.add_parameter(
-        "Raising velocity",
+        "Control velocity",
         stage.control_velocity,
         "Mean velocity along the scaled loads [m/s], F.v/sum |F| with their "
         "nodal forces F; > 0 to load, < 0 to unload.");
@@ -241,7 +247,7 @@ namespace geocone::GEOCONE_DIM
          {std::pair<std::string, std::string>(
             "Added materials",
             added_materials.empty() ? "" : added_materials.front()),
-          {"Raised loads", scales_loads() ? scaled_loads.front() : ""},
+          {"Scaled loads", scales_loads() ? scaled_loads.front() : ""},
           {"Water table", water_table.empty() ? "" : "a line"},
           {"Water levels",
            water_levels.empty() ? "" : water_levels.begin()->first},
@@ -344,11 +350,11 @@ namespace geocone::GEOCONE_DIM
     if (scales_loads()
           ? !(control_velocity != 0. && std::isfinite(control_velocity))
           : control_velocity != 0.)
-      throw InputError(section + "Raising velocity",
+      throw InputError(section + "Control velocity",
                        control_velocity,
                        "a number other than zero where loads are scaled, and 0 "
                        "elsewhere",
-                       "give 'Raised loads' and the velocity, both or none");
+                       "give 'Scaled loads' and the velocity, both or none");
     if (!(damping >= 0. && damping < 1.))
       throw InputError(section + "Damping",
                        damping,
@@ -561,7 +567,7 @@ namespace geocone::GEOCONE_DIM
                 (load == "weight") !=
               1)
             throw InputError(
-              "Loading/" + stage->name + "/Raised loads",
+              "Loading/" + stage->name + "/Scaled loads",
               load,
               "'weight' and names in 'Tractions/Names', of which "
               "none may be 'weight'",

@@ -163,7 +163,7 @@ namespace geocone::GEOCONE_DIM
     prepare_weight();
     for (const auto &stage : loading.list)
       if (stage->scales("weight") && !gravity.acts())
-        throw InputError("Loading/" + stage->name + "/Raised loads",
+        throw InputError("Loading/" + stage->name + "/Scaled loads",
                          "weight",
                          "names of tractions where there is no gravity",
                          "set 'Gravity/Acceleration', e.g. 0, -9.81");

@@ -15,3 +15,9 @@ grep -q 'set Output tensors *= true' former/parameters.prm
 if "$program" "$root/tests/element/centre-02.prm" --set 'Element/Show tensors = true' 2>err
 then exit 1; fi
 grep -q "unknown parameter 'Element/Show tensors'" err
+# Two names of a stage of loads.
+"$program" "$root/prm/raised/footing_inclined.prm" --dry-run \
+  --set 'Loading/raise/Raised loads = footing' --set 'Loading/raise/Raising velocity = 0.02' \
+  >log 2>&1
+grep -q "'Raised loads' (now 'Loading/raise/Scaled loads')" log
+grep -q "'Raising velocity' (now 'Loading/raise/Control velocity')" log

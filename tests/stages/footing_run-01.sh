@@ -8,7 +8,7 @@ scene=$root/tests/stages/footing.prm
 "$program" "$scene" --quiet --output both --set 'Checkpoint/Every steps = 1' \
   --set 'Checkpoint/Keep = 100'
 "$program" "$scene" --quiet --output first --set 'Checkpoint/Every steps = 1' \
-  --set 'Loading/Stages = surcharge' --set 'Boundary conditions/footing/Acts in =' \
+  --set 'Loading/Stages = surcharge' --set 'Boundary conditions/footing/Active in =' \
   --set 'Boundary conditions/Names = bottom, sides' --set 'Observation/Conditions = bottom'
 "$program" "$scene" --quiet --output second --set 'Initial stress/Run = first' \
   --set 'Loading/Stages = push' --set 'Tractions/surcharge/Traction y = -3000'

@@ -12,11 +12,11 @@
 namespace geocone
 {
   /** The stages of the loading programme in which a structure or a condition
-   *  acts: the parameter 'Acts in'. */
+   *  acts: the parameter 'Active in'. */
   class ActingStages
   {
   public:
-    /** Declares the parameter 'Acts in'.
+    /** Declares the parameter 'Active in'.
      *  @param rest remainder of its documentation */
     void
     declare(dealii::ParameterAcceptor &section, const std::string &rest);
@@ -46,7 +46,7 @@ namespace geocone
     }
 
     /** Name of the parameter. */
-    static constexpr const char *entry = "Acts in";
+    static constexpr const char *entry = "Active in";
 
   private:
     std::vector<std::string> list;

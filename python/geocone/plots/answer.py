@@ -156,7 +156,7 @@ def heading(run, quantity=""):
 
 def moment(run, time):
     """When a field was written, in the quantity that the run increases: the factor of
-    safety, the factor of raised loads, or time."""
+    safety, the factor of scaled loads, or time."""
     try:
         table = run.statistics
         row = int(np.argmin(np.abs(table["time (s)"] - time)))
