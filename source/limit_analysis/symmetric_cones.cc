@@ -18,14 +18,13 @@ namespace geocone
   {
     const M L_1 = matrix(x).llt().matrixL(), L_2 = matrix(z).llt().matrixL();
     // Iterates that are not finite must stay so, to be found.
-    const M product = L_2.transpose() * L_1;
     l.setConstant(std::nan(""));
     R = R_inverse = M::Constant(std::nan(""));
     lambda.setConstant(std::nan(""));
-    if (!product.allFinite())
-      return;
-    const Eigen::JacobiSVD<M> svd(product,
+    const Eigen::JacobiSVD<M> svd(L_2.transpose() * L_1,
                                   Eigen::ComputeFullU | Eigen::ComputeFullV);
+    if (svd.info() != Eigen::Success)
+      return;
     l                       = svd.singularValues();
     const Eigen::Vector3d r = l.cwiseSqrt().cwiseInverse();
     R                       = L_1 * svd.matrixV() * r.asDiagonal();
