@@ -205,8 +205,8 @@ namespace geocone::GEOCONE_DIM
                                : "a factor of the " + load.word());
   }
 
-  Simulation::Ended
-  SolidLimitAnalysis::advance(Place &place)
+  Simulation::StepOutcome
+  SolidLimitAnalysis::advance(TimePoint &now)
   {
     dealii::Timer mesh_time;
     if (const double factor = refinement / refined; factor != 1.)
@@ -266,19 +266,19 @@ namespace geocone::GEOCONE_DIM
     const auto &levels = limit_output.all_records();
     level.number       = levels.size() + 1;
     limit_output.add_record(level);
-    place.time = levels.size();
+    now.time = levels.size();
     refinement /= std::cbrt(growth);
 
     const auto best = best_of(levels).gap();
     return (best && *best < gap_tolerance) ||
                growth * level.cells > 1.15 * most_cells ||
                levels.size() == programme()[0]
-             ? Ended::stage
-             : Ended::well;
+             ? StepOutcome::stage
+             : StepOutcome::well;
   }
 
   void
-  SolidLimitAnalysis::record(const Place &)
+  SolidLimitAnalysis::record(const TimePoint &)
   {
     if (limit_output.verbosity < 1)
       return;

@@ -122,9 +122,10 @@ namespace geocone::GEOCONE_DIM
                            "Mohr-Coulomb | Tresca | Drucker-Prager | von Mises "
                            "where loads are bounded",
                            "take the strength that counts, initial or final");
-        if (law.has_strength_formula())
-          throw InputError(section + "/Cohesion formula",
-                           "a formula",
+        if (const std::string formula = law.strength_formula();
+            !formula.empty())
+          throw InputError(section + "/" + formula,
+                           "set",
                            "a 'Cohesion gradient' where loads are bounded",
                            "strength is to be linear in each tetrahedron: give "
                            "a gradient, or layers");

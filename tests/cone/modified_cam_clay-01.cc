@@ -105,8 +105,8 @@ namespace cone_modified_cam_clay_01
             ++failed;
             continue;
           }
-        const V plastic =
-          e - law.law->elastic_strain(state.stress, answer.state.stress);
+        const V plastic = e - law.law->elastic_strain(
+                                state.stress, answer.state.stress, nullptr);
         const double P      = pressure(answer.state.stress) + attraction,
                      Pc_end = answer.state.pc + attraction;
         const V s           = deviator(answer.state.stress);

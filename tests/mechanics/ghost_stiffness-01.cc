@@ -61,7 +61,8 @@ namespace mechanics_ghost_stiffness_01
       }
     volume.update_ghost_values();
     mass.update_ghost_values();
-    Constraints unknowns(setup.scene, setup.mesh, space);
+    Constraints unknowns(
+      setup.scene, setup.mesh, space, setup.scene.loading.list.front()->name);
     unknowns.number_unknowns(&mass);
 
     const GhostPlaces places(setup.mesh, space);

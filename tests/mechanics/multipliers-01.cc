@@ -72,7 +72,8 @@ namespace mechanics_multipliers_01
     if (speaks())
       std::printf("%s\n", name.c_str());
 
-    Constraints    constraints(setup.scene, setup.mesh, space);
+    Constraints constraints(
+      setup.scene, setup.mesh, space, setup.scene.loading.list.front()->name);
     Vector         mass(space.partitioner()), v(space.partitioner());
     const auto    &X = space.node_positions();
     const unsigned n = space.n_owned_nodes();

@@ -63,14 +63,14 @@ namespace geocone::GEOCONE_DIM
     std::string
     headline(const std::string &name) const override;
     void
-    begin(const Place &) override
+    begin(const TimePoint &) override
     {}
-    Ended
-    advance(Place &place) override;
+    StepOutcome
+    advance(TimePoint &now) override;
     void
-    record(const Place &place) override;
+    record(const TimePoint &now) override;
     std::string
-    progress(const Place &) const override
+    progress(const TimePoint &) const override
     {
       return "";
     }
