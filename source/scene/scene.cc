@@ -61,8 +61,9 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * Evaluates the formulas of conditions and obstacles just after the
-     * beginning of each stage, at points of a body with known sides, so that
+     * Evaluates the formulas of conditions and obstacles in each stage, just
+     * after its beginning and, unless it may end at failure, in its middle and
+     * just before its end, at points of a body with known sides, so that
      * undefined values are detected before anything is written.
      */
     void
@@ -78,26 +79,31 @@ namespace geocone::GEOCONE_DIM
             component->value(x, t);
         condition.vector_on_side(x, dealii::Tensor<1, dim>(), t);
       };
+      const auto check_at = [&](const Stage &stage, const double t) {
+        for (const auto &obstacle : scene.obstacles.list)
+          {
+            obstacle->velocity(t);
+            obstacle->load(t);
+          }
+        for (const auto *conditions :
+             {&scene.dirichlet, &scene.tractions, &scene.absorbing})
+          for (const auto &condition : conditions->list)
+            if (condition->stages.include(stage.name))
+              for (const dealii::Point<dim> &x :
+                   places_held_by(*condition, scene.geometry))
+                check(*condition, x, t);
+      };
       double begin = 0.;
       try
         {
           for (const auto &stage : scene.loading.list)
             {
-              const double t = begin + 1e-6 * stage->duration;
+              std::vector<double> parts = {1e-6};
+              if (!stage->until_failure)
+                parts.insert(parts.end(), {0.5, 1. - 1e-6});
+              for (const double part : parts)
+                check_at(*stage, begin + part * stage->duration);
               begin += stage->duration;
-              for (const auto &obstacle : scene.obstacles.list)
-                {
-                  obstacle->velocity(t);
-                  obstacle->load(t);
-                }
-              for (const auto *conditions :
-                   {&scene.dirichlet, &scene.tractions, &scene.absorbing})
-                for (const auto &condition : conditions->list)
-                  for (const dealii::Point<dim> &x :
-                       !condition->stages.include(stage->name)
-                         ? std::vector<dealii::Point<dim>>()
-                         : places_held_by(*condition, scene.geometry))
-                    check(*condition, x, t);
             }
         }
       catch (const RunError &error)
