@@ -55,9 +55,8 @@ for path, entry in found.items():
     assert fits(entry["default"], entry), (path, entry)
     assert len(entry["description"]) > 8 and entry["x-allowed"], (path, entry)
 material = "Materials", "NAME"
-if ("Analysis", "Kind") in found:  # only in the plane
-    assert found["Analysis", "Kind"]["enum"] == ["steps", "limit load", "strength reduction",
-                                                     "seepage"]
+of_plane = ["strength reduction", "seepage"] if ("Seepage", "Names") in found else []
+assert found["Analysis", "Kind"]["enum"] == ["steps", "limit load", *of_plane]
 assert found["Time stepping", "Inertia"] == {**found["Time stepping", "Inertia"],
                                              "type": "boolean", "default": False}
 assert found[*material, "Cohesion"]["x-unit"] == "Pa"
