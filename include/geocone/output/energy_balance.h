@@ -16,17 +16,17 @@ namespace geocone
   /**
    * Energy balance since the start of a run, for all methods (J/m):
    *   numerical loss = E_0 + W - E - D - R,
-   * E the energy of the body, W the external work, D the dissipation, R the energy of
-   * removed parts of the body. The loss is the energy dissipated by time integration
-   * and transfer; if negative, they have created energy. Explicit steps only provide
-   * the total work of the stress, stored and dissipated, which is part of D there, as
-   * is damping.
+   * E the energy of the body, W the external work, D the dissipation, R the energy
+   * of removed parts of the body. The loss is the energy dissipated by time
+   * integration and transfer; if negative, they have created energy. Explicit steps
+   * provide only the total stress work (stored and dissipated), which D then
+   * includes together with damping.
    */
   class EnergyBalance
   {
   public:
     /**
-     * Created energy, relative to the turnover, that is tolerated without a warning.
+     * Tolerance for spuriously created energy, relative to the energy turnover.
      */
     static constexpr double tolerance = 0.01;
 
@@ -35,7 +35,7 @@ namespace geocone
     begin(const Energies &energies);
 
     /**
-     * Adds a step that ends with these energies.
+     * Appends a step to the balance, given the energies at its end.
      * @param of_lost energies of particles that left the mesh, not included in `end`
      */
     void
@@ -43,15 +43,16 @@ namespace geocone
              const Energies &of_lost,
              const Works    &of_step);
 
-    /** Sets the present energies, the works since the start, and the removed energy
-     *  with its potential part. */
+    /** Sets the current energies, the work done since the start, and the energy of
+     *  removed parts of the body, in total and potential. */
     void
     set(const Energies &now,
         const Works    &since_start,
         const double    removed,
         const double    removed_potential);
 
-    /** Accounts for a change of the body by the energies before and after it. */
+    /** Accounts for parts added to or removed from the body, by the energies before
+     *  and after. */
     void
     change_body(const Energies &before, const Energies &after);
 
@@ -62,21 +63,21 @@ namespace geocone
       return at_start;
     }
 
-    /** Works since the start. */
+    /** Work done since the start, by contribution (J/m). */
     const Works &
     works() const
     {
       return done;
     }
 
-    /** Numerical loss. */
+    /** Numerical loss of energy (J/m). */
     double
     loss() const
     {
       return lost;
     }
 
-    /** Removed energy R. */
+    /** Energy R of removed parts of the body (J/m). */
     double
     removed() const
     {
@@ -89,25 +90,26 @@ namespace geocone
       return kinetic_max;
     }
 
-    /** Energy E + D + R - W, which decreases by the loss. */
+    /** Balance E + D + R - W, which decreases by the numerical loss (J/m). */
     double
     total() const
     {
       return last.sum() + done.dissipated() + taken_away - done.external;
     }
 
-    /** Decrease of the potential energy, apart from removed parts. */
+    /** Released potential energy, excluding removed parts of the body (J/m). */
     double
     released() const
     {
       return at_start.potential - removed_potential - last.potential;
     }
 
-    /** Energy turnover, the reference of relative losses. */
+    /** Energy turnover (largest energy or work), the reference of relative losses
+     *  (J/m). */
     double
     turnover() const;
 
-    /** Warns once if the method has created more than 1 % of the turnover.
+    /** Warns once if spuriously created energy exceeds 1 % of the energy turnover.
      *  @param least lower limit of the turnover (J/m) */
     void
     warn_if_created(Log               &log,
@@ -117,8 +119,8 @@ namespace geocone
                     const std::string &remedy);
 
     /**
-     * Topic of a summary.
-     * @param unit converts the unit of plane strain into that of the scene
+     * Topic "energy" of a summary.
+     * @param unit converts a unit of plane strain into the unit of the scene
      * @param weight_changes whether the potential energy changes with the weight
      */
     Json
@@ -146,7 +148,7 @@ namespace geocone
     remove(const Energies &energies);
 
     Energies at_start, last;
-    Works    done; ///< since the start
+    Works    done; ///< work done since the start
     double lost = 0., least_step_loss = 0., largest_loss = 0., kinetic_max = 0.,
            taken_away = 0., removed_potential = 0.;
     bool warned = false;

@@ -15,7 +15,7 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Relative errors in the L2 norm against given exact fields. */
+  /** Relative L2 errors with respect to given exact fields. */
   struct FieldErrors
   {
     double displacement = 0.; ///< |u_h - u| / |u|

@@ -11,8 +11,9 @@
 
 namespace geocone
 {
-  /** Condition on a number of summary.json, "TOPIC/NAME <= NUMBER", ">= NUMBER" or "=
-   *  NUMBER +- NUMBER": acceptance criterion of a parameter file. */
+  /** Acceptance criterion of a parameter file: a condition on a value of
+   *  summary.json, of the form "TOPIC/NAME <= NUMBER", ">= NUMBER" or "= NUMBER +-
+   *  NUMBER". */
   class Expectation
   {
   public:
@@ -22,11 +23,11 @@ namespace geocone
      */
     Expectation(const std::string &text, const std::string &parameter);
 
-    /** Whether the condition holds; false if the summary has no such number. */
+    /** Whether a summary satisfies the criterion; false if the value is missing. */
     bool
     holds(const Json &summary) const;
 
-    /** The number of the summary, as text. */
+    /** Value found in a summary, as text. */
     std::string
     found(const Json &summary) const;
 

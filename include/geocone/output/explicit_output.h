@@ -14,10 +14,11 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Step of the loading programme, with the explicit steps it consists of. */
+  /** Record of a step of the loading programme, which consists of explicit time
+   *  steps. */
   struct ExplicitRecord : StepRecord<ExplicitState>
   {
-    double         cpu = 0.; ///< CPU time of its explicit steps, this rank (s)
+    double         cpu = 0.; ///< CPU time of the explicit steps, this rank (s)
     ExplicitReport report;
     Exchange       exchange;
 
@@ -30,40 +31,42 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Folder of an explicit run: statistics.csv (a line per step of the loading
-   * programme, each of many explicit ones), summary.json and points-NNNN.vtu, with
-   *   numerical loss    = gravity's and the supports' work - stress work
+   * Output folder of an explicit run: statistics.csv (a line per step of the
+   * loading programme, of many explicit time steps each), summary.json and
+   * points-NNNN.vtu, with
+   *   numerical loss    = work of gravity and supports - stress work
    *                       - damping - removed - kinetic energy gained,
    * as in EnergyBalance, and
    *   momentum residual = momentum gained + removed - impulse of gravity,
    *                       supports and damping,
-   * which is zero within rounding. The state is only read.
+   * which is zero within rounding. The state of the run is only read.
    */
   class ExplicitOutput : public SceneOutput<ExplicitRecord>
   {
   public:
     using SceneOutput::SceneOutput;
 
-    /** Makes the folder, or reopens that of a resumed run. @throws InputError */
+    /** Creates the output folder, or reopens the folder of a resumed run.
+     *  @throws InputError */
     void
     prepare(const RunOptions &options, const Scene &scene);
 
     void
     state_of_run(StateRow &row) override;
 
-    /** Sets the reference state of all gains. */
+    /** Sets the initial state, the reference of energy and momentum gained. */
     void
     set_initial(const ExplicitState &state);
 
-    /** Adds a step to statistics.csv and to the balance of energy. */
+    /** Appends a step to statistics.csv and to the energy balance. */
     void
     add_step(const ExplicitRecord &record);
 
-    /** Writes the points if requested. */
+    /** Writes the fields at the particles, if requested. */
     void
     write_points(const double time, const std::vector<PointArrays> &groups);
 
-    /** Topics of the summary: the results of all steps.
+    /** Results of all steps, as topics of the summary.
      *  @param counts since the start, of all ranks */
     Json
     results(const LawCounts &counts) const;
@@ -106,8 +109,8 @@ namespace geocone::GEOCONE_DIM
     void
     report_results(std::ostream &out) const override;
 
-    /** Output quantity of the laws at the points of a group; not a number if undefined
-     *  for the group's law. */
+    /** Output quantity of the constitutive laws at the points of a group; NaN if
+     *  the law of the group does not define it. */
     void
     show(const std::string &name,
          const PointArrays &group,
@@ -115,7 +118,7 @@ namespace geocone::GEOCONE_DIM
 
     ExplicitState               initial;
     std::unique_ptr<FieldFiles> point_files;
-    double largest_impulse = 0.; ///< of all records, as a scale
+    double largest_impulse = 0.; ///< over all records, scale of the residual
   };
 } // namespace geocone::GEOCONE_DIM
 

@@ -18,9 +18,9 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * This rank's content of a field file: cells that share no nodes, and nodal values.
-   * Arrays are generated one at a time, so that a file needs the memory of only one of
-   * them.
+   * Part of a field file written by this rank: cells without shared nodes, and
+   * nodal values. Arrays are generated one at a time, so that only one of them is
+   * held in memory.
    */
   struct FieldTable
   {
@@ -35,17 +35,17 @@ namespace geocone::GEOCONE_DIM
       hexahedron
     };
 
-    /** Cell type in terms of VTK and XDMF. */
+    /** Properties of a cell type in VTK and XDMF. */
     struct Kind
     {
       unsigned int                n_nodes, vtk_type;
       const char                 *xdmf_type;
-      std::array<unsigned int, 8> order; ///< of the nodes
+      std::array<unsigned int, 8> order; ///< of the nodes in VTK
     };
     const Kind &
     kind() const;
 
-    /** Fills an array with the nodal values, node by node. */
+    /** Function that fills an array with nodal values, node by node. */
     using Fill = std::function<void(std::vector<double> &)>;
 
     struct Column
@@ -66,7 +66,7 @@ namespace geocone::GEOCONE_DIM
       return kind().n_nodes;
     }
 
-    /** Node numbers of all cells in VTK's order, @p n_nodes in all. */
+    /** Connectivity: node numbers of all cells in VTK's order, @p n_nodes entries. */
     template <typename Number>
     std::vector<Number>
     connectivity(const std::size_t n_nodes) const
@@ -84,7 +84,7 @@ namespace geocone::GEOCONE_DIM
       return n_nodes / nodes_per_cell();
     }
 
-    /** Array of a column or of the positions. */
+    /** Evaluates a column, or the nodal positions, into an array. */
     std::vector<double>
     values(const Fill &fill, const unsigned int n_components) const;
   };
@@ -98,7 +98,7 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Files of one cell type at all times, in the requested formats:
+   * Time series of field files with one cell type, in the requested formats:
    *  - vtu: base-NNNN.vtu, or a file per rank and base-NNNN.pvtu, and the series
    *    base.pvd. Single precision, with fast compression.
    *  - hdf5: base-NNNN.h5 for all ranks, with the arrays nodes, cells and one for each
@@ -111,18 +111,18 @@ namespace geocone::GEOCONE_DIM
   class FieldFiles
   {
   public:
-    /** @param base e.g. "points" */
+    /** @param base prefix of the file names, e.g. "points" */
     FieldFiles(const std::string &base, const FieldsFormat format);
 
-    /** Writes base-NNNN and adds it to the series. Collective.
-     *  @throws StepFailure, on all ranks, if one of them cannot write */
+    /** Writes the files base-NNNN and appends them to the series. Collective.
+     *  @throws StepFailure, on all ranks, if one rank cannot write */
     void
     write(const FieldTable  &table,
           const std::string &folder,
           const double       time,
           const MPI_Comm     comm);
 
-    /** Indices of the series so far, for a checkpoint. */
+    /** Checkpoint data: the time series written so far. */
     void
     state(StateRow &row)
     {
@@ -134,21 +134,23 @@ namespace geocone::GEOCONE_DIM
     std::string
     piece(const unsigned int rank, const unsigned int n_ranks) const;
 
-    /** Writes the piece of this rank. */
+    /** Writes the .vtu file of this rank. */
     void
     write_as_vtu(const FieldTable  &table,
                  const std::string &folder,
                  const double       time,
                  const MPI_Comm     comm) const;
 
-    /** Adds the pieces of all ranks, already written, to the index. */
+    /** Appends the .vtu files of all ranks, already written, to the series
+     *  base.pvd. */
     void
     record_vtu(const FieldTable  &table,
                const std::string &folder,
                const double       time,
                const MPI_Comm     comm);
 
-    /** @param problem error on this rank; if set, nothing is done */
+    /** Writes the .h5 file of all ranks. @param problem error message of this rank;
+     *  if not empty, nothing is written */
     void
     write_as_hdf5(const FieldTable  &table,
                   const std::string &folder,
@@ -156,18 +158,19 @@ namespace geocone::GEOCONE_DIM
                   const MPI_Comm     comm,
                   std::string       &problem);
 
-    /** Indices of the .h5 files so far, with the columns of @p table. */
+    /** Writes the series index of all .h5 files so far, with the columns of
+     *  @p table. */
     void
     write_xdmf(const FieldTable &table, const std::string &folder) const;
     void
     write_vtkhdf(const FieldTable &table, const std::string &folder) const;
 
-    /** Entry of an .h5 file in the index. */
+    /** Entry of the series index for an .h5 file. */
     struct Hdf5State
     {
       double      time;
       std::string file;
-      std::size_t n_nodes; ///< of all ranks
+      std::size_t n_nodes; ///< summed over all ranks
 
       void
       state(StateRow &row)
@@ -180,7 +183,7 @@ namespace geocone::GEOCONE_DIM
     const FieldsFormat format;
     unsigned int       number = 0;
 
-    /** On the first rank: times and files. */
+    /** Times and file names of the series, stored on the first rank. */
     std::vector<std::pair<double, std::string>> vtu;
     std::vector<Hdf5State>                      hdf5;
   };

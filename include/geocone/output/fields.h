@@ -15,9 +15,10 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Fields as files for ParaView; scripts/plot reads the VTU files:
-   *  - cells-NNNN.vtu: displacement and velocity on the mesh (cells of degree p as p^dim
-   *    linear ones), and per cell the material, the mean stress, the mean plastic strain
+   * Writer of field files for ParaView; scripts/plot reads the VTU files:
+   *  - cells-NNNN.vtu: displacement and velocity on the mesh (cells of degree p as
+   *    p^dim linear cells), and per cell the material, the mean stress, the mean
+   *    plastic strain
    *    rate, the mean cumulative plastic strain, and for undrained soil the mean excess
    *    pore pressure. With particles: only cells with particles, only the velocity;
    *  - points-NNNN.vtu: the material points with their material, volume (m^dim; if
@@ -50,7 +51,7 @@ namespace geocone::GEOCONE_DIM
           const Kinematics     &kinematics);
 
     /** Writes the positions of the obstacles, if any. Collective.
-     *  @param moved displacement of each since the start */
+     *  @param moved rigid motion of each obstacle since the start */
     void
     write_obstacles(const std::string              &folder,
                     const double                    time,
@@ -58,7 +59,7 @@ namespace geocone::GEOCONE_DIM
                     const Obstacles                &obstacles,
                     const std::vector<RigidMotion> &moved);
 
-    /** Indices of the series so far, for a checkpoint. */
+    /** Checkpoint data: the time series written so far. */
     void
     state(StateRow &row)
     {

@@ -10,11 +10,12 @@
 
 namespace geocone
 {
-  /** JSON with entries in the order of insertion, as in summary.json. */
+  /** JSON object that keeps the order of insertion of its entries, as in
+   *  summary.json. */
   using Json = nlohmann::ordered_json;
 
-  /** Number that may be undefined, e.g. the displacement of a point that has left the
-   *  mesh. */
+  /** JSON number, or null if the value is not finite, e.g. the displacement of a
+   *  point that has left the mesh. */
   inline Json
   finite_or_null(const double value)
   {

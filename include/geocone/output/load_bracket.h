@@ -22,39 +22,43 @@ namespace geocone
   struct LoadBracket
   {
     std::string           name = "load";
-    std::string           unit;         ///< of a reaction; empty for a factor
+    std::string           unit;         ///< empty for a load factor
     std::optional<double> lower, upper; ///< empty if not certified
 
-    /** Both bounds for Davis's soil, for non-associated flow: of a load, or of a factor
-     *  of safety by the variants A, B and C. */
+    /** Lower and upper bounds with Davis's reduced strength, for non-associated
+     *  flow: of the load, or of the factor of safety by Davis's variants A, B and
+     *  C. */
     std::vector<std::array<double, 2>> davis;
     bool                               is_associated = true;
 
-    unsigned int cells   = 0;  ///< of the last mesh
-    double       seconds = 0.; ///< of all meshes
+    unsigned int cells   = 0;  ///< number of cells of the last mesh
+    double       seconds = 0.; ///< computing time of all meshes (s)
 
-    /** Adopts better bounds from another mesh; empty if not certified. */
+    /** Adopts tighter bounds from another mesh; a bound is empty if not certified. */
     void
     take(const std::optional<double> other_lower,
          const std::optional<double> other_upper);
 
-    /** Gap upper/lower - 1, if both exist. */
+    /** Relative gap upper/lower - 1, if both bounds exist. */
     std::optional<double>
     gap() const;
 
-    /** Topic bounds: lower, upper, gap, middle, certified; null if undefined. */
+    /** Topic "bounds" of the summary: lower, upper, gap, middle, certified; null if
+     *  undefined. */
     Json
     bounds() const;
 
-    /** Topic non_associated: the certified bounds and Davis's estimate. */
+    /** Topic "non_associated" of the summary: the certified bounds and Davis's
+     *  estimate. */
     Json
     non_associated() const;
 
-    /** One line with the certified bounds and the estimate. */
+    /** Line of text with the certified bounds and Davis's estimate. */
     std::string
     text() const;
 
-    /** One line that compares an incremental load with both. */
+    /** Line of text that compares an incremental limit load with bounds and
+     *  estimate. */
     std::string
     beside(const double incremental) const;
   };

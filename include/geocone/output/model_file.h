@@ -15,20 +15,20 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Name of the file with the scene's description, for plots. */
+  /** Name of the file that describes the scene, for plots. */
   constexpr const char *model_file = "model.json";
 
-  /** Mesh of a scene, as drawn. */
+  /** Mesh of a scene, for drawings. */
   struct ModelMesh
   {
     /** A polygon in the plane, or a flat face in space. */
     using Face = std::vector<dealii::Point<dim>>;
 
-    /** Cells in the plane; boundary faces of the mesh in space. */
+    /** Cells (two dimensions) or boundary faces of the mesh (three dimensions). */
     std::vector<Face> cells;
 
-    /** Index of the material of each cell; empty for particles, whose body is that of
-     *  Scene::geometry. */
+    /** Index of the material of each cell; empty for particles, whose body is
+     *  described by Scene::geometry. */
     std::vector<unsigned int> materials;
 
     /** Corners of the bounding box. */
@@ -39,25 +39,25 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Mesh of a run. Collective.
-   * @param of_particles whether conditions may act on the sides of the body instead of
-   * those of the mesh
+   * Mesh of a run, for drawings. Collective.
+   * @param of_particles whether conditions may act on the sides of the body instead
+   * of the sides of the mesh
    */
   ModelMesh
   model_mesh_of(const BackgroundMesh &mesh,
                 const Scene          &scene,
                 const bool            of_particles);
 
-  /** Uniform grid between lines, with the conditions on its nodes. */
+  /** Uniform grid with the given grid lines, and boundary conditions on its nodes. */
   ModelMesh
   model_mesh_of(const std::array<std::vector<double>, dim> &lines,
                 const Scene                                &scene);
 
   /**
-   * Describes a scene before its first step (m, m/s, Pa): the body and its materials,
-   * the mesh, supports, tractions, obstacles, observed points and the changes in each
-   * stage. A prescribed value is the largest of those at a few sampled times of the
-   * programme.
+   * Describes a scene before its first step (m, m/s, Pa): the body and its
+   * materials, the mesh, supports, tractions, obstacles, observed points and the
+   * changes in each stage. A prescribed value is the largest at a few sampled times
+   * of the loading programme.
    */
   Json
   model_of(const Scene &scene, const ModelMesh &mesh);

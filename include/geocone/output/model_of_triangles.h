@@ -9,7 +9,7 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** @param triangles must outlive the mesh */
+  /** Mesh of triangles, for drawings. @param triangles must outlive the mesh */
   ModelMesh
   model_mesh_of(const Triangles &triangles);
 } // namespace geocone::GEOCONE_DIM

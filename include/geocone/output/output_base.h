@@ -25,7 +25,7 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Output of fields requested by the user. */
+  /** Field output requested by the user. */
   struct FieldsAsked
   {
     bool         are_written;
@@ -33,9 +33,9 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Common part of the outputs of all runs: the folder with parameters.prm (as used),
-   * log.txt and files.txt (list of written files), a growing table, summary.json with
-   * the status of the run (run_status.h) and its warnings, and the expectations that
+   * Output common to all runs: the folder with parameters.prm (as used), log.txt
+   * and files.txt (list of written files), a growing table, summary.json with the
+   * status of the run (run_status.h) and its warnings, and the expectations that
    * the summary must fulfil.
    */
   class OutputBase : public dealii::ParameterAcceptor
@@ -46,7 +46,7 @@ namespace geocone::GEOCONE_DIM
     /**
      * Compares the summary with the expectations of the parameter file and reports the
      * outcome.
-     * @return whether all hold
+     * @return whether all expectations hold
      */
     bool
     expectations_hold() const;
@@ -58,9 +58,10 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * Makes the folder of a run that is only checked: the named one, or
-     * results/NAME-model, where files of an earlier check are replaced.
-     * @throws InputError as a run
+     * Creates the output folder for a check of the input without a run: the folder
+     * named by the user, or results/NAME-model, where files of an earlier check are
+     * replaced.
+     * @throws InputError as make_folder()
      */
     void
     make_folder_of_model(const RunOptions &options);
@@ -100,9 +101,9 @@ namespace geocone::GEOCONE_DIM
     unsigned int verbosity = 1;
 
     /**
-     * Writes summary.json, with the topics "run" and "warnings" of every run.
+     * Writes summary.json: the topics "run" and "warnings" and those of the method.
      * @param status running | finished | failed: why
-     * @param topics those of the method, in their order
+     * @param topics of the method, in order of output
      * @throws StepFailure if the status is "finished" but a number is not finite; the
      * summary then has the status "failed"
      */
@@ -114,21 +115,22 @@ namespace geocone::GEOCONE_DIM
     print_result() const
     {}
 
-    /** Writes the file 'output' of tests, if requested, after the expectations were
-     *  checked. */
+    /** Writes the file 'output' that tests compare, if requested, after the check
+     *  of expectations. */
     void
     report() const;
 
     /**
-     * State of the tables and the summary that a resumed run needs, for a checkpoint.
+     * Checkpoint data of the tables and the summary, needed to resume a run.
      */
     virtual void
     state_of_run(StateRow &row);
 
   protected:
     /**
-     * Checks the parameters and makes the folder.
-     * @throws InputError if it exists and may not be used, or cannot be written
+     * Checks the parameters and creates the output folder.
+     * @throws InputError if the folder exists and may not be used, or cannot be
+     * written
      */
     void
     make_folder(const RunOptions &options);
@@ -156,7 +158,7 @@ namespace geocone::GEOCONE_DIM
                                            {"both", FieldsFormat::both}}};
 
   private:
-    /** Content of the file 'output' of tests. */
+    /** Content of the file 'output' that tests compare. */
     enum class Report
     {
       none,

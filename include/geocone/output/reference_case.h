@@ -13,10 +13,10 @@
 namespace geocone
 {
   /**
-   * Reference value of a run: a number of summary.json and its value by theory,
-   * experiment or another code. It becomes the topic "reference" of the summary,
-   * {quantity, value, expected, relative_error}, which is the same for runs of any
-   * kind.
+   * Reference value of a run: a quantity of summary.json and its value from theory,
+   * experiment or another code. Written as the topic "reference" of the summary,
+   * {quantity, value, expected, relative_error}, which has the same form for all
+   * runs.
    */
   class ReferenceCase : public dealii::ParameterAcceptor
   {
@@ -27,7 +27,8 @@ namespace geocone
     void
     prepare();
 
-    /** Sets the quantity and value used if the file names none. */
+    /** Sets the default quantity and value, used if the parameter file names no
+     *  quantity. */
     void
     set_default(const std::string &name, const double value);
 
@@ -38,19 +39,19 @@ namespace geocone
       return !quantity.empty();
     }
 
-    /** Whether the file names it. */
+    /** Whether the parameter file names the reference quantity. */
     bool
     is_asked() const
     {
       return asked;
     }
 
-    /** The topic; value and relative_error (value/expected - 1) are null if the summary
-     *  has no such number. */
+    /** Topic "reference"; value and relative_error (value/expected - 1) are null if
+     *  the summary does not contain the quantity. */
     Json
     topic(const Json &summary) const;
 
-    /** The comparison as one line. */
+    /** Comparison with the reference value as a line of text. */
     std::string
     text(const Json &summary) const;
 

@@ -13,7 +13,7 @@
 
 namespace geocone
 {
-  /** Treatment of an existing folder that is not empty. */
+  /** Treatment of an existing output folder that is not empty. */
   enum class IfExists
   {
     automatic, ///< refuse if named by the user, else number
@@ -22,18 +22,18 @@ namespace geocone
     overwrite  ///< delete the files listed by the earlier run
   };
 
-  /** Parameter "Output/If folder exists", to be declared. */
+  /** Creates the parameter "Output/If folder exists", to be declared. */
   Choice<IfExists>
   if_exists_choice();
 
   /**
-   * Makes the folder of a run, its list of files (files.h) and parameters.prm, the
-   * parameters as used. If two runs want the same folder at the same time, only the one
-   * that locks it (run_status.h) gets it.
-   * @param wanted its name
-   * @param was_named whether the user has given it
+   * Creates the output folder of a run, with its list of files (files.h) and
+   * parameters.prm (the parameters as used). If two runs request the same folder at
+   * the same time, only the run that locks it (run_status.h) obtains it.
+   * @param wanted name of the folder
+   * @param was_named whether the user has given the name
    * @return the name of the folder, the same on all ranks
-   * @throws InputError if it may not be used or cannot be written
+   * @throws InputError if the folder may not be used or cannot be written
    */
   std::string
   make_run_folder(const MPI_Comm     comm,
@@ -42,8 +42,8 @@ namespace geocone
                   const IfExists     if_exists);
 
   /**
-   * Parameters used by the run in a folder. File names in them are relative to the same
-   * folder as for that run.
+   * Parameters used by the run in a folder. File names among the parameters are
+   * relative to the same folder as in that run.
    * @throws InputError if it is not the folder of a run
    */
   ParameterFile

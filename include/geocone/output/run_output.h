@@ -19,20 +19,20 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Step with all its substeps: the report is that of the last one, works are of the
-   *  whole step. */
+  /** Record of a step with all its substeps: report of the last substep, work of
+   *  the whole step. */
   struct ImplicitRecord : StepRecord<StepReport>
   {
-    unsigned int substeps     = 0;     ///< accepted
+    unsigned int substeps     = 0;     ///< accepted substeps
     unsigned int failures     = 0;     ///< failed substeps
-    unsigned int iterations   = 0;     ///< of all substeps, incl. failed
+    unsigned int iterations   = 0;     ///< including failed substeps
     unsigned int regularised  = 0;     ///< regularised Jacobians
     bool         resets       = false; ///< displacement is reset here
-    double       displacement = 0.;    ///< of the load (m)
-    double       load         = 0.;    ///< (N/m)
+    double       displacement = 0.;    ///< of the loaded support (m)
+    double       load         = 0.;    ///< reaction of the loaded support (N/m)
     double       scaled       = 0.;    ///< path under load control (m)
     std::vector<double>
-      pressures; ///< excess, of observed points in undrained soil
+      pressures; ///< excess pore pressures at observed points (Pa)
 
     void
     state(StateRow &row)
@@ -50,13 +50,14 @@ namespace geocone::GEOCONE_DIM
     }
   };
 
-  /** Whether the loading support moves in one direction over three records. */
+  /** Whether the loaded support moves in one direction over three successive
+   *  records. */
   bool
   moves_on(const ImplicitRecord &a,
            const ImplicitRecord &b,
            const ImplicitRecord &c);
 
-  /** End of a stage that continues until failure. */
+  /** Failure that ends a stage of loading until failure. */
   struct Failure
   {
     std::string stage;
@@ -65,18 +66,20 @@ namespace geocone::GEOCONE_DIM
     std::string reason;
   };
 
-  /** Folder of an implicit run: statistics.csv (a line per step), newton.csv (a line
-   *  per iteration), plates.csv (lines per step), summary.json, VTU series. The state is only read. */
+  /** Output folder of an implicit run: statistics.csv (a line per step), newton.csv
+   *  (a line per iteration), plates.csv (lines per step), summary.json, VTU series.
+   *  The state of the run is only read. */
   class RunOutput : public SceneOutput<ImplicitRecord>
   {
   public:
     using SceneOutput::SceneOutput;
 
     /**
-     * Makes the folder, or reopens that of a resumed run.
-     * @param points_move through the mesh
-     * @param points_leave may leave it
-     * @throws InputError if it exists and may not be used, or cannot be written
+     * Creates the output folder, or reopens the folder of a resumed run.
+     * @param points_move whether points move through the mesh
+     * @param points_leave whether points can leave the mesh
+     * @throws InputError if the folder exists and may not be used, or cannot be
+     * written
      */
     void
     prepare(const RunOptions &options,
@@ -87,7 +90,7 @@ namespace geocone::GEOCONE_DIM
     void
     state_of_run(StateRow &row) override;
 
-    /** Sets the initial energy of the balance. */
+    /** Sets the initial energies of the energy balance. */
     void
     set_initial_energy(const Energies &energies)
     {
@@ -101,18 +104,18 @@ namespace geocone::GEOCONE_DIM
       balance.change_body(change.before, change.after);
     }
 
-    /** Adds an attempted (sub)step to newton.csv. */
+    /** Appends the iterations of an attempted (sub)step to newton.csv. */
     void
     add_newton_table(const unsigned int step,
                      const double       time,
                      const double       h,
                      const StepReport  &report);
 
-    /** Adds an accepted step to statistics.csv and to the energy balance. */
+    /** Appends an accepted step to statistics.csv and to the energy balance. */
     void
     add_step(const ImplicitRecord &record);
 
-    /** Writes fields if requested. */
+    /** Writes the field files, if requested. */
     void
     write_fields(const double                    time,
                  const BackgroundMesh           &mesh,
@@ -121,25 +124,25 @@ namespace geocone::GEOCONE_DIM
                  const Kinematics               &kinematics,
                  const std::vector<RigidMotion> &moved_obstacles);
 
-    /** Topics of the summary: the results of all steps. */
+    /** Results of all steps, as topics of the summary. */
     Json
     results() const;
 
-    /** Adds the errors against exact fields to subsequent summaries. */
+    /** Includes the errors with respect to exact fields in subsequent summaries. */
     void
     set_field_errors(const FieldErrors &errors)
     {
       field_errors = errors;
     }
 
-    /** Adds the strict bounds of the load to subsequent summaries. */
+    /** Includes the strict bounds of the limit load in subsequent summaries. */
     void
     set_bracket(const LoadBracket &of_load)
     {
       bracket = of_load;
     }
 
-    /** Reports how the run ended, now and in subsequent summaries. */
+    /** Reports the failure at the end of a run, now and in subsequent summaries. */
     void
     set_failure(const Failure &failure);
 
@@ -167,7 +170,7 @@ namespace geocone::GEOCONE_DIM
 
     /** @name Topics of the summary */
     /** @{ */
-    /** Last topics: the factor of safety, bounds, errors and the failure. */
+    /** Appends the final topics: factor of safety, bounds, errors and failure. */
     void
     add_outcome(Json &json) const;
 
@@ -176,9 +179,10 @@ namespace geocone::GEOCONE_DIM
     Json
     safety() const;
 
-    /** Displacement per strength factor in the last reduction of the strength over that
-     *  in the first one, for the observed point that moves most; empty if none is
-     *  observed. */
+    /** Growth of displacements in strength reduction: displacement per increment of
+     *  the strength factor in the last reduction, divided by the same ratio in the
+     *  first reduction, for the observed point that moves most; empty without
+     *  observed points. */
     std::optional<double>
     growth_of_displacement() const;
 
@@ -200,7 +204,8 @@ namespace geocone::GEOCONE_DIM
     void
     report_results(std::ostream &out) const override;
 
-    /** Load of a summary in the unit of the bracket, if both exist. */
+    /** Incremental limit load of a summary in the unit of its strict bounds, if
+     *  both exist. */
     std::optional<double>
     bracketed_load(const Json &of_run) const;
 
@@ -211,17 +216,16 @@ namespace geocone::GEOCONE_DIM
     void
     print_safety() const;
 
-    /** Whether the load is a load-stepping factor that 'Factor' does not convert into a
-     *  force. */
+    /** Whether the load is a dimensionless load factor, not converted into a force
+     *  by the parameter 'Factor'. */
     bool
     load_is_number() const;
 
-    /** Warns of the first load that jumps by more than half of its value and
-     *  back. */
+    /** Warns once if the load jumps by more than half of its value and back. */
     void
     warn_of_jump();
 
-    /** Adds the plates at the end of a step to plates.csv. */
+    /** Appends the results of the plates at the end of a step to plates.csv. */
     void
     add_plates(const Record &record);
 

@@ -17,12 +17,12 @@
 
 namespace geocone
 {
-  /** Reads the summary in a file; empty if none can be read. */
+  /** Reads the summary in a file; empty if the file cannot be read. */
   Json
   read_summary(const std::string &file_name);
 
-  /** Topic "run" of a summary: the program's process and host, its start time
-   *  and its last update (UTC, ISO 8601). */
+  /** Topic "run" of a summary: process, host, start time and time of the last
+   *  update (UTC, ISO 8601). */
   Json
   run_topic();
 
@@ -31,9 +31,9 @@ namespace geocone
   cpu_time_of_rank();
 
   /**
-   * Sets the status of the summary in @p folder to @p status if it is "running" and
-   * belongs to process @p pid on this host. If the disk is full or memory is exhausted,
-   * overwrites it in place. Never throws.
+   * Replaces the status "running" of the summary in @p folder by @p status if the
+   * summary belongs to process @p pid on this host. If the disk is full or memory
+   * is exhausted, overwrites the summary in place. Never throws.
    */
   void
   end_status(const std::string &folder,
@@ -44,16 +44,17 @@ namespace geocone
   constexpr const char *lock_file = "run.lock";
 
   /**
-   * Locks a folder for this process until it ends or calls release_folder(), by the
-   * file run.lock in it. The file records the host, its boot and the process. It is
-   * locked by flock(), which the kernel, or a file server that supports locks, releases
-   * with the process in any case. Its modification time is the sign of life, renewed by
-   * the watcher. An abandoned lock is taken over at once if its process ran on this
-   * machine since the last boot, otherwise after two minutes without a sign of life. Of
-   * several processes that want a folder at once, only one gets it.
+   * Locks a folder, by its file run.lock, until this process ends or calls
+   * release_folder(). The file records the host, its boot and the process. It is
+   * locked by flock(), which the kernel, or a file server that supports locks,
+   * releases with the process in any case. Its modification time is the sign of
+   * life, renewed by the watcher. An abandoned lock is taken over at once if its
+   * process ran on this machine since the last boot, otherwise after two minutes
+   * without a sign of life. Of several processes that request a folder at once,
+   * only one obtains it.
    *
-   * If hosts share a folder without sharing locks, the last one to take it over gets
-   * it: each host checks again after a moment, and later by check_folder().
+   * If hosts share a folder without sharing locks, the last host to take it over
+   * obtains it: each host checks again after a moment, and later by check_folder().
    *
    * @return reason for refusal, or nothing
    */
@@ -63,7 +64,8 @@ namespace geocone
   void
   release_folder();
 
-  /** @throws RunError if another run has taken over the folder of this one */
+  /** Checks the lock of this run's folder. @throws RunError if another run has
+   *  taken it over */
   void
   check_folder();
 } // namespace geocone

@@ -13,8 +13,8 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Outputs of a run of a scene: the columns of statistics.csv and the topics of the
-   * summary that all methods share.
+   * Output of a run of a scene: columns of statistics.csv and topics of the summary
+   * common to all methods.
    * @tparam Record a StepRecord
    */
   template <typename Record>
@@ -31,7 +31,8 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * Motion and plastic flow of the body at the end of a step, for the progress line.
+     * Kinetic energy and largest plastic strain at the end of a step, for the
+     * progress line.
      */
     std::string
     text_of_motion(const StepEnd &end) const
@@ -46,7 +47,8 @@ namespace geocone::GEOCONE_DIM
     using TableOutput<Record>::table;
     using TableOutput<Record>::records;
 
-    /** Makes the folder, or reopens that of a resumed run. @throws InputError */
+    /** Creates the output folder, or reopens the folder of a resumed run.
+     *  @throws InputError */
     void
     begin(const RunOptions &options, const Scene &of_run)
     {
@@ -54,14 +56,15 @@ namespace geocone::GEOCONE_DIM
       this->make_folder(options);
     }
 
-    /** Unit of the scene, see Geometry::unit(). */
+    /** Converts a unit of plane strain into the unit of the scene, see
+     *  Geometry::unit(). */
     std::string
     unit(const std::string &in_plane_strain) const
     {
       return scene->geometry.unit(in_plane_strain);
     }
 
-    /** Adds a column, given with its unit in plane strain. */
+    /** Appends a column, named with its unit in plane strain. */
     void
     add(const std::string                             &column,
         const typename StatisticsTable<Record>::Value &value,
@@ -86,7 +89,8 @@ namespace geocone::GEOCONE_DIM
           [](const Record &r) { return r.last.largest_plastic_strain; });
     }
 
-    /** @param knows_elastic whether the method computes Energies::elastic */
+    /** Appends columns of energies. @param knows_elastic whether the method
+     *  computes Energies::elastic */
     void
     add_energy_columns(const bool knows_elastic)
     {
@@ -106,8 +110,8 @@ namespace geocone::GEOCONE_DIM
           [this](const Record &) { return balance.loss(); });
     }
 
-    /** Moments of the observed conditions, except in axisymmetric problems, and
-     *  displacements of the observed points. */
+    /** Appends columns of the moments at observed boundary conditions (not in
+     *  axisymmetry) and of the displacements of observed points. */
     void
     add_observed_columns()
     {
@@ -135,7 +139,7 @@ namespace geocone::GEOCONE_DIM
 
     /** @name Topics of all summaries */
     /** @{ */
-    /** Final displacements of the observed points, under "points". */
+    /** Adds the final displacements of the observed points as the topic "points". */
     void
     add_points(Json &summary) const
     {
@@ -147,7 +151,7 @@ namespace geocone::GEOCONE_DIM
                    finite_or_null(displacements[i][d]);
     }
 
-    /** @param weight_changes see EnergyBalance::json() */
+    /** Topic "energy" of a summary. @param weight_changes see EnergyBalance::json() */
     Json
     energy(const bool weight_changes) const
     {

@@ -10,19 +10,19 @@
 
 namespace geocone
 {
-  /** Whether a value must be finite. */
+  /** Whether the values of a column must be finite. */
   enum class Finite
   {
     must_be,
     may_be ///< e.g. the displacement of a point that has left the mesh
   };
 
-  /** End of the error message about a number that is not finite. */
+  /** Last part of the error message about a non-finite value. */
   inline constexpr const char *not_finite_remedy =
     " is not a finite number\n  remedy:  look for absurd magnitudes among "
     "the parameters, the formulas and the files that were read";
 
-  /** @throws StepFailure if a value of a column is not finite */
+  /** Checks a value of a column. @throws StepFailure if the value is not finite */
   void
   check_finite(const std::string &column, const double value);
 
@@ -51,7 +51,8 @@ namespace geocone
       return all;
     }
 
-    /** Values of a record. @throws StepFailure if one that must be finite is not */
+    /** Values of all columns for a record. @throws StepFailure if a value that must
+     *  be finite is not finite */
     std::vector<double>
     line(const Record &record) const
     {

@@ -12,14 +12,15 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Outputs of a run that keeps its records, each a line of its table. */
+  /** Output of a run that stores all its records, each of which is a line of a
+   *  table. */
   template <typename Record>
   class TableOutput : public OutputBase
   {
   public:
     using OutputBase::OutputBase;
 
-    /** Adds a record and its line.
+    /** Stores a record and appends its line to the table.
      *  @throws StepFailure if a value that must be finite is not */
     void
     add_record(const Record &record)
@@ -30,7 +31,7 @@ namespace geocone::GEOCONE_DIM
         statistics.add_line(line);
     }
 
-    /** All records so far. */
+    /** Records of all steps so far. */
     const std::vector<Record> &
     all_records() const
     {
@@ -45,7 +46,7 @@ namespace geocone::GEOCONE_DIM
     }
 
   protected:
-    /** Begins the table in the folder, after all columns were added. */
+    /** Opens the table in the output folder, after all columns have been added. */
     void
     open_table(const std::string &file)
     {

@@ -12,11 +12,12 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Content of a field file on triangles, each with nodes of its own: node p = 3 c + i is
+  /** Content of a field file on triangles without shared nodes: node p = 3 c + i is
    *  corner i of cell c. */
   struct TriangleTable : FieldTable
   {
-    /** @param triangles must outlive the table @param is_here whether this rank has them */
+    /** @param triangles must outlive the table @param is_here whether this rank
+     *  stores them */
     explicit TriangleTable(const Triangles &triangles,
                            const bool       is_here = true)
       : triangles(triangles)
@@ -31,7 +32,8 @@ namespace geocone::GEOCONE_DIM
                          });
     }
 
-    /** Adds a column. @param value of the node, its vertex and the component */
+    /** Appends a column. @param value function of the node, its vertex and the
+     *  component */
     template <typename Value>
     void
     add(const std::string &name,

@@ -11,8 +11,8 @@
 namespace geocone
 {
   /**
-   * Watchdog process that outlives the program and then corrects the summary of its
-   * run: "running" is replaced by "killed", since the process was ended by force (kill
+   * Watchdog process that corrects the summary of a run whose process was killed:
+   * "running" is replaced by "killed", since the process was ended by force (kill
    * -9, lack of memory, a crash, an abort) and could not report that itself. If the
    * watcher is killed as well, the topic "run" of the summary (run_topic()) still
    * identifies the process and its last sign of life. While the program lives, the
@@ -30,7 +30,7 @@ namespace geocone
     Watcher &
     operator=(const Watcher &) = delete;
 
-    /** Sets the folder of this process's run, in place of an earlier one. */
+    /** Sets the output folder to be watched, in place of an earlier folder. */
     static void
     watch(const std::string &folder);
 
