@@ -12,10 +12,10 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Sizes of the next mesh that equalise the contributions of cells to an error, which
-   * scale with the size to the power 3. Contributions are averaged with those of
-   * neighbouring cells: a coarse cell beside refined ones would otherwise be refined one
-   * mesh later.
+   * Cell sizes of the next mesh, chosen to equalise the contributions of all
+   * cells to an error. Contributions scale with the cube of the cell size.
+   * Contributions are averaged with those of neighbouring cells: a coarse cell
+   * beside refined ones would otherwise be refined one mesh later.
    * @param error contribution of each cell
    * @param n_wanted approximate number of triangles
    */

@@ -27,8 +27,8 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * The triangulation, distributed over the ranks, with its mapping, material
-   * ids (indices into Scene::materials) and side ids.
+   * Mesh distributed over the ranks, with its mapping, material ids (indices
+   * into Scene::materials) and side ids.
    *
    * Quadrilaterals and hexahedra use parallel::distributed::Triangulation
    * (p4est); simplices, which p4est does not support, use
@@ -36,33 +36,35 @@ namespace geocone::GEOCONE_DIM
    * and owns a part of it.
    *
    * Particle bodies in contact have one layer each: a copy of the mesh at the
-   * same position, so that the particles of each body move nodes of their own.
-   * Such meshes also use parallel::shared::Triangulation.
+   * same position, so that the particles of each body move separate nodes. Such
+   * meshes also use parallel::shared::Triangulation.
    */
   class BackgroundMesh : public dealii::ParameterAcceptor
   {
   public:
     BackgroundMesh(const MPI_Comm comm);
 
-    /** Expected size of the mesh, as far as the parameters determine it. */
+    /** Expected number and area of cells, as far as the parameters determine
+     *  them. */
     struct Expected
     {
       double n_cells;
       std::array<double, dim>
-                  intervals; ///< of a grid; otherwise only their product counts
-      double      area;      ///< of the cells (m^2)
+                  intervals; ///< of a grid; otherwise only the product is used
+      double      area;      ///< total area of the cells (m^2)
       bool        is_simplicial, is_grid;
-      std::string parameter; ///< that determines the number
+      std::string parameter; ///< that determines the number of cells
     };
 
-    /** Estimates the mesh without creating it: for a file, from its size or,
-     *  after prepare(), from its content. @throws InputError as prepare() */
+    /** Estimates the number of cells without creating the mesh: for a file,
+     *  from its size or, after prepare(), from its content. @throws InputError
+     *  as prepare() */
     Expected
     expect(const Scene &scene, const Method &method);
 
-    /** Sets the function that computes the sizes of a mesh "from the bounds" by
-     *  a limit analysis, which this module does not include. To be called
-     *  before prepare(). Collective. @throws InputError */
+    /** Sets the function that computes the cell sizes of a mesh of type "from
+     *  the bounds" by limit analysis. To be called before prepare(); this module
+     *  does not include limit analysis. Collective. @throws InputError */
     using SizesOf = std::function<CellSizes(const MeshParameters &)>;
     void
     take_sizes(const SizesOf &sizes_of,
@@ -74,17 +76,18 @@ namespace geocone::GEOCONE_DIM
     prepare(const Scene &scene, const Method &method);
 
     /**
-     * Lines of a uniform grid of rectangles, without creating the mesh; empty
-     * for other meshes. @throws InputError as prepare()
+     * Coordinates of the grid lines of a uniform grid of rectangles, without
+     * creating the mesh; empty for other meshes (m). @throws InputError as
+     * prepare()
      */
     std::array<std::vector<double>, dim>
     uniform_lines(const Scene &scene, const Method &method);
 
     using Cell = dealii::Triangulation<dim>::active_cell_iterator;
 
-    /** Side length of a square (in three dimensions, a cube) with the cell's
-     *  area or volume; for simplices, twice the area or six times the volume
-     *  (m). */
+    /** Equivalent cell size: side length of a square (in three dimensions, a
+     *  cube) of the area (volume) of the cell; for simplices, of twice the area
+     *  (six times the volume) (m). */
     static double
     size_of(const Cell &cell)
     {
@@ -102,57 +105,58 @@ namespace geocone::GEOCONE_DIM
         dealii::IteratorFilters::LocallyOwnedCell());
     }
 
-    /** Rank of each cell, including those of other ranks, by active cell
-     *  index. */
+    /** Rank that owns each cell of the mesh, by active cell index. */
     const std::vector<unsigned int> &
     owner_of_cell() const
     {
       return owners;
     }
 
-    /** Redistributes the cells over the ranks, so that the sums of their
-     *  weights are about equal. @param weight > 0 of a cell of this rank.
-     *  Collective. */
+    /** Redistributes the cells over the ranks, so that the sum of cell weights
+     *  per rank is about equal. Collective. @param weight positive weight of a
+     *  cell of this rank */
     void
     repartition(const std::function<unsigned int(const Cell &)> &weight);
 
-    /** Whether a cell, owned or ghost, is in the union of the lists that the
-     *  ranks pass, each with its own cells; by active cell index.
-     *  Collective. */
+    /** Marks the cells in the union over all ranks of the given lists of owned
+     *  cells, by active cell index, for owned and ghost cells. Collective. */
     std::vector<bool>
     is_among(const std::vector<Cell> &cells) const;
 
-    /** Whether the scene is axisymmetric, with x the radius. */
+    /** Whether the problem is axisymmetric, with x as the radius. */
     bool
     is_axisymmetric() const
     {
       return symmetry == Geometry::Symmetry::axisymmetric;
     }
 
-    /** See Geometry::measure(). */
+    /** Factor of volume integrals in plane strain or axisymmetry, see
+     *  Geometry::measure(). */
     double
     measure(const dealii::Point<dim> &x) const
     {
       return Geometry::measure(symmetry, x);
     }
 
-    /** Distance outside of a cell, relative to its size, up to which a point is
-     *  considered inside. */
+    /** Tolerance of the search for points: distance from a cell, relative to
+     *  the cell size, within which a point counts as inside. */
     static constexpr double tolerance = 1e-8;
 
-    /** Unit coordinates of x in a cell; no value if it is outside by more than
-     *  the tolerance. */
+    /** Unit coordinates of x in a cell; no value if x is outside of the cell by
+     *  more than the tolerance. */
     std::optional<dealii::Point<dim>>
     unit_point(const Cell &cell, const dealii::Point<dim> &x) const;
 
-    /** Coordinates of the lines of a tensor grid; empty for other meshes. */
+    /** Coordinates of the grid lines of a tensor grid (m); empty for other
+     *  meshes. */
     const std::array<std::vector<double>, dim> &
     grid() const
     {
       return lines;
     }
 
-    /** Moves the lines of a tensor grid, whose number must not change. */
+    /** Moves the grid lines of a tensor grid; the number of lines must not
+     *  change. */
     void
     move_grid(const std::array<std::vector<double>, dim> &to);
 
@@ -160,8 +164,8 @@ namespace geocone::GEOCONE_DIM
     std::array<unsigned int, dim>
     place_in_grid(const Cell &cell) const;
 
-    /** Whether the mesh is split between bodies in contact; then each rank
-     *  stores all of it. */
+    /** Whether the mesh is split between bodies in contact; each rank then
+     *  stores the complete mesh. */
     bool
     is_parted() const
     {
@@ -183,7 +187,7 @@ namespace geocone::GEOCONE_DIM
       return cell->active_cell_index() / (tria->n_active_cells() / layers);
     }
 
-    /** The cell at the same position in another layer; possibly of another
+    /** Cell at the same position in another layer, possibly owned by another
      *  rank. */
     Cell
     twin(const Cell &cell, const unsigned int layer) const
@@ -203,7 +207,8 @@ namespace geocone::GEOCONE_DIM
       return bounding_box().get_boundary_points().first;
     }
 
-    /** Inverse of the Jacobian dx/dxi at a unit point of a cell. */
+    /** Inverse of the Jacobian dx/dxi at a point of a cell, given in unit
+     *  coordinates (1/m). */
     dealii::Tensor<2, dim>
     inverse_jacobian(const Cell &cell, const dealii::Point<dim> &unit) const;
 
@@ -226,36 +231,36 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * Side ids of a condition.
-     * @throws InputError for a name without a side
+     * Ids of the sides on which a boundary condition acts.
+     * @throws InputError if the mesh has no side of that name
      */
     std::set<dealii::types::boundary_id>
     side_ids(const BoundaryCondition &condition) const;
 
-    /** Sides by their names. */
+    /** Side ids by name of the side. */
     const std::map<std::string, dealii::types::boundary_id> &
     named_sides() const
     {
       return sides;
     }
 
-    /** Vertices of each face on the sides of a condition, over all ranks: in
-     *  the plane with the body on the left, in space counterclockwise as seen
-     *  from outside. Collective. @throws InputError for a name without a
-     *  side */
+    /** Vertices of each boundary face on which a condition acts, over all
+     *  ranks: in the plane with the body on the left, in space counterclockwise
+     *  as seen from outside. Collective. @throws InputError if the mesh has no
+     *  side of a given name */
     std::vector<std::vector<dealii::Point<dim>>>
     faces_of(const BoundaryCondition &condition) const;
 
     /**
-     * Connected part of the body (counted from 0) of each vertex of the
-     * triangulation; parts without a common edge are not connected.
+     * Index of the connected part of the body, counted from 0, for each vertex
+     * of the mesh; parts without a common edge are not connected.
      * @param cells of the body on this rank. Collective.
      */
     std::vector<unsigned int>
     connected_parts(const std::vector<Cell> &cells) const;
 
   private:
-    /** Determines the owner of each cell. Collective. */
+    /** Determines the rank that owns each cell. Collective. */
     void
     find_owners();
 

@@ -17,16 +17,16 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Assignment of checkpoint records to cells, by cell names (CellId), which do
-   * not depend on the number of ranks.
+   * Table that assigns records of a checkpoint to cells by their CellId,
+   * independent of the number of ranks.
    */
   class CellRecord
   {
   public:
-    /** A table to be filled. */
+    /** Creates an empty table, to be written. */
     CellRecord() = default;
 
-    /** A table to be read. @throws RunError if it does not match the records */
+    /** Reads a table. @throws RunError if the table does not match the records */
     CellRecord(const std::vector<double> &numbers, const std::size_t n_records)
     {
       std::size_t begin = 0;
@@ -44,7 +44,7 @@ namespace geocone::GEOCONE_DIM
                        "records than it holds");
     }
 
-    /** Assigns the next n records to this cell. */
+    /** Assigns the next n records to a cell. */
     void
     add(const BackgroundMesh::Cell &cell, const std::size_t n)
     {
@@ -69,7 +69,7 @@ namespace geocone::GEOCONE_DIM
       return found->second;
     }
 
-    std::vector<double> numbers; ///< five per cell: its name, and n
+    std::vector<double> numbers; ///< five per cell: its CellId, and n
 
   private:
     using Name = dealii::CellId::binary_type;

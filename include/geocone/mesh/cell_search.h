@@ -14,16 +14,15 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Search for the cell that contains a point. It covers the cells of all
-   * ranks, which each rank stores, so that points are found however far they
-   * have moved.
+   * Search for the cell that contains a point. Each rank stores the cells of
+   * all ranks, so that points are found at any distance from their former cell.
    */
   class CellSearch
   {
   public:
     using Cell = BackgroundMesh::Cell;
 
-    /** A cell, and the unit coordinates of the point in it. */
+    /** Location of a point: a cell and the unit coordinates in the cell. */
     struct Location
     {
       Cell               cell;
@@ -33,10 +32,10 @@ namespace geocone::GEOCONE_DIM
     explicit CellSearch(const BackgroundMesh &mesh);
 
     /**
-     * Locates x: first in the cell @p hint, then in those that share a vertex
-     * with it, then in a complete layer of the mesh. There, points on cell
-     * boundaries belong to the cell of the lowest rank and index, for whichever
-     * rank searches.
+     * Finds the cell of a point x: first the cell @p hint, then its vertex
+     * neighbours, then a complete layer of the mesh. In the last case, a point
+     * on a cell boundary belongs to the cell of the lowest rank and index, on
+     * whichever rank the search runs.
      * @return no value outside of the mesh, or if x is NaN
      */
     std::optional<Location>
@@ -44,14 +43,14 @@ namespace geocone::GEOCONE_DIM
          const Cell               &hint  = Cell(),
          const unsigned int        layer = 0) const;
 
-    /** Cell of an index, the same on all ranks. */
+    /** Cell with an active cell index; the index is the same on all ranks. */
     Cell
     cell(const unsigned int active_cell_index) const
     {
       return cells[active_cell_index];
     }
 
-    /** Rank of a cell. */
+    /** Rank that owns a cell. */
     unsigned int
     owner(const Cell &cell) const
     {
@@ -64,7 +63,7 @@ namespace geocone::GEOCONE_DIM
       return mesh.is_simplicial();
     }
 
-    /** Shortest distance between two vertices of a cell. */
+    /** Shortest distance between two vertices of a cell, over all cells (m). */
     double
     smallest_cell() const
     {
@@ -75,7 +74,7 @@ namespace geocone::GEOCONE_DIM
     const BackgroundMesh               &mesh;
     const dealii::GridTools::Cache<dim> cache;
     std::vector<Cell>                   cells;
-    /** Cells that share a vertex with a cell: those of cell c start at
+    /** Vertex neighbours of all cells; the neighbours of cell c start at
      *  neighbours[first_neighbour[c]]. */
     std::vector<unsigned int> first_neighbour, neighbours;
     double                    smallest;

@@ -18,7 +18,8 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Vertices, cells with material ids, and boundary faces with side ids. */
+  /** Mesh data for deal.II: vertices, cells with material ids, and boundary
+   *  faces with side ids. */
   struct CoarseMesh
   {
     /** Vertices of a face: of an edge in the plane, in increasing order; of a
@@ -35,7 +36,7 @@ namespace geocone::GEOCONE_DIM
     /** Coordinates of the grid lines of a tensor grid; otherwise empty. */
     std::array<std::vector<double>, dim> grid;
 
-    /** Whether the mesh has triangles or tetrahedra. */
+    /** Whether the cells are simplices (triangles or tetrahedra). */
     bool
     has_simplices() const;
 
@@ -43,11 +44,11 @@ namespace geocone::GEOCONE_DIM
     dealii::Point<dim>
     centre(const dealii::CellData<dim> &cell) const;
 
-    /** A face in canonical form, with its vertices in increasing order. */
+    /** Canonical form of a face: its vertices in increasing order. */
     static Face
     sorted(Face face);
 
-    /** Faces of one cell only. */
+    /** Outer faces of the mesh, which belong to one cell only. */
     std::vector<Face>
     outer_faces() const;
 
@@ -56,19 +57,19 @@ namespace geocone::GEOCONE_DIM
     centre(const Face &face) const;
 
     /**
-     * Splits the mesh along the faces between cells of materials of different
-     * bodies. At each vertex there, every piece of the mesh obtains a vertex of
-     * its own.
-     * @return these faces, from both sides
+     * Splits the mesh along the interfaces between bodies. Vertices on these
+     * faces are duplicated, one for each adjacent part of the mesh.
+     * @return faces of the interfaces, from both sides
      */
     std::vector<Face>
     part(const std::function<bool(unsigned int, unsigned int)> &are_apart);
 
-    /** Repeats the mesh at the same position; copies share no vertices. */
+    /** Replaces the mesh by copies at the same position without shared
+     *  vertices. */
     void
     repeat(const unsigned int times);
 
-    /** Assigns a side number to a boundary face. */
+    /** Assigns a side id to a boundary face. */
     void
     add_boundary(const Face &face, const dealii::types::boundary_id side);
   };

@@ -15,29 +15,29 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * The domain of a mesh of triangles: its outline, holes and sides, and its
-   * materials. Other meshes of it are made like those of a polygon: corners of
-   * the outline and of the borders between materials stay, the straight lines
-   * between them obtain vertices of their own.
+   * Domain of a triangular mesh for remeshing: outline, holes, sides and
+   * materials. A new mesh retains the corners of the outline and of material
+   * interfaces; straight lines between corners obtain new vertices.
    */
   class DomainOfTriangles
   {
   public:
-    /** @param is_end whether a vertex of the outline must stay one, e.g. where a
-     *  condition ends on a side */
+    /** @param is_end whether a vertex of the outline must be retained, e.g.
+     *  where a condition ends on a side */
     DomainOfTriangles(
       const Triangles                                       &triangles,
       const std::function<bool(const dealii::Point<dim> &)> &is_end);
 
-    /** Why no other mesh can be made of it; empty if one can. */
+    /** Reason why the domain cannot be remeshed; empty if it can. */
     const std::string &
     obstacle() const
     {
       return why_not;
     }
 
-    /** A mesh with prescribed sizes. Collective.
-     *  @param lines that become edges, too @param algorithm gmsh's number */
+    /** New mesh of the domain with prescribed cell sizes. Collective.
+     *  @param lines additional lines that become edges @param algorithm number
+     *  of gmsh's meshing algorithm */
     CoarseMesh
     mesh(const CellSizes &sizes,
          MeshLines        lines,
@@ -45,7 +45,7 @@ namespace geocone::GEOCONE_DIM
          const MPI_Comm   comm) const;
 
   private:
-    /** Ends of an edge of the boundary, with its boundary id. */
+    /** Boundary edge, given by its end points and boundary id. */
     struct Side
     {
       std::array<dealii::Point<dim>, 2> ends;
@@ -54,13 +54,13 @@ namespace geocone::GEOCONE_DIM
 
     std::string       why_not;
     MeshDomain        domain;
-    MeshLines         borders; ///< of materials
+    MeshLines         borders; ///< interfaces of materials
     std::vector<Side> sides;
     Triangles         triangles;
   };
 
-  /** The domain of the mesh of a file. Vertices where the boxes of conditions
-   *  end stay. */
+  /** Domain of the mesh in a file; retains the vertices where boxes of boundary
+   *  conditions end. */
   DomainOfTriangles
   domain_of_file(const Triangles &triangles, const Scene &scene);
 } // namespace geocone::GEOCONE_DIM

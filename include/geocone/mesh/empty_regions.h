@@ -10,8 +10,9 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** @throws InputError if a material that must occupy a region has no cell
-   *  @param n_cells by material, of all ranks */
+  /** Checks that no material region is empty. @throws InputError if a material
+   *  that must occupy a region has no cell
+   *  @param n_cells number of cells by material, over all ranks */
   void
   refuse_empty_regions(const Scene                     &scene,
                        const std::vector<unsigned int> &n_cells);

@@ -14,12 +14,13 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Mesh of a scene, with the materials of its cells and the sides of its
+   * Creates the mesh of a scene, with materials of cells and sides of the
    * boundary. Collective.
    * @param parameters prepared for the scene and the method
-   * @param sizes replace those of the parameters; gmsh then makes the mesh
-   * @param parts_bodies whether to split it between bodies in contact (not for
-   * particles)
+   * @param sizes cell sizes that replace the parameters; the mesh is then
+   * created by gmsh
+   * @param parts_bodies whether to split the mesh between bodies in contact
+   * (not for particles)
    * @throws InputError
    */
   CoarseMesh
@@ -30,10 +31,11 @@ namespace geocone::GEOCONE_DIM
               const bool            parts_bodies = true);
 
   /**
-   * Mesh of triangles of the body of a scene, with its materials and sides: by gmsh, or
-   * that of the file. Collective.
-   * @param vertices on the outline that become vertices of the mesh
-   * @param lines that become edges of it, as far as they lie in the body
+   * Triangular mesh of the body of a scene, with materials and sides, created
+   * by gmsh or read from the mesh file. Collective.
+   * @param vertices points on the outline that become vertices of the mesh
+   * @param lines lines that become edges of the mesh, as far as they lie in the
+   * body
    * @param sizes of the cells
    */
   CoarseMesh
@@ -44,10 +46,10 @@ namespace geocone::GEOCONE_DIM
                     const MPI_Comm                         comm);
 
   /**
-   * Side numbers of a condition.
-   * @param sides their names
-   * @param all numbers of the complete boundary, for "all"
-   * @throws InputError for a name without a side
+   * Ids of the sides on which a boundary condition acts.
+   * @param sides side ids by name
+   * @param all side ids of the complete boundary, for the name "all"
+   * @throws InputError if no side has the given name
    */
   std::set<dealii::types::boundary_id>
   side_ids(const BoundaryPart                                      &condition,

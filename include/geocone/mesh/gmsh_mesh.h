@@ -15,8 +15,8 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Expected number of cells of an unstructured mesh with the size field h:
-   * triangles are nearly equilateral, so that their number is
+   * Expected number of cells of an unstructured mesh with the size field h.
+   * Triangles are nearly equilateral, so that their number is
    *   4/sqrt(3) times the integral of 1/h^2 over the domain;
    * each pair of triangles becomes four quadrilaterals. Within a factor of 2 of
    * gmsh's number, unless edges of materials force small cells.
@@ -24,18 +24,19 @@ namespace geocone::GEOCONE_DIM
   double
   unstructured_size(const MeshParameters &parameters);
 
-  /** Straight lines that become edges of the mesh, as far as they lie in it. */
+  /** Straight lines that become edges of the mesh, as far as they lie in the
+   *  domain. */
   using MeshLines = std::vector<std::array<dealii::Point<dim>, 2>>;
 
-  /** Unstructured mesh of a box or polygon, by gmsh. Collective. */
+  /** Unstructured mesh of a box or polygon, created by gmsh. Collective. */
   CoarseMesh
   unstructured_mesh(const MeshParameters &parameters,
                     const Regions        &regions,
                     const MeshLines      &lines,
                     const MPI_Comm        comm);
 
-  /** Prescribed sizes of an unstructured mesh, linear on triangles that cover
-   *  the domain (m). */
+  /** Prescribed cell sizes of an unstructured mesh (m), linear on triangles
+   *  that cover the domain. */
   struct CellSizes
   {
     std::vector<std::array<dealii::Point<dim>, 3>> triangles;
@@ -47,16 +48,16 @@ namespace geocone::GEOCONE_DIM
   {
     Polygon                         outline;
     std::vector<Polygon>            holes;
-    std::vector<Polygon>            inner;    ///< with edges of the mesh
-    std::vector<dealii::Point<dim>> vertices; ///< of the mesh
-    int                             algorithm      = 5; ///< gmsh's number
+    std::vector<Polygon>            inner;    ///< polygons of mesh edges
+    std::vector<dealii::Point<dim>> vertices; ///< prescribed vertices
+    int                             algorithm      = 5; ///< number in gmsh
     bool                            quadrilaterals = false;
   };
 
   MeshDomain
   domain_of(const MeshParameters &parameters);
 
-  /** Unstructured mesh with prescribed sizes. Collective. */
+  /** Unstructured mesh with prescribed cell sizes. Collective. */
   CoarseMesh
   mesh_with_sizes(const MeshDomain     &domain,
                   const Regions        &regions,
@@ -65,10 +66,12 @@ namespace geocone::GEOCONE_DIM
                   const MPI_Comm        comm);
 
   /**
-   * Mesh of a .msh file (see msh_file.h), or of a geo script if the geometry
-   * allows scripts. Collective: the first rank reads or runs it.
-   * @param contacts along which bodies can have nodes of their own, or null
-   * @throws InputError if it is neither, or the mesh is not supported
+   * Mesh from a .msh file (see msh_file.h), or from a .geo script if the
+   * geometry allows scripts. Collective: the first rank reads the file or runs
+   * the script.
+   * @param contacts contacts along which nodes of bodies can be separate, or
+   * null
+   * @throws InputError if the file is neither, or the mesh is not supported
    */
   CoarseMesh
   mesh_of_file(const Geometry &geometry,

@@ -16,7 +16,7 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Mesh type, cell sizes and shapes:
+   * Mesh type, cell sizes and cell shapes:
    *
    *  - uniform: squares of about the cell size, or triangles obtained by
    *    dividing them;
@@ -38,16 +38,17 @@ namespace geocone::GEOCONE_DIM
     void
     prepare(const Geometry &geometry, const Method &method);
 
-    /** The domain to be meshed: the body, or the box around it. */
+    /** Outline of the domain to be meshed: of the body, or of the box around
+     *  it. */
     Polygon outline;
 
-    /** Whether the domain is the body. */
+    /** Whether the mesh fits the body, rather than a box around it. */
     bool fits_body = true;
 
-    /** Holes of that domain. */
+    /** Holes of the domain to be meshed. */
     std::vector<Polygon> holes;
 
-    /** Polygons in the domain on which unstructured meshes have edges: the
+    /** Polygons in the domain that become edges of unstructured meshes: the
      *  boundaries of a body of particles. */
     std::vector<Polygon> inner;
 
@@ -72,7 +73,7 @@ namespace geocone::GEOCONE_DIM
 
     enum class Cells
     {
-      automatic, ///< not after prepare()
+      automatic, ///< replaced in prepare()
       triangles,
       quadrilaterals
     };
@@ -98,32 +99,34 @@ namespace geocone::GEOCONE_DIM
     double                          growth     = 1.3;
     double                          size_ratio = 0.18;
     int                             algorithm  = 5;
-    unsigned int                    number     = 1500; ///< from the bounds
+    unsigned int                    number     = 1500; ///< target cell count
 
   private:
-    /** @throws InputError if sizes cannot be computed from strict bounds */
+    /** Checks the type "from the bounds". @throws InputError if cell sizes
+     *  cannot be computed from strict bounds */
     void
     check_mesh_from_bounds(const Geometry &geometry,
                            const Method   &method) const;
 
-    /** Chooses the cell shape if it is automatic. @throws InputError */
+    /** Selects the cell shape if the parameter is "automatic".
+     *  @throws InputError */
     void
     choose_cells(const Geometry &geometry, const Method &method);
 
-    /** @throws InputError for sizes and other numbers out of range */
+    /** Checks numeric parameters. @throws InputError if one is out of range */
     void
     check_numbers() const;
 
-    /** @throws InputError if grading points are missing or outside of the
-     *  domain */
+    /** Checks grading points. @throws InputError if they are missing or outside
+     *  of the domain */
     void
     check_grading_points(const Geometry &geometry) const;
 
     void
     choose_outline(const Geometry &geometry, const Method &method);
 
-    /** @throws InputError for sizes beyond the range of indices or the
-     *  memory */
+    /** Checks the number of cells. @throws InputError if it exceeds the range
+     *  of indices or the memory */
     void
     check_sizes() const;
 

@@ -13,9 +13,9 @@
 namespace geocone
 {
   /**
-   * Discretisation of the continuum: quadrature points of a mesh that fits the
-   * body (finite element method), or particles that move through a background
-   * mesh (material point method).
+   * Discretisation of the continuum: by quadrature points of a body-fitted mesh
+   * (finite element method) or by particles that move through a background mesh
+   * (material point method).
    */
   class Method : public dealii::ParameterAcceptor
   {

@@ -22,15 +22,15 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Nodes, elements and physical groups in gmsh's terms, from a .msh file or a
-   * model of the gmsh library. Elements are linear: lines, triangles and
-   * quadrilaterals, and in three dimensions tetrahedra and hexahedra. Of
-   * quadratic elements with straight edges the corners are kept. Cells have
+   * Mesh in gmsh's terms (nodes, elements, physical groups), from a .msh file
+   * or a model of the gmsh library. Elements are linear: lines, triangles and
+   * quadrilaterals, and in three dimensions tetrahedra and hexahedra. Quadratic
+   * elements with straight edges are reduced to their corner nodes. Cells have
    * the dimension of the scene, faces one less.
    */
   struct MshData
   {
-    /** gmsh's numbers of the supported element types. */
+    /** Supported element types, with gmsh's numbers. */
     enum Type
     {
       line          = 1,
@@ -58,11 +58,11 @@ namespace geocone::GEOCONE_DIM
     {
       std::uint64_t tag;
       int           type;
-      /** The curve, surface or volume of the element. */
+      /** Number of the curve, surface or volume to which the element belongs. */
       int entity;
-      /** Index into #group_lists. */
+      /** Physical groups of the element, as an index into #group_lists. */
       unsigned int groups;
-      /** Tags of the nodes, followed by zeros. */
+      /** Tags of the nodes of the element, followed by zeros. */
       std::array<std::uint64_t, 8> nodes;
 
       template <class Archive>
@@ -74,7 +74,8 @@ namespace geocone::GEOCONE_DIM
     };
 
     /**
-     * Index of a list of physical groups in #group_lists; new lists are added.
+     * Index of a list of physical groups in #group_lists; a new list is
+     * appended.
      */
     unsigned int
     index_of_groups(const std::vector<int> &groups);
@@ -82,13 +83,13 @@ namespace geocone::GEOCONE_DIM
     std::vector<Node>    nodes;
     std::vector<Element> cells, faces;
 
-    /** Lists of physical groups (numbers > 0) of elements. */
+    /** Distinct lists of physical groups (numbers > 0) of elements. */
     std::vector<std::vector<int>> group_lists = {{}};
 
-    /** The physical groups of faces: curves, or surfaces. */
+    /** Physical groups of boundary faces (curves or surfaces). */
     std::set<int> face_groups;
 
-    /** Names of face groups by number, and those of cell groups. */
+    /** Names of the physical groups of faces and of cells, by group number. */
     std::map<int, std::string> face_names, cell_names;
 
     template <class Archive>
@@ -103,23 +104,23 @@ namespace geocone::GEOCONE_DIM
     std::map<std::vector<int>, unsigned int> index_of_list = {{{}, 0}};
   };
 
-  /** Remedy for a damaged file. */
+  /** Remedy for a damaged .msh file, for error messages. */
   inline const std::string msh_remedy =
     "write it anew, e.g.: gmsh OLD.msh -save -format msh41 -o NEW.msh";
 
-  /** gmsh's words for the faces of cells, and for regions of cells. */
+  /** gmsh's terms for boundary faces and for regions of cells, for messages. */
   const std::string face_word = dim == 2 ? "curve" : "surface";
   const std::string cell_word = dim == 2 ? "surface" : "volume";
 
-  /** Number of corners of an element type of MshData, and its dimension. */
+  /** Number of corner nodes and dimension of an element type of MshData. */
   unsigned int
   n_nodes_of_type(const int type);
   int
   dimension_of_type(const int type);
 
   /**
-   * @throws InputError if elements of gmsh's @p type are not supported; @p what
-   * names the mesh, and @p element, which can be empty, the element
+   * Checks that an element type of gmsh is supported. @throws InputError if it
+   * is not, naming the mesh @p what and, if not empty, @p element
    */
   void
   check_element_type(const int          type,
@@ -127,15 +128,15 @@ namespace geocone::GEOCONE_DIM
                      const std::string &element);
 
   /**
-   * Whether a text begins like a .msh file: with the section MeshFormat,
-   * possibly after comments.
+   * Whether a text begins as a .msh file: with the section MeshFormat, possibly
+   * after comments.
    */
   bool
   begins_as_msh(const std::string &text);
 
   /**
-   * Content of a regular file, possibly binary.
-   * @throws InputError if it is not a regular file, cannot be read, or exceeds
+   * Reads a regular file, possibly binary.
+   * @throws InputError if the file is not regular, cannot be read, or exceeds
    * 512 MB, the size of meshes with five million nodes
    */
   std::string
@@ -143,9 +144,9 @@ namespace geocone::GEOCONE_DIM
 
   /**
    * Parses a .msh file of version 2.2 or 4.1, ASCII or binary in either byte
-   * order. It is data: nothing in it is executed. Memory is bounded by a
-   * multiple of the length of the text, whatever numbers it contains. Sections
-   * without nodes and elements are skipped.
+   * order. The text is data: nothing in it is executed. Memory is bounded by a
+   * multiple of the length of the text, whatever numbers the text contains.
+   * Sections without nodes and elements are skipped.
    * @param what name of the mesh in error messages
    * @throws InputError with the line (of a binary file: the byte) if the text
    * has another version, is damaged or inconsistent, or contains elements other

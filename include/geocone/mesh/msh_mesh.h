@@ -14,11 +14,11 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Mesh of the cells of a .msh file: vertices in the order of their use by the
-   * cells, cells in the order of their surfaces, with the triangles of each
-   * surface first; the edges of physical curves are the sides.
-   * @param contacts between bodies that can have nodes of their own, or null
-   * for none
+   * Mesh of the cells of a .msh file. Vertices are ordered by their first use
+   * in cells; cells by surface, with the triangles of each surface first. Edges
+   * of physical curves form the sides.
+   * @param contacts contacts between bodies whose nodes can be separate, or
+   * null
    * @throws InputError if nodes are missing, not finite, not in the plane
    * z = 0, or too close together for their coordinates; if there are no cells,
    * or some are inverted, overlap, or have hanging nodes

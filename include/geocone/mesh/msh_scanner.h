@@ -18,11 +18,11 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Supported versions, for messages. */
+  /** Supported versions of .msh files, for error messages. */
   inline const std::string msh_versions =
     "gmsh's .msh files of version 2.2 or 4.1, ASCII or binary";
 
-  /** Whether a character separates words. */
+  /** Whether a character is white space between words of a .msh file. */
   inline bool
   is_msh_space(const char c)
   {
@@ -30,7 +30,7 @@ namespace geocone::GEOCONE_DIM
            c == '\f';
   }
 
-  /** Excerpt of a file in printable form. */
+  /** Excerpt of a file in printable characters, for error messages. */
   inline std::string
   shown_part(const std::string &text)
   {
@@ -54,7 +54,8 @@ namespace geocone::GEOCONE_DIM
       , what(what)
     {}
 
-    /** Switches to binary numbers; @p swapped: of the other byte order. */
+    /** Switches to binary numbers; with @p is_swapped, in the opposite byte
+     *  order. */
     void
     set_binary(const bool is_swapped)
     {
@@ -88,7 +89,7 @@ namespace geocone::GEOCONE_DIM
       return position == text.size();
     }
 
-    /** The next word of a text. */
+    /** Reads the next word. */
     std::string
     word(const char *name)
     {
@@ -146,7 +147,7 @@ namespace geocone::GEOCONE_DIM
       position += end.size();
     }
 
-    /** An integer that is text in binary files as well. */
+    /** Reads an integer written as text, also in binary files. */
     template <typename Integer>
     Integer
     integer_in_text(const char   *name,
@@ -163,7 +164,8 @@ namespace geocone::GEOCONE_DIM
       return value;
     }
 
-    /** An integer: int or std::uint64_t, stored as such in binary files. */
+    /** Reads an integer of type int or std::uint64_t, the type stored in binary
+     *  files. */
     template <typename Integer>
     Integer
     integer(const char   *name,
@@ -204,8 +206,8 @@ namespace geocone::GEOCONE_DIM
       return value;
     }
 
-    /** @throws InputError unless @p n items of at least @p size bytes each can
-     *  follow. */
+    /** Checks that the rest of the file can contain @p n items of at least
+     *  @p size bytes each. @throws InputError */
     void
     check_room(const std::uint64_t n,
                const std::uint64_t size,
@@ -232,7 +234,7 @@ namespace geocone::GEOCONE_DIM
                           std::numeric_limits<Integer>::max());
     }
 
-    /** The text between quotation marks in the rest of the line. */
+    /** Reads the text between quotation marks in the rest of the line. */
     std::string
     quoted(const char *name)
     {

@@ -14,11 +14,11 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Tetrahedra of a mesh as plain arrays. */
+  /** Tetrahedral mesh in plain arrays of vertices, cells and facets. */
   struct Tetrahedra
   {
-    /** @param mesh of tetrahedra, or a tensor grid, whose hexahedra become six
-     *  tetrahedra each */
+    /** @param mesh tetrahedral mesh, or a tensor grid; each hexahedron becomes
+     *  six tetrahedra */
     explicit Tetrahedra(const CoarseMesh &mesh);
 
     static constexpr unsigned int none = -1;
@@ -26,13 +26,13 @@ namespace geocone::GEOCONE_DIM
     struct Facet
     {
       std::array<unsigned int, 3> vertices; ///< in increasing order
-      /** The cells of both sides, the second of which may be none. */
+      /** Cells on both sides of the facet; the second is none on the boundary. */
       std::array<unsigned int, 2> cells = {{none, none}};
       int                         side  = -1; ///< boundary id, or -1 inside
     };
 
     std::vector<dealii::Point<dim>>          vertices;
-    std::vector<std::array<unsigned int, 4>> cells; ///< of positive volume
+    std::vector<std::array<unsigned int, 4>> cells; ///< with positive volume
     std::vector<unsigned int>                material;
     std::vector<std::array<unsigned int, 4>>
                        facets_of_cell; ///< facet i is opposite to vertex i
@@ -41,7 +41,8 @@ namespace geocone::GEOCONE_DIM
     std::map<std::string, dealii::types::boundary_id> sides;
 
     /** Boundary facets on which a condition acts.
-     *  @throws InputError if there is none, or if one is partly in its box */
+     *  @throws InputError if there is none, or if one is partly in the box of
+     *  the condition */
     std::vector<unsigned int>
     held_facets(const BoundaryPart &condition) const;
 
@@ -51,18 +52,18 @@ namespace geocone::GEOCONE_DIM
     dealii::Point<dim>
     centre(const unsigned int cell) const;
 
-    /** The gradients of the barycentric coordinates of a cell (1/m). */
+    /** Gradients of the barycentric coordinates of a cell (1/m). */
     std::array<dealii::Tensor<1, dim>, 4>
     gradients(const unsigned int cell) const;
 
     double
     area(const unsigned int facet) const;
 
-    /** Unit normal of a facet out of its first cell. */
+    /** Unit normal of a facet, outward from its first cell. */
     dealii::Tensor<1, dim>
     normal(const unsigned int facet) const;
 
-    /** Index in a cell of a vertex of the mesh that it has. */
+    /** Local index (0 to 3) in a cell of one of its vertices. */
     unsigned int
     index_in_cell(const unsigned int cell, const unsigned int vertex) const;
   };

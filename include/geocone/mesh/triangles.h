@@ -14,7 +14,7 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Triangles of a mesh as plain arrays. */
+  /** Triangular mesh in plain arrays of vertices, cells and edges. */
   struct Triangles
   {
     explicit Triangles(const CoarseMesh &mesh);
@@ -35,7 +35,8 @@ namespace geocone::GEOCONE_DIM
     std::map<std::string, dealii::types::boundary_id> sides;
 
     /** Boundary edges on which a condition acts.
-     *  @throws InputError if there is none, or if one is partly in its box */
+     *  @throws InputError if there is none, or if one is partly in the box of
+     *  the condition */
     struct HeldEdge
     {
       unsigned int edge, cell, opposite_vertex;
@@ -54,7 +55,7 @@ namespace geocone::GEOCONE_DIM
     dealii::Point<dim>
     centre(const unsigned int cell) const;
 
-    /** The gradients of the barycentric coordinates of a cell (1/m). */
+    /** Gradients of the barycentric coordinates of a cell (1/m). */
     std::array<dealii::Tensor<1, dim>, 3>
     gradients(const unsigned int cell) const;
   };
