@@ -12,19 +12,18 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** A part of a fixed boundary side normal to an axis, with soil on one side
-   *  of it. */
+  /** Axis-normal part of a fixed boundary side, with soil on one side of it. */
   struct SoilLimit
   {
     unsigned int             axis;
     double                   level;         ///< coordinate along the axis (m)
-    bool                     soil_is_below; ///< at smaller coordinates
+    bool                     soil_is_below; ///< soil at smaller coordinates
     dealii::BoundingBox<dim> extent;        ///< its thickness is irrelevant
   };
 
   /**
-   * Integration over points that is exact for constant stresses, cell by cell
-   * (variationally consistent integration of first order; Chen, Hillman and
+   * Variationally consistent integration of first order: makes the integration
+   * over points exact for a constant stress in each cell (Chen, Hillman and
    * Rueter, International Journal for Numerical Methods in Engineering 95,
    * 2013). In a cell full of soil, with the fraction |c| of its volume on the
    * soil's side of the limits,
@@ -40,9 +39,9 @@ namespace geocone::GEOCONE_DIM
    * Cells are full if all their neighbours are filled to two fifths (or lie
    * beyond a limit); at a surface, if they are filled to 3 %; and if a limit
    * intersects them. If the soil part of an intersected cell has no points, the
-   * adjacent cell represents it. In other cells w_p = V_p and nothing changes;
-   * points beyond a limit have no weight. @pre the cells are boxes of an
-   * axis-aligned grid. Collective.
+   * adjacent cell represents it. In other cells w_p = V_p and the gradients do
+   * not change; points beyond a limit have no weight. @pre the cells are boxes
+   * of an axis-aligned grid. Collective.
    */
   void
   make_consistent(const BackgroundMesh         &mesh,

@@ -15,12 +15,12 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Initialises the histories of points from their stresses, and collects the
-   *  remarks of the laws. */
+  /** Initialises the history variables of points from their stresses, and
+   *  collects errors and remarks of the constitutive laws. */
   class HistoryStart
   {
   public:
-    /** Calls ConstitutiveLaw::initialise() for a point at @p place. */
+    /** Initialises the history variables of a point at @p place. */
     void
     set(const ConstitutiveLaw         &law,
         const ConstitutiveLaw::Stress &stress,
@@ -42,7 +42,7 @@ namespace geocone::GEOCONE_DIM
         }
     }
 
-    /** Records a rejection; the first one is reported. */
+    /** Stores a reason for rejection; only the first one is reported. */
     void
     refuse(const std::string &why)
     {
@@ -56,7 +56,7 @@ namespace geocone::GEOCONE_DIM
       return !refusal.empty();
     }
 
-    /** @throws Error if a point of any rank was rejected. Collective. */
+    /** Checks that no point of any rank was rejected. Collective. @throws Error */
     template <typename Error>
     void
     check(const MPI_Comm comm) const
@@ -66,8 +66,8 @@ namespace geocone::GEOCONE_DIM
         throw Error(why);
     }
 
-    /** Appends to the remarks the changes made by laws not in closed form.
-     *  Collective. */
+    /** Appends a remark on states that the constitutive laws changed at
+     *  initialisation. Collective. */
     void
     remark(const MPI_Comm comm, std::vector<std::string> &remarks) const
     {

@@ -13,10 +13,10 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Discretised continuum on this rank: contiguous arrays over points that are
-   * sorted by cell, with the shape functions there. It is the incremental
-   * problem's only view of FEM or MPM. Everything here belongs to t_n and is
-   * constant during a step.
+   * Discretised continuum on this rank: contiguous arrays over points sorted by
+   * cell, with the shape functions at the points. The incremental problem uses
+   * only these data of FEM or MPM. All data belong to t_n and are constant
+   * during a step.
    */
   struct MaterialPoints : PointState<PointValues>
   {
@@ -31,47 +31,49 @@ namespace geocone::GEOCONE_DIM
       return first_point.size() - 1;
     }
 
-    /** Nodes per cell. */
+    /** Number of nodes per cell. */
     unsigned int n_nodes = 0;
 
-    /** Cells with points. */
+    /** Cells that contain points. */
     std::vector<dealii::Triangulation<dim>::active_cell_iterator> cells;
 
     /** The points of cell c are first_point[c] ... first_point[c + 1] - 1. */
     std::vector<unsigned int> first_point = {0};
 
-    /** Weight of a point in integrals over the body (m^2; in axisymmetry m^3):
-     *  its volume, unless make_consistent() has changed it. */
+    /** Integration weight of a point (m^2; in axisymmetry m^3): the volume of
+     *  the point, unless changed by make_consistent(). */
     std::vector<double> weight;
 
-    /** Local numbers of the nodes of a cell: n_nodes per cell. */
+    /** Local node numbers of the cells: n_nodes per cell. */
     std::vector<unsigned int> nodes;
 
-    /** grad N at a point: n_nodes values of d/dx, then n_nodes of d/dy (1/m). */
+    /** Gradients of the shape functions N at a point: n_nodes values of dN/dx,
+     *  then n_nodes values of dN/dy (1/m). */
     std::vector<double> gradients;
 
-    /** N/r at a point, for the hoop strain of v_x: n_nodes values (1/m). Empty
-     *  in plane strain. */
+    /** Shape functions divided by the radius, N/r, at a point, for the hoop
+     *  strain due to v_x: n_nodes values (1/m). Empty in plane strain. */
     std::vector<double> hoop;
 
-    /** N at a point: n_nodes values. Empty for fixed points. */
+    /** Shape functions N at a point: n_nodes values. Empty for fixed points. */
     std::vector<double> values;
 
     /**
-     * Gradients for the volumetric strain at a point in place of grad N, in the
-     * layout of gradients (B-bar); in axisymmetry including the hoop strain.
-     * Empty without B-bar.
+     * B-bar gradients, which replace grad N in the volumetric strain at a
+     * point; layout as of gradients. In axisymmetry they include the hoop
+     * strain. Empty without B-bar.
      */
     std::vector<double> volumetric_gradients;
-    /** Number of polynomials per cell that they are projected onto, the same on
-     *  all ranks; 0 without projection. */
+    /** Number of polynomials per cell for the projection of the B-bar
+     *  gradients, the same on all ranks; 0 without projection. */
     unsigned int n_volumetric_modes = 0;
-    /** Values at a point of a basis of these polynomials, with sum_p V_p M_i
-     *  M_j = delta_ij in each cell. M_j is 0 at all points of a cell if they
-     *  cannot distinguish it from those before it. */
+    /** Values at a point of an orthonormal polynomial basis M_i for the B-bar
+     *  projection, with sum_p V_p M_i M_j = delta_ij in each cell. M_j is 0 at
+     *  all points of a cell if it is linearly dependent there on preceding
+     *  basis functions. */
     std::vector<double> volumetric_modes;
 
-    /** History of a point, or null. */
+    /** History variables of a point; null if there are none. */
     const double *
     history_of(const unsigned int point) const
     {
@@ -92,18 +94,18 @@ namespace geocone::GEOCONE_DIM
     }
 
     /** Selects the variables in use: fixed points have neither mass nor
-     *  velocity, nor variables derived from them. */
+     *  velocity, nor variables derived from mass or velocity. */
     void
     use(const bool moving, const unsigned int n_history);
 
-    /** Appends a point with the numbers of a row. */
+    /** Appends a point with the values of a row, in the order of variables(). */
     void
     append(const double *row);
   };
 
-  /** Computes the volumetric gradients: in each cell the volume-weighted
-   *  projection of grad N (in axisymmetry of d/dr + 1/r) onto the polynomials
-   *  of x of a degree, 0 being the mean. Cells without more points than
+  /** Computes the B-bar gradients: in each cell the volume-weighted projection
+   *  of grad N (in axisymmetry of dN/dr + N/r) onto polynomials of x of the
+   *  given degree; degree 0 is the mean. Cells without more points than
    *  polynomials do not change. */
   void
   project_gradients(const unsigned int degree, MaterialPoints &points);

@@ -14,22 +14,23 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Displacements at the positions of "Observation/Points": either of the
-   * field, by the shape functions of the cell at the position, or of the
-   * material point that is initially nearest, followed from then on across all
-   * ranks. All functions are collective.
+   * Displacements at the positions of "Observation/Points": either interpolated
+   * by the shape functions of a cell at a fixed position, or of the initially
+   * nearest material point, tracked across all ranks. All functions are
+   * collective.
    */
   class ObservedPoints
   {
   public:
-    /** Positions in a mesh. @throws InputError for one outside of it */
+    /** Locates the observed positions in a mesh. @throws InputError for a
+     *  position outside of the mesh */
     void
     prepare_field(const Scene          &scene,
                   const BackgroundMesh &mesh,
                   const Space          &space);
 
-    /** Material points. @throws InputError for a position outside of the
-     *  body */
+    /** Selects the nearest material points. @throws InputError for a position
+     *  outside of the body */
     void
     prepare_points(const Scene          &scene,
                    const MaterialPoints &points,
@@ -39,8 +40,8 @@ namespace geocone::GEOCONE_DIM
                    const std::vector<PointArrays> &groups,
                    const MPI_Comm                  comm);
 
-    /** @name Displacements in the order of the positions (m); NaN for a
-     *  material point that has left the mesh */
+    /** @name Displacements in the order of the observed positions (m); NaN for
+     *  a material point that has left the mesh */
     /** @{ */
     std::vector<dealii::Tensor<1, dim>>
     displacements(const MaterialPoints &points,
@@ -49,25 +50,25 @@ namespace geocone::GEOCONE_DIM
     displacements(const std::vector<PointArrays> &groups) const;
     /** @} */
 
-    /** Excess pore pressures of undrained soil (Pa): of the material point of
-     *  the cell nearest to a position in a mesh, or of the material point that
-     *  is followed. */
+    /** Excess pore pressures in undrained soil (Pa): at the material point
+     *  nearest to the observed position within the cell, or at the tracked
+     *  material point. */
     std::vector<double>
     pressures(const MaterialPoints &points) const;
 
   private:
-    /** A position in a cell of this rank. */
+    /** Observed position in a cell of this rank. */
     struct InCell
     {
-      std::vector<unsigned int> nodes; ///< local; empty if not in its cells
+      std::vector<unsigned int> nodes; ///< local; empty if on another rank
       std::vector<double>       values;
       dealii::Point<dim>        position;
 
-      /** Number among all cells of this rank. */
+      /** Index among all cells of this rank. */
       unsigned int cell = dealii::numbers::invalid_unsigned_int;
     };
 
-    /** A candidate for the nearest material point. */
+    /** Candidate for the material point nearest to an observed position. */
     struct Candidate
     {
       dealii::Point<dim> position;
@@ -75,13 +76,13 @@ namespace geocone::GEOCONE_DIM
       unsigned int       id     = 0;
     };
 
-    /** Sets the ids. @param own candidates of this rank, one for each
-     *  position */
+    /** Selects the nearest material points over all ranks. @param own
+     *  candidates of this rank, one for each position */
     void
     choose(const Scene                                 &scene,
            const std::vector<std::optional<Candidate>> &own);
 
-    /** Sums the values over the ranks; NaN if none has one. */
+    /** Sums displacement components over all ranks; NaN if no rank has a value. */
     std::vector<dealii::Tensor<1, dim>>
     gather(std::vector<double> &sums) const;
 

@@ -20,7 +20,7 @@ namespace geocone::GEOCONE_DIM
   struct Seed
   {
     dealii::Point<dim>     position;
-    double                 volume = 0.; ///< per unit thickness (m^2), or (m^3)
+    double                 volume = 0.; ///< per unit thickness (m^2); or m^3
     double                 cell = 0.; ///< BackgroundMesh::size_of its cell (m)
     unsigned int           material = 0;
     dealii::Tensor<1, dim> velocity;
@@ -29,25 +29,25 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * A table of particles, read in parts: a .csv file whose first line contains
-   * the column names, or an .h5 file with one array each: x, y (m), volume
-   * (m^2), and, if given, material (name in .csv, or number from 0), vx and vy
-   * (m/s), sxx and syy and sxy (Pa); in three dimensions also z, vz, szz, syz,
-   * szx, with volumes in m^3. A .csv file can have a byte-order mark, any line
-   * ends, names in double quotes, and blank lines at its end.
+   * File of particles, read in parts: a .csv file whose first line contains the
+   * column names, or an .h5 file with one array per column. Columns are x, y
+   * (m), volume (m^2), and, if given, material (name in .csv, or number from
+   * 0), vx and vy (m/s), sxx and syy and sxy (Pa); in three dimensions also z,
+   * vz, szz, syz, szx, with volumes in m^3. A .csv file can have a byte-order
+   * mark, any line ends, names in double quotes, and blank lines at its end.
    * @throws InputError naming the parameter, the file, the position and the
    * fault; the same on all ranks that read the file
    */
   class ParticleFile
   {
   public:
-    /** The columns, in the order given above. */
+    /** Columns of a particle file. */
     enum Column : unsigned int
     {
-      x, ///< and the other coordinates
+      x, ///< followed by the other coordinates
       volume = x + dim,
       material,
-      vx, ///< and its other components
+      vx, ///< followed by the other components
       sxx       = vx + dim,
       n_columns = sxx + n_mandel
     };
@@ -58,12 +58,12 @@ namespace geocone::GEOCONE_DIM
     bool
     has(const Column column) const;
 
-    /** Reads up to @p n further seeds; none at the end of the file. */
+    /** Reads up to @p n further particles; returns none at the end of the file. */
     std::vector<Seed>
     read(const std::size_t n);
 
-    /** Number of rows of a file, if it exists; for .csv, estimated from its
-     *  first lines. */
+    /** Number of particles in a file, if the file exists; for .csv, estimated
+     *  from its first lines. */
     static double
     expected_number(const std::string &file_name);
 

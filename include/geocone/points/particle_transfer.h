@@ -13,7 +13,7 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * A transfer of velocities from the nodes to the particles:
+   * Rule for the transfer of velocities from the nodes to the particles:
    *   v_p := alpha (v_p + sum_i N_i (v_i - vL_i)) + (1 - alpha) sum_i N_i v_i,
    * and, for affine rules, C of the velocity field v_p + C (x - x_p) by which
    * the particles transfer momentum to the nodes (affine_velocity()).
@@ -26,8 +26,8 @@ namespace geocone::GEOCONE_DIM
 
   /**
    * Transfer of velocities from the nodes to the particles, in implicit and
-   * explicit steps alike: parameters of "Material point method". A new rule is
-   * a line of its list.
+   * explicit steps: parameters of "Material point method". A new rule is an
+   * entry in the list of rules.
    */
   class ParticleTransfer : public dealii::ParameterAcceptor
   {
@@ -41,22 +41,22 @@ namespace geocone::GEOCONE_DIM
       return present().is_affine;
     }
 
-    /** Weight of the FLIP velocity v_p + dv of a particle; the remainder is
-     *  that of the interpolated velocity. */
+    /** Weight alpha of the FLIP velocity v_p + dv of a particle; the
+     *  interpolated (PIC) velocity has the weight 1 - alpha. */
     double
     flip_part() const
     {
       return present().flips ? part : 0.;
     }
 
-    /** Name of the rule in the parameter file. */
+    /** Name of the transfer rule in the parameter file. */
     std::string
     name() const
     {
       return rule.word();
     }
 
-    /** "Material point method/Transfer", for messages. */
+    /** Name of the parameter "Material point method/Transfer", for messages. */
     static const char *const parameter;
 
   private:
@@ -78,7 +78,8 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * C of the affine rules (APIC), by the moments of a particle's nodes,
+   * Velocity gradient C of a particle in affine rules (APIC), from the moments
+   * of its nodes,
    *   B = sum_i N_i v_i r_i',  D = sum_i N_i r_i r_i',  r_i = x_i - x_p:
    * C e = B e/d for the eigenvectors e of D with the eigenvalues d. On a side
    * of the mesh only the functions of the side are non-zero: in its normal
@@ -92,7 +93,8 @@ namespace geocone::GEOCONE_DIM
                   const dealii::Tensor<2, dim> &gradient,
                   const double                  size);
 
-  /** d/size^2 below which a moment is treated as zero in affine_velocity(). */
+  /** Tolerance of d/size^2 below which an eigenvalue d is treated as zero in
+   *  affine_velocity(). */
   constexpr double vanishing_moment = 1e-10;
 } // namespace geocone::GEOCONE_DIM
 

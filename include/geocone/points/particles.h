@@ -21,10 +21,10 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * The particles of the material point method: generates them, finds their
-   * cells, sends them to the ranks that own these, and evaluates the shape
-   * functions at their positions. Their state is in MaterialPoints, sorted by
-   * cell and number.
+   * Particle management of the material point method: generates particles,
+   * locates them in cells, sends them to the ranks that own the cells, and
+   * evaluates the shape functions at the particles. The state of particles is
+   * in MaterialPoints, sorted by cell and particle number.
    */
   class Particles
   {
@@ -43,16 +43,16 @@ namespace geocone::GEOCONE_DIM
             const Space          &space,
             MaterialPoints       &points);
 
-    /** Removes the particles with stays = false. */
+    /** Removes the particles for which @p stays is false. */
     void
     keep(const std::vector<bool> &stays, MaterialPoints &points) const;
 
-    /** Adds the particles of a material that a stage adds. Collective.
-     *  @return their number on all ranks */
+    /** Appends the particles of a material placed in a stage. Collective.
+     *  @return number of appended particles, over all ranks */
     unsigned long
     add(const unsigned int material, MaterialPoints &points);
 
-    /** Discards the waiting particles of a material that was added before the
+    /** Discards the prepared particles of a material that was placed before the
      *  run was resumed. */
     void
     forget(const unsigned int material)
@@ -68,11 +68,11 @@ namespace geocone::GEOCONE_DIM
     sort(MaterialPoints &points);
 
     /**
-     * Prepares the projection of B-bar, before each step: means over cells,
-     * weighted by the points. Collective.
-     * @param consistent make_consistent() first, for splines and without
-     * contact of bodies
-     * @param limits of the soil
+     * Computes the B-bar gradients before each step: volume-weighted projections
+     * within cells. Collective.
+     * @param consistent whether to call make_consistent() first; for splines,
+     * without contact of bodies
+     * @param limits boundary sides that limit the soil, for make_consistent()
      */
     void
     prepare_b_bar(const bool                    consistent,
@@ -87,16 +87,16 @@ namespace geocone::GEOCONE_DIM
       find_cells(points);
     }
 
-    /** @name State for a checkpoint. Collective. */
+    /** @name Checkpoints. Collective. */
     /** @{ */
     void
     save(Archive &archive, const MaterialPoints &points);
 
-    /** Replaces the present particles. */
+    /** Replaces the current particles by those of a checkpoint. */
     void
     load(const Archive &archive, MaterialPoints &points);
 
-    /** Resets the number of lost particles. */
+    /** Resets the number of particles that left the mesh. */
     void
     forget_lost()
     {
@@ -104,29 +104,29 @@ namespace geocone::GEOCONE_DIM
     }
     /** @} */
 
-    /** Updates the search after the mesh has moved, before sort(). */
+    /** Updates the cell search after a motion of the mesh, before sort(). */
     void
     follow_mesh()
     {
       search = std::make_unique<CellSearch>(*mesh);
     }
 
-    /** Number of particles that left the mesh, on all ranks. */
+    /** Number of particles that have left the mesh, over all ranks. */
     unsigned int
     n_lost() const
     {
       return n_lost_all;
     }
 
-    /** Whether particles that leave the mesh are counted instead of ending the
-     *  run. */
+    /** Whether particles may leave the mesh, in which case they are removed and
+     *  counted. */
     bool
     may_leave() const
     {
       return !outflow.is_error();
     }
 
-    /** Source of the particles. */
+    /** Layout of the initial particles. */
     Seeding &
     seeds()
     {
@@ -134,31 +134,32 @@ namespace geocone::GEOCONE_DIM
     }
 
   private:
-    /** Sorts the particles. @return a message on one of the particles that have
-     *  left the mesh, and their number on this rank */
+    /** Locates particles in cells and sorts them. @return a message on one
+     *  particle that has left the mesh, and the number of such particles on
+     *  this rank */
     std::pair<std::string, unsigned int>
     find_cells(MaterialPoints &points) const;
 
-    /** Evaluates the functions and nodes of the points. */
+    /** Evaluates node numbers and shape functions at the points. */
     void
     evaluate(MaterialPoints &points) const;
 
     /**
-     * Unit coordinates of a particle in an element: at least 1e-6 of the cell
-     * inside of it. On the boundary, functions of the adjacent cell would
-     * vanish with a non-zero gradient: being without mass they would be fixed,
-     * and resist a body in free flight.
+     * Moves unit coordinates of a particle to a distance of at least 1e-6 of
+     * the cell size from the cell boundary. On the boundary, shape functions of the
+     * adjacent cell would vanish with a non-zero gradient: their nodes without
+     * mass would be fixed, and resist a body in free flight.
      */
     dealii::Point<dim>
     inside(const dealii::Point<dim> &unit) const;
 
     Seeding seeding;
     Outflow outflow;
-    double  margin = 0.; ///< of inside(); zero for splines
+    double  margin = 0.; ///< used by inside(); zero for splines
 
     std::unique_ptr<CellSearch> search;
 
-    /** Particles of materials that later stages add. */
+    /** Prepared particles of materials placed in later stages, by material. */
     std::map<unsigned int, MaterialPoints> waiting;
 
     const Contacts       *contacts = nullptr;

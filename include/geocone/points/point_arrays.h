@@ -12,8 +12,8 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Points of one material on this rank, laid out for explicit steps: a
-   * contiguous array per number. Arrays are padded to a multiple of
+   * Points of one material on this rank in the layout of explicit steps: one
+   * contiguous array per component. Arrays are padded to a multiple of
    * PointBlock::lanes with copies of the last point without mass and volume, so
    * that kernels need no remainder loops.
    */
@@ -22,9 +22,10 @@ namespace geocone::GEOCONE_DIM
   public:
     /**
      * @param of_material index of the material
-     * @param n_history history variables of its law
+     * @param n_history number of history variables of the law
      * @param affine whether the components of APIC are used
-     * @param in_cells whether a transfer stores the cells of the points here
+     * @param in_cells whether the cells of the points are stored, for the
+     * transfer
      */
     PointArrays(const unsigned int of_material,
                 const unsigned int n_history,
@@ -66,30 +67,30 @@ namespace geocone::GEOCONE_DIM
     void
     set_capacity(const std::size_t n);
 
-    /** Appends a point with all numbers zero; pad() must follow before kernels
-     *  use the arrays. @return its number */
+    /** Appends a point with all values zero; pad() must be called before
+     *  kernels use the arrays. @return index of the point */
     unsigned int
     append();
 
-    /** Appends a point with the numbers of a row. */
+    /** Appends a point with the values of a row, in the order of variables(). */
     void
     append(const double *row)
     {
       set(append(), row);
     }
 
-    /** Pads the arrays, without changes to the points. */
+    /** Pads the arrays with copies of the last point without mass and volume. */
     void
     pad();
 
-    /** Point i becomes the former point order[i]; points not in it are
-     *  removed. */
+    /** Reorders the points: point i becomes the former point order[i]; points
+     *  not listed are removed. */
     void
     reorder(const std::vector<unsigned int> &order);
 
     const unsigned int of_material;
 
-    /** Whether these points are being removed (see Stage). */
+    /** Whether these points are being removed by ramped forces (see Stage). */
     bool ramped = false;
 
   private:

@@ -9,7 +9,7 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Elasticity of a point at t_n. */
+  /** Elastic stiffness at a point at t_n, for its stress and history variables. */
   inline Elasticity
   elasticity_at_start(const Materials      &materials,
                       const MaterialPoints &points,

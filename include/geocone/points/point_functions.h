@@ -16,24 +16,25 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Functions that are not zero at a point of any mesh, and the transfer
-   * between the point and its nodes (P2G, G2P), in implicit and explicit steps
-   * alike; TransferKernels does the same for many points of a Cartesian grid.
-   * Nodal arrays have m values per local node, node by node.
+   * Shape functions that are non-zero at a point of any mesh, with the transfer
+   * between the point and its nodes (P2G, G2P), for implicit and explicit
+   * steps; TransferKernels is the equivalent for many points of a Cartesian
+   * grid. Nodal arrays contain m values per local node, node by node.
    */
   struct PointFunctions
   {
-    unsigned int        n;     ///< number of functions
-    const unsigned int *nodes; ///< local numbers of their nodes
+    unsigned int        n;     ///< number of shape functions
+    const unsigned int *nodes; ///< local node numbers
     const double       *N;
-    /** dN/dx of all functions, dN/dy, ... (1/m). */
+    /** Gradients of all shape functions: dN/dx, dN/dy, ... (1/m). */
     std::array<const double *, dim> slopes;
 
     using Positions = std::vector<dealii::Point<dim>>; ///< of the local nodes
 
-    /** G2P. @param[out] at_point sum N_i f_i of the m values, then, with
-     *  gradients, sum f_i dN_i/dx, sum f_i dN_i/dy, ...
-     *  @tparam stride values per node, at least m */
+    /** Interpolates nodal values to the point (G2P). @param[out] at_point sum
+     *  N_i f_i of the m values, then, with gradients, sum f_i dN_i/dx, sum f_i
+     *  dN_i/dy, ...
+     *  @tparam stride number of values per node, at least m */
     template <unsigned int m, bool with_gradients, unsigned int stride = m>
     void
     gather(const double *at_nodes, double *at_point) const
@@ -52,7 +53,8 @@ namespace geocone::GEOCONE_DIM
         }
     }
 
-    /** P2G, the transpose of gather(): adds to the nodes. */
+    /** Distributes values of the point to the nodes (P2G), the transpose of
+     *  gather(); adds to the nodal values. */
     template <unsigned int m, bool with_gradients, unsigned int stride = m>
     void
     scatter(const double *at_point, double *at_nodes) const
@@ -70,8 +72,8 @@ namespace geocone::GEOCONE_DIM
         }
     }
 
-    /** P2G of the affine momentum of APIC: adds mass N_i C (x_i - x) to the first
-     *  dim of m values. */
+    /** Distributes the affine momentum of APIC to the nodes (P2G): adds mass
+     *  N_i C (x_i - x) to the first dim of m nodal values. */
     template <unsigned int m>
     void
     scatter_affine(const double                  mass,
@@ -88,7 +90,8 @@ namespace geocone::GEOCONE_DIM
         }
     }
 
-    /** G2P of APIC: C of a point at x by the first dim of m values, its velocities.
+    /** Velocity gradient C of APIC at a point x (G2P), from the nodal
+     *  velocities, the first dim of m values.
      *  @param size of the cell (m), as in affine_velocity() */
     template <unsigned int m>
     dealii::Tensor<2, dim>
@@ -112,7 +115,7 @@ namespace geocone::GEOCONE_DIM
       return affine_velocity(B, moment(x, positions), gradient, size);
     }
 
-    /** D = sum_i N_i (x_i - x)(x_i - x)' of APIC (m^2). */
+    /** Moment of the nodes in APIC, D = sum_i N_i (x_i - x)(x_i - x)' (m^2). */
     dealii::Tensor<2, dim>
     moment(const dealii::Point<dim> &x, const Positions &positions) const
     {
@@ -126,7 +129,8 @@ namespace geocone::GEOCONE_DIM
     }
   };
 
-  /** Calls f(p, c, functions) for each point p of each cell c. */
+  /** Calls f(p, c, functions) for each point p of each cell c, with the shape
+   *  functions at p. */
   template <typename Function>
   void
   for_each_point(const MaterialPoints &points, const Function &f)

@@ -14,13 +14,13 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** @throws RunError if the variables of points in a checkpoint differ from
-   *  those of this run, as listed by PointState::variables() */
+  /** Checks that the points of a checkpoint have the variables of this run, as
+   *  listed by PointState::variables(). @throws RunError */
   void
   check_variables(const std::string &written, const std::string &here);
 
-  /** @throws RunError if points are not in their cells, as for a checkpoint of
-   *  another mesh. Collective. */
+  /** Checks that points are in their cells, unlike in a checkpoint of another
+   *  mesh. Collective. @throws RunError */
   void
   check_places(const MaterialPoints &points, const MPI_Comm comm);
 
@@ -28,12 +28,12 @@ namespace geocone::GEOCONE_DIM
   void
   save_points(Archive &archive, const MaterialPoints &points);
 
-  /** Points of a checkpoint, written by any number of ranks. */
+  /** Points read from a checkpoint written by any number of ranks. */
   class PointRecord
   {
   public:
-    /** Reads the points, with the variables in use in @p like. Collective.
-     *  @throws RunError if they do not match */
+    /** Reads the points, with the same variables as @p like. Collective.
+     *  @throws RunError if the variables do not match */
     PointRecord(const Archive &archive, const MaterialPoints &like);
 
     bool
@@ -42,12 +42,13 @@ namespace geocone::GEOCONE_DIM
       return cells->has(cell);
     }
 
-    /** Rows of the points of a cell. @throws RunError for an unknown cell */
+    /** State of the points of a cell, one row per point. @throws RunError for
+     *  an unknown cell */
     std::vector<const double *>
     of(const BackgroundMesh::Cell &cell) const;
 
   private:
-    std::size_t                 size; ///< of the row of a point
+    std::size_t                 size; ///< number of values per point
     std::vector<double>         rows;
     std::unique_ptr<CellRecord> cells;
   };

@@ -18,7 +18,7 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Number of components of a value, and their address. */
+  /** Number and address of the components of a scalar, vector or tensor. */
   template <typename T>
   struct Components
   {
@@ -66,8 +66,9 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Sets point i to the former point order[i], of which there are not more. The
-   * memory of @p values is kept; @p old holds their copy.
+   * Reorders the values of points: point i becomes the former point order[i];
+   * the number of points must not increase. The memory of @p values is reused;
+   * @p old is a work array.
    */
   template <typename T>
   void
@@ -83,7 +84,8 @@ namespace geocone::GEOCONE_DIM
         values[width * i + k] = old[std::size_t(width) * order[i] + k];
   }
 
-  /** A variable of points, with the numbers of a point contiguous. */
+  /** Variable of points in point-wise layout: the components of a point are
+   *  contiguous. */
   template <typename T>
   class PointValues : public std::vector<T>
   {
@@ -91,7 +93,7 @@ namespace geocone::GEOCONE_DIM
     using std::vector<T>::vector;
     using std::vector<T>::operator=;
 
-    /** Values per point; 0 if the variable is not in use. */
+    /** Number of values per point; 0 if the variable is not in use. */
     unsigned int width = 1;
 
     unsigned int
@@ -115,7 +117,8 @@ namespace geocone::GEOCONE_DIM
       this->reserve(width * n);
     }
 
-    /** Copies the numbers of point @p p to or from @p row, and advances it. */
+    /** Copies the components of point @p p to or from @p row, and advances
+     *  @p row. */
     void
     get(const std::size_t p, double *&row) const
     {
@@ -152,8 +155,8 @@ namespace geocone::GEOCONE_DIM
     }
   };
 
-  /** A variable of points, with one array over all points for each number:
-   *  component c of value k at Components<T>::n k + c. */
+  /** Variable of points in component-wise layout: one array over all points per
+   *  component; component c of value k has the index Components<T>::n k + c. */
   template <typename T>
   class PointComponents
   {
@@ -177,7 +180,7 @@ namespace geocone::GEOCONE_DIM
       return arrays[component].data();
     }
 
-    /** Value of point @p p. @pre width = 1 */
+    /** Value of the variable at point @p p. @pre width = 1 */
     T
     of(const std::size_t p) const
     {
@@ -239,30 +242,31 @@ namespace geocone::GEOCONE_DIM
   /**
    * State of points at t_n, for all methods: quadrature points, particles of
    * implicit and of explicit steps. A new variable is declared here and listed
-   * in visit_all(), which serves sorting, sending to other ranks, checkpoints
-   * and stages that move points between sets. A set uses the variables whose
-   * width is not zero.
+   * in visit_all(), which is used to sort points, send them to other ranks,
+   * write checkpoints and move points between sets in a stage. A set uses the
+   * variables whose width is not zero.
    *
-   * Tensors have a layout: PointValues<T> for assembly cell by cell, with
-   * Mandel vectors; PointComponents<T> for kernels on vectors of points, with
-   * the components in the order of tensor_component, without Mandel factors.
-   * Numbers are contiguous in both. Tension positive, SI units.
+   * The layout of tensors is a parameter: PointValues<T> for assembly cell by
+   * cell, with Mandel vectors; PointComponents<T> for kernels on vectors of
+   * points, with the components in the order of tensor_component, without
+   * Mandel factors. Scalars are contiguous in both. Tension positive, SI units.
    */
   template <template <typename> class Layout>
   struct PointState
   {
     Layout<dealii::Point<dim>> position;
 
-    /** Volume of a point, per unit thickness (m^2), or of its ring in
+    /** Volume of a point: per unit thickness (m^2), or of its ring in
      *  axisymmetry (m^3). */
     PointValues<double> volume;
-    PointValues<double> mass; ///< (kg/m)
+    PointValues<double> mass; ///< per unit thickness (kg/m)
 
-    /** Index of the material, if the points of a set have several. */
+    /** Index of the material of a point, if a set of points has several
+     *  materials. */
     PointValues<unsigned int> material;
 
-    /** Stress (Pa), plastic strain, and time integral of the norm of the
-     *  plastic strain rate. */
+    /** Stress (Pa), plastic strain, and cumulative plastic strain (time
+     *  integral of the norm of the plastic strain rate). */
     Layout<Mandel>      stress;
     Layout<Mandel>      plastic_strain;
     PointValues<double> cumulative_plastic_strain;
@@ -270,25 +274,27 @@ namespace geocone::GEOCONE_DIM
     /** Norm of the plastic strain rate over the last step (1/s). */
     PointValues<double> plastic_strain_rate;
 
-    /** History variables of the laws (ConstitutiveLaw::n_history()), the same
-     *  number for each point; laws can use fewer. */
+    /** History variables of the constitutive laws
+     *  (ConstitutiveLaw::n_history()); their number is equal for all points,
+     *  and a law can use fewer. */
     Layout<double> history;
 
     /** @name Particles */
     /** @{ */
     Layout<dealii::Tensor<1, dim>> velocity;
     Layout<dealii::Tensor<1, dim>> displacement; ///< since the last reset
-    Layout<dealii::Point<dim>>     start;  ///< or the origin of displacements
-    Layout<dealii::Tensor<2, dim>> affine; ///< of APIC: dv/dx about it
+    Layout<dealii::Point<dim>>     start;  ///< position at zero displacement
+    Layout<dealii::Tensor<2, dim>> affine; ///< dv/dx of APIC
     PointValues<unsigned int>      id;     ///< unique over all ranks
-    /** 1 + the condition that controls a particle, or 0. */
+    /** Boundary condition that controls a particle: its index plus 1, or 0 for
+     *  none. */
     PointValues<unsigned int> held_by;
-    /** Active cell index, and unit coordinates in the cell. */
+    /** Active cell index of a particle, and unit coordinates in the cell. */
     PointValues<unsigned int>       cell;
     PointValues<dealii::Point<dim>> unit;
     /** @} */
 
-    /** Calls visit(name, variable) for each. */
+    /** Calls visit(name, variable) for each variable. */
     template <typename Visit>
     void
     visit(const Visit &visit)
@@ -307,7 +313,7 @@ namespace geocone::GEOCONE_DIM
       history.width = 0;
     }
 
-    /** Variables in use, with their number of components. */
+    /** List of the variables in use, with the number of components of each. */
     std::string
     variables() const
     {
@@ -320,7 +326,7 @@ namespace geocone::GEOCONE_DIM
       return text;
     }
 
-    /** Uses the same variables as another set. */
+    /** Selects the same variables as another set of points. */
     void
     use_as(const PointState &other)
     {
@@ -333,14 +339,14 @@ namespace geocone::GEOCONE_DIM
         [&](const char *, auto &variable) { variable.width = widths[i++]; });
     }
 
-    /** History variables of a point. */
+    /** Number of history variables of a point. */
     unsigned int
     n_history() const
     {
       return history.width;
     }
 
-    /** Numbers of a point. */
+    /** Number of components of all variables of a point. */
     unsigned int
     n_numbers() const
     {
@@ -350,8 +356,8 @@ namespace geocone::GEOCONE_DIM
       return n;
     }
 
-    /** Copies all numbers of a point, in the order of variables(), to or from a
-     *  row. The first are those of its position. */
+    /** Copies all variables of a point to or from a row, in the order of
+     *  variables(), beginning with the position. */
     void
     get(const std::size_t p, double *row) const
     {
@@ -363,7 +369,7 @@ namespace geocone::GEOCONE_DIM
       visit([&](const char *, auto &variable) { variable.set(p, row); });
     }
 
-    /** Appends a point to a list of rows. */
+    /** Appends the variables of a point to a list of rows. */
     void
     add_row(const std::size_t p, std::vector<double> &rows) const
     {
@@ -385,8 +391,8 @@ namespace geocone::GEOCONE_DIM
       visit([&](const char *, auto &variable) { variable.set_capacity(n); });
     }
 
-    /** Point i becomes the former point order[i]; points not in it are
-     *  removed. */
+    /** Reorders the points: point i becomes the former point order[i]; points
+     *  not listed are removed. */
     void
     reorder(const std::vector<unsigned int> &order)
     {
@@ -394,7 +400,7 @@ namespace geocone::GEOCONE_DIM
         [&](const char *, auto &variable) { variable.reorder(order, buffer); });
     }
 
-    /** Size of the arrays (bytes). */
+    /** Memory of the arrays (bytes). */
     std::size_t
     memory() const
     {
@@ -429,18 +435,18 @@ namespace geocone::GEOCONE_DIM
       visit("unit", state.unit);
     }
 
-    std::vector<double> buffer; ///< of reorder(): kept and shared by all arrays
+    std::vector<double> buffer; ///< work array of reorder(), kept
   };
 
-  /** Owner of points to be removed. */
+  /** Rank number that marks points to be removed, in place of an owner. */
   constexpr unsigned int nobody = dealii::numbers::invalid_unsigned_int;
 
   /**
    * Sends points to the ranks that own them, and removes those without an
    * owner. Points that stay keep their order and precede those that arrive.
-   * Points: a set of points with n_points(), reorder() and append(row).
+   * @p Points is a set of points with n_points(), reorder() and append(row).
    * Collective.
-   * @param owner of each point
+   * @param owner rank that owns each point
    */
   template <typename Points>
   void

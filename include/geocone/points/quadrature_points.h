@@ -14,14 +14,14 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Quadrature rule that is exact for B'DB on affine cells: on triangles of
-   * degree p, exact for polynomials of degree 2p - 2 (1, 3, 7 points); on
-   * quadrilaterals, (p + 1)^2 Gauss points.
+   * Quadrature rule that integrates the stiffness B'DB exactly on affine cells:
+   * on triangles of degree p, exact for polynomials of degree 2p - 2 (1, 3, 7
+   * points); on quadrilaterals, (p + 1)^2 Gauss points.
    */
   dealii::Quadrature<dim>
   stress_quadrature(const Space &space, const BackgroundMesh &mesh);
 
-  /** Geometry and N at the quadrature points of a cell. */
+  /** Positions, weights and shape functions at the quadrature points of a cell. */
   struct CellValues
   {
     CellValues(const Space                   &space,
@@ -36,14 +36,14 @@ namespace geocone::GEOCONE_DIM
     std::vector<dealii::Point<dim>> position;
     std::vector<double>             weight; ///< JxW times measure() (m^2, m^3)
 
-    /** N_i at point q. */
+    /** Shape function N_i at quadrature point q. */
     double
     value(const unsigned int i, const unsigned int q) const
     {
       return reference_value[q * n_nodes + i];
     }
 
-    /** grad N_i at point q (1/m). */
+    /** Gradient of the shape function N_i at quadrature point q (1/m). */
     dealii::Tensor<1, dim>
     gradient(const unsigned int i, const unsigned int q) const;
 
@@ -59,8 +59,8 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Points of the finite element method: the quadrature points of each cell,
-   * which do not move.
+   * Creates the material points of the finite element method: fixed quadrature
+   * points of all cells.
    * @throws InputError if a material has no cell
    */
   MaterialPoints
@@ -68,8 +68,8 @@ namespace geocone::GEOCONE_DIM
                          const BackgroundMesh &mesh,
                          const Space          &space);
 
-  /** Quadrature points of some of the cells, in the order of the mesh, with the
-   *  given state of some of them. */
+  /** Creates the quadrature points of selected cells, in the order of the mesh,
+   *  and copies the known state of some of them. */
   MaterialPoints
   quadrature_points_of(
     const Scene                                             &scene,

@@ -12,31 +12,32 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Redistributes cells over the ranks, so that each has about the same number
-   *  of particles. */
+  /** Load balancing: redistributes cells over the ranks, so that each rank has
+   *  about the same number of particles. */
   class RankBalance : public dealii::ParameterAcceptor
   {
   public:
     RankBalance();
 
-    /** @throws InputError */
+    /** Checks the parameters. @throws InputError */
     void
     prepare() const;
 
-    /** Whether the imbalance exceeds the tolerance. @param n_particles of this
-     *  rank. Collective. */
+    /** Whether the load imbalance (particles per rank) exceeds the tolerance.
+     *  Collective. @param n_particles number of particles on this rank */
     bool
     is_due(const double n_particles, const MPI_Comm comm) const;
 
-    /** Redistributes the cells by their numbers of particles; nodes are
+    /** Redistributes the cells by the number of particles in each; nodes are
      *  renumbered.
-     *  @param n_in_cell on this rank, by active cell index. Collective. */
+     *  @param n_in_cell number of particles per cell on this rank, by active
+     *  cell index. Collective. */
     void
     repartition(std::vector<unsigned int> n_in_cell,
                 BackgroundMesh           &mesh,
                 Space                    &space);
 
-    /** Number of repartitions so far. */
+    /** Number of repartitions since the start. */
     unsigned int
     n_repartitions() const
     {
@@ -44,8 +45,8 @@ namespace geocone::GEOCONE_DIM
     }
 
   private:
-    /** Tolerated imbalance(), and the imbalance that the last repartition could
-     *  not remove, since cells are not divided. */
+    /** Tolerance of the load imbalance, and the imbalance that remained after
+     *  the last repartition, since cells are not divided. */
     double       largest = 1.2, least = 1.;
     unsigned int n = 0;
   };

@@ -25,14 +25,15 @@ namespace geocone::GEOCONE_DIM
    *  - sub-cells: the centres of k x k equal parts of each cell;
    *  - lattice: a square lattice, at half a spacing from the lower left corner
    *    of the box around the body, independent of the mesh;
-   *  - random: uniformly distributed, the same for any number of ranks;
-   *  - file: a table, optionally with more data than position and volume.
+   *  - random: uniformly distributed, independent of the number of ranks;
+   *  - file: a particle file, optionally with data beyond position and volume.
    *
-   * All but files yield the points within the body only.
+   * All layouts except files yield only points within the body.
    *
-   * Seeds are passed on one by one, so that no rank stores those of others, nor
-   * its own twice; callers that need arrays of the right length count first.
-   * The order depends only on the parameters and the cells.
+   * Seeds are passed on one by one, so that no rank stores seeds of other
+   * ranks, nor its own seeds twice; callers that need arrays of the right
+   * length count the seeds first. The order depends only on the parameters and
+   * the cells.
    */
   class Seeding : public dealii::ParameterAcceptor
   {
@@ -43,10 +44,10 @@ namespace geocone::GEOCONE_DIM
     void
     prepare(const Scene &scene);
 
-    /** Receiver of each seed. */
+    /** Function that receives each seed. */
     using Take = std::function<void(const Seed &)>;
 
-    /** @name Seeds in the cells of this rank of a mesh (collective) Those on
+    /** @name Seeds in the cells of this rank of a mesh (collective). Seeds on
      *  cell boundaries belong to the lowest rank. */
     /** @{ */
     void
@@ -82,31 +83,33 @@ namespace geocone::GEOCONE_DIM
           const MPI_Comm       comm) const;
     /** @} */
 
-    /** k of the cell-based layouts, 0 for the others. */
+    /** Number k of points per direction in cell-based layouts, 0 for other
+     *  layouts. */
     unsigned int
     points_per_direction() const;
 
     /**
      * Expected number of seeds on all ranks, in closed form, before a mesh is
-     * created: seeds per cell times the cells in the body, its area over that
-     * of a lattice square, the given number, or the rows of the file. To be
-     * called after prepare(), here and of the scene.
+     * created: seeds per cell times cells in the body, area of the body divided
+     * by the area of a lattice square, the given number, or the rows of the
+     * file. To be called after prepare() of this object and of the scene.
      */
     double
     expected_number(const Scene                    &scene,
                     const BackgroundMesh::Expected &mesh) const;
 
-    /** Parameter that determines the number of seeds; empty: that of the
-     *  cells. */
+    /** Name of the parameter that determines the number of seeds; empty if the
+     *  number of cells determines it. */
     std::string
     size_parameter() const;
 
   private:
-    /** @throws InputError if a lattice or random points would take too long */
+    /** Limits the cost of seeding. @throws InputError if a lattice or random
+     *  points would take too long */
     void
     check_effort(const Geometry &geometry) const;
 
-    /** Requested data of seeds: position and material only, or all. */
+    /** Requested data of seeds: position and material only, or all data. */
     enum class Detail
     {
       material,
@@ -126,17 +129,17 @@ namespace geocone::GEOCONE_DIM
           const Detail                       detail,
           const Take                        &take) const;
 
-    /** Seeds, and the columns given by a file. */
+    /** Block of seeds, and flags of the columns present in a particle file. */
     using Block     = std::vector<Seed>;
     using Given     = std::array<bool, ParticleFile::n_columns>;
     using TakeBlock = std::function<void(Block &, const Given &)>;
 
-    /** Passes the seeds of layouts that are independent of cells, all of them
-     *  in blocks that are the same on all ranks. */
+    /** Generates the seeds of layouts that are independent of cells, in blocks
+     *  that are equal on all ranks. */
     void
     visit_all(const Scene &scene, const TakeBlock &take) const;
 
-    /** Sets the data of a seed that a file has not given, from the scene. */
+    /** Sets the data of a seed that are absent in the file, from the scene. */
     void
     describe(Seed        &seed,
              const Scene &scene,
