@@ -14,16 +14,17 @@
 
 namespace geocone
 {
-  /** Command line of a program. */
+  /** Parsed command line of a program. */
   struct CommandLine
   {
     std::string                file;
-    std::vector<std::string>   files; ///< to check, or several to read
+    std::vector<std::string>
+      files; ///< parameter files to check, or several to run
     std::string                folder;
     std::vector<std::string>   overrides;
     std::string                defaults_file;
-    std::optional<std::string> resumed; ///< folder of the run
-    std::optional<std::string> help; ///< its topic; empty: options and sections
+    std::optional<std::string> resumed; ///< folder of the run to resume
+    std::optional<std::string> help;    ///< topic of --help; empty: overview
     bool                       quiet           = false;
     bool                       dry_run         = false;
     bool                       picture         = false;
@@ -34,12 +35,12 @@ namespace geocone
   };
 
   /**
-   * Reads FILE, --output, --set, --quiet, --dry-run, --picture, --check FILE...,
-   * --force, --run-gmsh-script, --load-library (may_load_libraries()), --resume,
-   * --defaults, --help [TOPIC], --schema and --version.
+   * Parses the options FILE, --output, --set, --quiet, --dry-run, --picture, --check
+   * FILE..., --force, --run-gmsh-script, --load-library (may_load_libraries()),
+   * --resume, --defaults, --help [TOPIC], --schema and --version.
    * @param lacking options that the program does not support
-   * @param many whether the program takes any number of files
-   * @throws InputError on anything else
+   * @param many whether the program accepts any number of parameter files
+   * @throws InputError on any other argument
    */
   CommandLine
   parse_command_line(const int                       argc,
@@ -52,33 +53,33 @@ namespace geocone
   void
   print_version(const std::string &program);
 
-  /** Options of the run requested by a command line. */
+  /** Run options that correspond to a command line and its parameter file. */
   RunOptions
   run_options(const CommandLine &call, const ParameterFile &file);
 
-  /** Request to draw the results of a run. */
+  /** Request to plot the results after a run. */
   struct Drawing
   {
-    std::string folder; ///< of the run; empty: no drawing
+    std::string folder; ///< results to plot; empty: no plot
     bool        quiet      = false;
-    bool        only_model = false; ///< for a dry run
+    bool        only_model = false; ///< model without results (dry run)
   };
 
   /**
-   * Frame of a program: starts and ends MPI, handles signals, prints exceptions of @p
-   * run, and draws at the end. Drawing follows the end of MPI, whose processes must not
-   * be forked.
-   * @param argv its first entry is the program; libraries receive no other
+   * Main function of a program: initialises and finalises MPI, installs the signal
+   * handlers, executes @p run and prints the exceptions that it throws. Results are
+   * plotted after MPI has been finalised, because MPI processes must not be forked.
+   * @param argv arguments of the program; libraries receive only the program name
    * @param run returns the exit code
-   * @return the exit code of the program: that of @p run; 1 after an error; 128 + its
-   * number after a signal
+   * @return the exit code of the program: the exit code of @p run; 1 after an error;
+   * 128 + the signal number after a signal
    */
   int
   run_program(char **argv, const std::function<int(Drawing &)> &run);
 
-  /** Terminates all ranks if the present exception occurred on this rank only.
-   *  Must be called before distributed objects are destroyed, which waits for
-   *  all ranks. */
+  /** Terminates all ranks if the exception being handled was thrown on this rank
+   *  only. Must be called before distributed objects are destroyed, because their
+   *  destructors wait for all ranks. */
   void
   end_if_alone();
 } // namespace geocone

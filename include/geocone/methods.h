@@ -13,16 +13,16 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Runs of all methods available in this dimension, so that a file may contain the
-   *  parameters of all of them. */
+  /** All numerical methods available in this space dimension. All are created, so that
+   *  a parameter file may contain the parameters of every method. */
   class Methods
   {
   public:
     Methods(const ParameterFile &file, Log &log);
     ~Methods();
 
-    /** The method selected by the parameter file, which has been parsed. @throws
-     *  InputError */
+    /** Simulation by the method that the parameter file selects. To be called after
+     *  ParameterFile::parse(). @throws InputError */
     Simulation &
     chosen();
 

@@ -11,16 +11,16 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Performs everything that the program's arguments request, for scenes of the
-   *  build's dimension.
+  /** Executes the program with its command-line arguments, for scenes of this space
+   *  dimension.
    *  @return the exit code */
   int
   run_geocone(int argc, char **argv);
 
   /**
-   * Checks a parameter file of this dimension as --dry-run does.
-   * @param call its other options
-   * @throws InputError if it is wrong
+   * Checks a parameter file for this space dimension, as the option --dry-run does.
+   * @param call command line with the other options
+   * @throws InputError if the file is invalid
    */
   void
   check_file(const std::string &file, const CommandLine &call);
