@@ -17,27 +17,28 @@
 namespace geocone
 {
   /**
-   * State of a run as a file of named arrays (HDF5), independent of the number
-   * of ranks. The first rank holds it in memory and writes it in one piece,
-   * with a checksum over all arrays, so that a damaged file is detected before
-   * any of it is used. Without a file it transfers state between the ranks of a
-   * run: each of them then holds all data written. All functions are
-   * collective.
+   * Checkpoint of a run as named arrays in an HDF5 file, independent of the
+   * number of ranks. The first rank buffers the file in memory and writes it in
+   * one piece, with a checksum over all arrays, so that a damaged file is
+   * detected before any array is used. An archive without a file transfers
+   * state between the ranks of a run: each rank then stores all data written.
+   * All functions are collective.
    */
   class Archive
   {
   public:
-    /** A new archive, with the digest of the run that it belongs to. */
+    /** A new archive for writing; @p run is the digest of the run. */
     Archive(const MPI_Comm     comm,
             const std::string &file_name,
             const std::string &run);
 
-    /** A new archive without a file, read by the ranks that write it. */
+    /** A new archive without a file, for reading by the ranks that wrote it. */
     explicit Archive(const MPI_Comm comm);
 
     /**
-     * @return an archive to be read, or null
-     * @param why_not is set to the reason why the file cannot be read
+     * Opens an archive for reading.
+     * @param why_not set to the reason why the file cannot be read
+     * @return the archive, or null if the file cannot be read
      */
     static std::unique_ptr<Archive>
     open(const MPI_Comm     comm,
@@ -45,7 +46,7 @@ namespace geocone
          const std::string &run,
          std::string       &why_not);
 
-    /** Writes the concatenated arrays of all ranks. */
+    /** Writes the arrays of all ranks, concatenated in the order of ranks. */
     void
     write(const std::string &name, const std::vector<double> &of_this_rank);
 
@@ -53,20 +54,20 @@ namespace geocone
     void
     write_row(const std::string &name, const StateRow &row);
 
-    /** Writes the file. @throws RunError, on all ranks */
+    /** Writes the file to disk. @throws RunError on all ranks */
     void
     close();
 
     bool
     has(const std::string &name) const;
 
-    /** The concatenated array of all ranks, on each of them. */
+    /** Array concatenated over all ranks, returned on every rank. */
     std::vector<double>
     read(const std::string &name) const;
 
-    /** The entries that this rank has written. If the number of ranks has
-     *  changed, an equal share of the array instead, in complete records of
-     *  @p size numbers. */
+    /** Entries of an array that this rank has written. If the number of ranks
+     *  has changed, an equal share of the array instead, in complete records of
+     *  @p size numbers each. */
     std::vector<double>
     read_part(const std::string &name, const std::size_t size) const;
 
@@ -88,10 +89,10 @@ namespace geocone
     std::string       names;
     unsigned long     checksum = 0;
 
-    /** File of the first rank or, while reading, of all ranks. */
+    /** HDF5 file, open on the first rank; for reading, on all ranks. */
     std::unique_ptr<Hdf5File> file;
 
-    /** The arrays of an archive without a file. */
+    /** Arrays by their names, if the archive has no file. */
     std::map<std::string, std::vector<double>> arrays;
   };
 } // namespace geocone

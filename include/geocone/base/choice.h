@@ -13,9 +13,9 @@
 namespace geocone
 {
   /**
-   * A parameter with a list of admissible words, each of which represents a
-   * value of an enumeration or a pointer. The list of words begins the
-   * documentation of the parameter; any other word is rejected.
+   * Parameter with a list of admissible words (selection), each of which
+   * represents a value of an enumeration or a pointer. The list of words begins
+   * the documentation of the parameter; any other word is rejected.
    */
   template <typename Enum>
   class Choice
@@ -23,7 +23,8 @@ namespace geocone
   public:
     using Words = std::vector<std::pair<const char *, Enum>>;
 
-    /** @param words the first one is the default */
+    /** @param words admissible words with their values; the first is the
+     *  default */
     Choice(const Words &words)
       : words(words)
       , value(words.front().second)
@@ -47,7 +48,7 @@ namespace geocone
       return *this;
     }
 
-    /** Sets the value by its word. */
+    /** Sets the value that corresponds to the word @p given. */
     void
     set(const std::string &given)
     {
@@ -56,7 +57,7 @@ namespace geocone
           value = meant;
     }
 
-    /** Word of the present value in the parameter file. */
+    /** Word that represents the present value in the parameter file. */
     std::string
     word() const
     {
@@ -66,7 +67,7 @@ namespace geocone
       return "";
     }
 
-    /** Declares the parameter in the section of an acceptor. */
+    /** Declares the parameter in the section of a ParameterAcceptor. */
     void
     declare(dealii::ParameterAcceptor &acceptor,
             const std::string         &entry,

@@ -10,7 +10,7 @@
 
 namespace geocone
 {
-  /** The part of a convex polygon in the half-plane (x - on) into >= 0. */
+  /** Convex polygon clipped to the half-plane (x - on) . into >= 0. */
   template <int n>
   std::vector<dealii::Point<n>>
   clipped(const std::vector<dealii::Point<n>> &polygon,

@@ -11,15 +11,15 @@
 namespace geocone
 {
   /**
-   * Row-by-row reader of a .csv file whose first line contains the column
-   * names. Byte-order marks, CR LF line ends, quoted values, spaces around
-   * values and blank lines at the end are accepted. Errors are RunErrors that
-   * name the line.
+   * Row-by-row reader of a file of comma-separated values whose first line
+   * contains the column names. Byte-order marks, CR LF line ends, quoted
+   * values, spaces around values and blank lines at the end are accepted.
+   * @throws RunError with the number of the faulty line
    */
   class CsvReader
   {
   public:
-    /** Reads the names of the columns. */
+    /** Opens the file and reads the column names. */
     explicit CsvReader(const std::string &file);
 
     const std::vector<std::string> &
@@ -28,19 +28,20 @@ namespace geocone
       return columns;
     }
 
-    /** @return whether there is another row, with as many values as columns */
+    /** Reads the next row. @return false at the end of the file
+     *  @throws RunError if the row does not have one value per column */
     bool
     next_row(std::vector<std::string> &values);
 
-    /** Value of a column as a number. @param otherwise error text for
-     *  non-numbers */
+    /** Numeric value of one column of a row. @param otherwise error text if
+     *  the value is not a number */
     double
     number(const std::vector<std::string> &values,
            const std::size_t               column,
            const char                     *otherwise = "is not a number") const;
 
-    /** @name Position of the last line, for messages: "line 3", "line 3, column
-     *  'x'" */
+    /** @name Position of the last line read, for error messages: "line 3",
+     *  "line 3, column 'x'" */
     /** @{ */
     std::string
     place() const;

@@ -12,8 +12,8 @@
 
 namespace geocone
 {
-  /** A section of the parameters that objects have declared to
-   *  dealii::ParameterAcceptor, and that a file can set. */
+  /** Section of the tree of declared parameters (dealii::ParameterAcceptor),
+   *  with its entries and subsections. */
   struct Declared
   {
     struct Entry
@@ -38,11 +38,11 @@ namespace geocone
     }
   };
 
-  /** All declared parameters, with their present values. */
+  /** Tree of all declared parameters, with their present values. */
   Declared
   all_declared();
 
-  /** Lines of a parameter file that set all values of a section. */
+  /** Section in the syntax of a parameter file, with all its values. */
   std::string
   as_text(const std::string &name,
           const Declared    &section,
@@ -59,21 +59,22 @@ namespace geocone
     return all;
   }
 
-  /** Lower and upper bound in a pattern like "[Double 0...1 (inclusive)]". */
+  /** Lower and upper bounds stated by a deal.II pattern such as "[Double
+   *  0...1 (inclusive)]". */
   std::pair<std::optional<std::string>, std::optional<std::string>>
   bounds_of(const std::string &pattern);
 
-  /** Values that a pattern of the library allows, in words. */
+  /** Values that a deal.II pattern allows, in words. */
   std::string
   allowed_by(const std::string &pattern);
 
-  /** SECTION/SUBSECTION/NAME. */
+  /** Full path of a parameter: SECTION/SUBSECTION/NAME. */
   std::string
   joined(const std::vector<std::string> &sections, const std::string &name);
 
   /**
    * Sets the value of a declared parameter.
-   * @param place where it is set, for messages
+   * @param place file and line that set the value, for error messages
    * @throws InputError if the value is not admissible, with the admissible
    * values
    */

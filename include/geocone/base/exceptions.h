@@ -11,8 +11,8 @@
 
 namespace geocone
 {
-  /** External text in printable form: control characters as \xNN, at most 200
-   *  of its bytes. */
+  /** Text from outside the program in printable form: control characters as
+   *  \xNN, cut after 200 bytes. */
   inline std::string
   printable(const std::string &text)
   {
@@ -27,7 +27,7 @@ namespace geocone
     return text.size() > 200 ? shown + "..." : shown;
   }
 
-  /** Message of an exception; for `bad_alloc`, with a remedy. */
+  /** Message of an exception; for `std::bad_alloc`, with a remedy. */
   inline std::string
   text_of(const std::exception &error)
   {
@@ -38,9 +38,10 @@ namespace geocone
   }
 
   /**
-   * Invalid input, detected before anything is computed or written. The text
-   * names the parameter (with its sections), the value, the admissible values
-   * and the remedy. The programs print it and exit with code 1.
+   * Exception for invalid input, thrown before anything is computed or written.
+   * The text states the parameter (with its sections), the value, the
+   * admissible values and the remedy. The programs print the text and exit with
+   * code 1.
    */
   class InputError : public std::runtime_error
   {
@@ -76,9 +77,9 @@ namespace geocone
   };
 
   /**
-   * A computation that cannot continue, e.g. because steps fail at the smallest
-   * step size, a file cannot be written or a value is not a number. Results
-   * written before are kept.
+   * Exception for a computation that cannot continue, e.g. because a step fails
+   * at the smallest step size, a file cannot be written or a value is not a
+   * number. Results written before the error are kept.
    */
   class RunError : public std::runtime_error
   {
@@ -86,8 +87,8 @@ namespace geocone
     using std::runtime_error::runtime_error;
   };
 
-  /** A RunError detected by all ranks together, so that they terminate
-   *  together. */
+  /** RunError that all ranks detect at the same point of the program, so that
+   *  all ranks terminate normally. */
   class StepFailure : public RunError
   {
   public:

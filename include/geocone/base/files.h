@@ -15,27 +15,28 @@
 
 namespace geocone
 {
-  /** Name of the list of files that a run has written into its folder. */
+  /** File name of the list of files that a run has written to its folder. */
   constexpr const char *list_of_files = "files.txt";
 
   /**
-   * Sets the folder of the run. From then on each file that the functions below
-   * create in it is first entered in its list (list_of_files), one name per
-   * line. A later run may delete the files in that list, and no others.
+   * Sets the folder of the run and starts its list of files (list_of_files).
+   * Each file that the functions below create in the folder is first entered in
+   * the list, one name per line. A later run may delete the listed files only.
    */
   void
   keep_list_of_files(const std::string &folder);
 
   /**
-   * Enters a file of the run's folder in the list; ignores other files.
-   * @return whether it was in the list before
+   * Enters a file of the run's folder in the list of files; ignores files of
+   * other folders.
+   * @return whether the file was listed before
    * @throws RunError for a symbolic link, or an existing file that is not in
    * the list
    */
   bool
   enter_in_list(const std::string &file_name);
 
-  /** Whether a file of the run's folder is in the list. */
+  /** Whether a file of the run's folder is in the list of files. */
   bool
   is_in_list(const std::string &name);
 
@@ -48,44 +49,46 @@ namespace geocone
    * Writes a file atomically: under a temporary name, renamed when it is
    * complete, so that readers never see an incomplete file. Symbolic links are
    * not followed.
-   * @param is_durable whether it must survive a power failure: its content is
-   * on disk before it is renamed, and its name before this function returns
-   * @throws RunError with the file and the cause if it cannot be written
+   * @param is_durable whether the file must survive a power failure: its
+   * content is on disk before it is renamed, and its name before this function
+   * returns
+   * @throws RunError with the file and the cause if the file cannot be written
    */
   void
   write_file(const std::string                         &file_name,
              const std::function<void(std::ostream &)> &write,
              const bool                                 is_durable = false);
 
-  /** Text for the cause @p error (errno; 0: unknown) of a write error, with the
-   *  remedy. */
+  /** Error text for a failed write, with cause and remedy. @param error value
+   *  of errno; 0: unknown */
   std::string
   cause_and_remedy(const int error);
 
   /**
-   * A table of comma-separated values that grows line by line; each line is on
-   * disk when add_line() returns. Column names carry their unit; those with a
-   * comma, a quote or a line break are quoted (RFC 4180).
+   * Table of comma-separated values, written line by line (CSV file). Each line
+   * is on disk when add_line() returns. Column names include the unit; names
+   * with a comma, a quote or a line break are quoted (RFC 4180).
    */
   class CsvFile
   {
   public:
     CsvFile() = default;
-    /** Opens the table. With @p goes_on it continues the table of an earlier
+    /** Opens the table. If @p goes_on, continues the table of an earlier
      *  process with the same columns, from the position restored by state(). */
     void
     open(const std::string              &file_name,
          const std::vector<std::string> &columns,
          const bool                      goes_on = false);
 
-    /** End of the table, for checkpoints. Writing synchronises the table to
-     *  disk first; reading truncates it to the stored length.
-     *  @throws RunError if the table is shorter */
+    /** Writes or reads the length of the table, for checkpoints. Before
+     *  writing, the table is synchronised to disk; after reading, it is
+     *  truncated to the stored length. @throws RunError if the table is
+     *  shorter */
     void
     state(StateRow &row);
 
-    /** @throws RunError if the line cannot be written; a partly written line is
-     *  removed. */
+    /** Appends a line of values.
+     *  @throws RunError if it cannot be written; a partial line is removed */
     void
     add_line(const std::vector<double> &values);
 
@@ -96,12 +99,12 @@ namespace geocone
     std::string    name;
     std::ofstream  file;
     std::size_t    n_columns = 0;
-    std::uintmax_t size      = 0; ///< of the complete lines (bytes)
+    std::uintmax_t size      = 0; ///< size of the complete lines (bytes)
   };
 
   /**
-   * Path of a file given relative to the folder of the parameter file or,
-   * failing that, to the working directory.
+   * Path of an existing input file, which is searched for in the folder of the
+   * parameter file and then in the working directory.
    * @throws InputError if the file does not exist
    */
   std::string

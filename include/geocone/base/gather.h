@@ -13,8 +13,9 @@
 namespace geocone
 {
   /**
-   * Concatenates the arrays of all ranks on the first one; empty on the others.
-   * Collective. Only the first rank stores more than its own part.
+   * Concatenates the arrays of all ranks on the first rank; returns an empty
+   * array on the others. Collective. Only the first rank stores more than its
+   * own part.
    */
   template <typename T>
   std::vector<T>

@@ -11,17 +11,17 @@
 namespace geocone
 {
   /**
-   * An HDF5 file of named arrays, of a single process.
+   * HDF5 file of named arrays, accessed by a single process.
    *
-   * A new file is built in memory and written in one piece by close()
-   * (write_file()): the library could not close a file on a full disk. This
-   * needs twice the size of the file.
+   * A new file is built in memory and written in one piece by close(), because
+   * the HDF5 library could not close a file on a full disk. This requires
+   * memory of twice the size of the file.
    *
    * Files to be read are not trusted. Arrays are read only if they are stored
    * in the file itself, without filters that the library would have to load,
    * and are no larger than the file and the memory allow.
    *
-   * @throws RunError with the file if it cannot be written, or with its fault
+   * @throws RunError with the file name if it cannot be written or is invalid
    */
   class Hdf5File
   {
@@ -38,7 +38,7 @@ namespace geocone
     Hdf5File &
     operator=(const Hdf5File &) = delete;
 
-    /** @name One-dimensional arrays, compressed */
+    /** @name Writing of compressed one-dimensional arrays */
     /** @{ */
     void
     write(const std::string &name, const std::vector<double> &values);
@@ -56,7 +56,7 @@ namespace geocone
     void
     write_plain(const std::string &name, const std::vector<double> &values);
 
-    /** @name Tables in row-major order, uncompressed */
+    /** @name Writing of uncompressed tables in row-major order */
     /** @{ */
     void
     write_table(const std::string         &name,
@@ -68,7 +68,8 @@ namespace geocone
                 const unsigned int               n_columns);
     /** @} */
 
-    /** Rows of a table in another file of the same folder. */
+    /** Table in another file of the same folder, as a part of a joined
+     *  array. */
     struct Part
     {
       std::string file, name;
@@ -76,10 +77,10 @@ namespace geocone
     };
 
     /**
-     * Joins the rows of tables in other files to one array, part after part.
-     * The array refers to them only (an HDF5 virtual dataset). It has
-     * @p n_columns columns (0 in those that a part does not have) or, for
-     * @p n_columns = 0, is one-dimensional, with the rows concatenated.
+     * Writes an HDF5 virtual dataset that joins the rows of tables in other
+     * files, part after part. The dataset has @p n_columns columns (0 in
+     * columns missing in a part) or, for @p n_columns = 0, is one-dimensional,
+     * with the rows concatenated.
      * @tparam T number type of readers: double or long long
      */
     template <typename T>
@@ -89,7 +90,7 @@ namespace geocone
                  const unsigned int       n_columns_of_parts,
                  const unsigned int       n_columns);
 
-    /** @name Attributes of a group, created if it does not exist */
+    /** @name Writing of attributes of a group, which is created if missing */
     /** @{ */
     void
     write_attribute(const std::string            &group,
@@ -101,11 +102,12 @@ namespace geocone
                     const std::string &text);
     /** @} */
 
-    /** Writes and closes a file that was created. */
+    /** Writes a new file to disk and closes it. @param is_durable see
+     *  write_file() */
     void
     close(const bool is_durable = false);
 
-    /** Whether an object of this name exists. */
+    /** Whether the file contains an object of this name. */
     bool
     has(const std::string &name) const;
 
@@ -113,7 +115,7 @@ namespace geocone
     std::size_t
     length(const std::string &name) const;
 
-    /** @name One-dimensional arrays */
+    /** @name Reading of one-dimensional arrays */
     /** @{ */
     std::vector<double>
     read_doubles(const std::string &name) const;
@@ -135,7 +137,7 @@ namespace geocone
                 const std::size_t  n,
                 const std::size_t  n_columns,
                 const bool         compressed = true);
-    /** Creates an array, with all groups on its path. */
+    /** Creates an array and all groups on its path. @return HDF5 identifier */
     long long
     create_array(const std::string &name,
                  const long long    type,
@@ -152,8 +154,9 @@ namespace geocone
     std::vector<T>
     read_array(const std::string &name) const;
 
-    /** Opens an array after the checks above; @p size: number of its
-     *  entries. */
+    /** Opens an array to read, if it is safe to read (see the class).
+     *  @param[out] size number of entries
+     *  @return HDF5 identifier */
     long long
     open_array(const std::string &name,
                const bool         of_integers,
@@ -164,8 +167,8 @@ namespace geocone
 
     const std::string file_name;
     const bool        creates;
-    std::size_t       file_size = 0;  ///< of a file to be read (bytes)
-    long long         id        = -1; ///< of the HDF5 library, < 0 if closed
+    std::size_t       file_size = 0;  ///< size of the file to read (bytes)
+    long long         id        = -1; ///< HDF5 identifier; < 0: closed
   };
 } // namespace geocone
 

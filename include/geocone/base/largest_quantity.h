@@ -6,8 +6,8 @@
 
 namespace geocone
 {
-  /** Largest magnitude of an input quantity in SI units; its square is still
-   *  finite. */
+  /** Largest admissible magnitude of an input quantity (SI units), chosen so
+   *  that the square of a quantity is finite. */
   constexpr double largest_quantity = 1e30;
 } // namespace geocone
 

@@ -11,11 +11,11 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Index, or number of entries, along each direction of a grid; the first
-   *  direction runs fastest. */
+  /** Multi-index of a structured grid, or its number of entries in each
+   *  direction; the first direction varies fastest. */
   using GridIndex = std::array<unsigned int, dim>;
 
-  /** The same number of entries along each direction. */
+  /** Grid sizes with the same number of entries in each direction. */
   inline GridIndex
   equal_sizes(const unsigned int n)
   {
@@ -24,7 +24,7 @@ namespace geocone::GEOCONE_DIM
     return sizes;
   }
 
-  /** Grid index of a lexicographic number, for given grid sizes. */
+  /** Grid multi-index of a lexicographic number, for given grid sizes. */
   inline GridIndex
   index_in_grid(std::size_t number, const GridIndex &sizes)
   {
@@ -37,7 +37,7 @@ namespace geocone::GEOCONE_DIM
     return index;
   }
 
-  /** Lexicographic number of a grid index, the inverse of index_in_grid(). */
+  /** Lexicographic number of a grid multi-index; inverse of index_in_grid(). */
   inline std::size_t
   number_in_grid(const GridIndex &index, const GridIndex &sizes)
   {
@@ -47,7 +47,7 @@ namespace geocone::GEOCONE_DIM
     return number;
   }
 
-  /** Number of entries of a grid of given sizes. */
+  /** Total number of entries of a grid of given sizes. */
   inline std::size_t
   grid_volume(const GridIndex &sizes)
   {

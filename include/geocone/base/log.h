@@ -14,9 +14,9 @@
 namespace geocone
 {
   /**
-   * Messages of a run: on the screen (unless quiet) and in the file log.txt of
-   * its folder, from rank 0 only. On a terminal, progress is one line that is
-   * overwritten; elsewhere, plain lines.
+   * Log of a run: prints messages on the screen (unless quiet) and to the file
+   * log.txt in the folder of the run, from rank 0 only. On a terminal, progress
+   * is shown in one line that is overwritten; elsewhere, in plain lines.
    */
   class Log
   {
@@ -24,12 +24,13 @@ namespace geocone
     Log(const MPI_Comm comm, const bool quiet);
     ~Log();
 
-    /** Starts to copy all messages, including earlier ones, to @p file_name;
-     *  appends to it if @p goes_on. */
+    /** Copies all messages, including earlier ones, to the file @p file_name;
+     *  appends to the file if @p goes_on. */
     void
     open(const std::string &file_name, const bool goes_on = false);
 
-    /** Includes the warnings of an earlier process of the same run. */
+    /** Inserts the warnings of an earlier process of the same run (resumed
+     *  run). */
     void
     add_earlier_warnings(const std::vector<std::string> &earlier)
     {
@@ -40,18 +41,18 @@ namespace geocone
     void
     print(const std::string &text);
 
-    /** Prints a warning, in quiet runs on the error stream. */
+    /** Prints a warning; in quiet runs, on the error stream. */
     void
     warn(const std::string &text);
 
-    /** All warnings so far. */
+    /** All warnings printed so far, including those of earlier processes. */
     const std::vector<std::string> &
     warnings() const
     {
       return all_warnings;
     }
 
-    /** Prints a line of progress, which the next one overwrites on a
+    /** Prints a progress line, which the next progress line overwrites on a
      *  terminal. */
     void
     progress(const std::string &text);
@@ -70,12 +71,12 @@ namespace geocone
     std::ofstream      file;
   };
 
-  /** printf-like formatting into a string. */
+  /** String formatted as by printf(). */
   std::string
   format(const char *pattern, ...) __attribute__((format(printf, 1, 2)));
 
-  /** Text of the lowest rank whose text is not empty; otherwise empty.
-   *  Collective. */
+  /** First non-empty text in the order of ranks, returned on all ranks; empty
+   *  if there is none. Collective. */
   std::string
   text_of_any_rank(const MPI_Comm comm, const std::string &text);
 } // namespace geocone

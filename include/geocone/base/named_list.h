@@ -16,14 +16,14 @@
 namespace geocone
 {
   /**
-   * Named members of a section, "SECTION/Names = a, b". Each declares a
-   * subsection of its own name.
+   * List of named objects of a section, "SECTION/Names = a, b". Each object
+   * declares a subsection of its own name.
    */
   template <typename Member>
   class NamedList : public dealii::ParameterAcceptor
   {
   public:
-    /** Members in the order of their names in the file. */
+    /** Members in the order of their names in the parameter file. */
     std::vector<std::unique_ptr<Member>> list;
 
     const std::vector<std::string> &
@@ -32,7 +32,7 @@ namespace geocone
       return all_names;
     }
 
-    /** Prepares all members. */
+    /** Calls prepare() of all members. */
     void
     prepare()
     {
@@ -40,8 +40,9 @@ namespace geocone
         member->prepare();
     }
 
-    /** @throws InputError if the list is not empty. @param what does not
-     *  support it */
+    /** Rejects a non-empty list.
+     *  @param what method or option that does not support the list
+     *  @throws InputError if the list is not empty */
     void
     refuse(const std::string &what, const std::string &remedy) const
     {
@@ -53,8 +54,8 @@ namespace geocone
     }
 
   protected:
-    /** Declares the list @p entry.
-     *  @param otherwise the names if the file has no list */
+    /** Declares the parameter @p entry that lists the names.
+     *  @param otherwise default list of names */
     NamedList(const ParameterFile &file,
               const std::string   &section,
               const std::string   &documentation,
@@ -67,7 +68,7 @@ namespace geocone
       add_parameter(entry, all_names, documentation);
     }
 
-    /** Creates the members, each from its name and @p arguments. */
+    /** Constructs each member from its name and @p arguments. */
     template <typename... Arguments>
     void
     make(const Arguments &...arguments)
@@ -76,7 +77,9 @@ namespace geocone
         list.push_back(std::make_unique<Member>(name, arguments...));
     }
 
-    /** @throws InputError if the list is empty. @param example of a name */
+    /** Rejects an empty list.
+     *  @param example name suggested in the error message
+     *  @throws InputError if the list is empty */
     void
     require_one(const std::string &example) const
     {
@@ -87,7 +90,7 @@ namespace geocone
                          "set " + entry + " = " + example);
     }
 
-    /** Full parameter name of the list. */
+    /** Full path of the parameter that lists the names. */
     std::string
     parameter() const
     {

@@ -10,7 +10,7 @@
 
 namespace geocone
 {
-  /** Number that the complete text represents; no value for any other text. */
+  /** Number represented by a text; no value if the text is not a number. */
   inline std::optional<double>
   number_in(const std::string &text)
   {

@@ -15,8 +15,9 @@
 
 namespace geocone
 {
-  /** Sums an array (std::array, std::vector, an Eigen matrix), of the same size
-   *  on all ranks, over the ranks, in place. Collective. */
+  /** Sums an array over all ranks, in place. The array (std::array,
+   *  std::vector, Eigen matrix) must have the same size on all ranks.
+   *  Collective. */
   template <typename Array>
   void
   sum_over_ranks(Array &x, const MPI_Comm comm)
@@ -29,7 +30,8 @@ namespace geocone
         dealii::ArrayView<Number>(x.data(), x.size()));
   }
 
-  /** Load imbalance: maximum over mean, 1 if there is no load. Collective. */
+  /** Load imbalance: maximum load of a rank over the mean; 1 if there is no
+   *  load. Collective. */
   inline double
   imbalance(const double of_this_rank, const MPI_Comm comm)
   {
@@ -40,8 +42,9 @@ namespace geocone
              : 1.;
   }
 
-  /** Sums the variables in state() of all members of a list over the ranks, in
-   *  place. Their number must be equal on all ranks. Collective. */
+  /** Sums the state variables of all members of a list over all ranks, in
+   *  place. State variables are listed by state(); their number must be equal
+   *  on all ranks. Collective. */
   template <typename Class>
   void
   sum_states_over_ranks(std::vector<Class> &list, const MPI_Comm comm)

@@ -15,14 +15,14 @@
 namespace geocone
 {
   /**
-   * Text of a parameter file, with its `include` lines expanded (relative to
-   * the file that contains them) and the overrides of the command line
-   * appended.
+   * Text of a parameter file, with its `include` lines expanded and the
+   * overrides of the command line appended. Included files are found relative
+   * to the file with the `include` line.
    *
-   * Lists of named objects (materials, boundary conditions, stages) are
-   * sections whose names the file itself lists: named_sections() reads those
-   * names before anything is declared, so that each object can declare its own
-   * section; parse() then reads all parameters, strictly.
+   * Named objects (materials, boundary conditions, stages) are sections whose
+   * names are listed in the parameter file. named_sections() reads these names
+   * before any parameter is declared, so that each object can declare its own
+   * section; parse() then reads all parameters and rejects unknown ones.
    *
    * A parameter file is data: only regular files of at most 16 MB are read, and
    * nothing in them is executed.
@@ -30,29 +30,30 @@ namespace geocone
   class ParameterFile
   {
   public:
-    /** Parameters of other kinds of objects, with the name of that kind, by the
-     *  section of the list, e.g. "Materials". */
+    /** Kind of object by section of the list (e.g. "Materials") and parameter
+     *  name, for parameters of kinds that the file may not use. */
     using OfOthers = std::map<std::string, std::map<std::string, std::string>>;
 
-    /** A parameter that the file sets, by its last line. */
+    /** A parameter that the file sets; if it is set repeatedly, the last
+     *  line. */
     struct Setting
     {
       std::string path;  ///< "Section/Subsection/Name"
-      std::string value; ///< as text
+      std::string value; ///< value as text
       std::string default_value;
-      std::string of_other; ///< kind of object that would use it
-      std::string
-        former_name; ///< name in the file, if it is not the present one
+      std::string of_other;    ///< kind of object with this parameter
+      std::string former_name; ///< outdated name used in the file; empty: none
     };
 
-    /** An empty file: all parameters keep their defaults. */
+    /** An empty parameter file: all parameters have their default values. */
     ParameterFile() = default;
 
     /**
+     * Reads a parameter file.
      * @param file_name the parameter file
      * @param overrides texts of the form "Section/Subsection/Name = value"
-     * @param original the file that it replaces, from which file names in it
-     * are resolved; empty: itself
+     * @param original the parameter file that this one replaces, relative to
+     * which file names are resolved; empty: the file itself
      * @throws InputError if a file is missing or not a text file, a section is
      * not closed, or an override is malformed
      */
@@ -61,25 +62,25 @@ namespace geocone
                   const std::string              &original = "");
 
     /**
-     * A parameter file from a text, without includes; @p name is used in error
-     * messages.
+     * Creates a parameter file from a text without `include` lines.
+     * @param name name of the file in error messages
      */
     static ParameterFile
     from_text(const std::string              &text,
               const std::string              &name,
               const std::vector<std::string> &overrides);
 
-    /** The value of one entry, e.g. "Materials/Names", before parse(). */
+    /** Value of a single parameter, e.g. "Materials/Names", before parse(). */
     std::string
     peek(const std::string &path, const std::string &default_value) const;
 
     /**
-     * Names in the list SECTION/LIST, each of which has a subsection of
+     * Names in the list SECTION/LIST, each of which denotes a subsection of
      * SECTION. A subsection is skipped if an earlier line (of an included file)
-     * listed it and the last line does not.
+     * lists its name and the last line does not.
      * @throws InputError if a name occurs twice, is not admissible as a section
-     * name or (where the list is given) has no section, or if a subsection was
-     * never listed
+     * name or (if the file contains the list) has no section, or if the name of
+     * a subsection is never listed
      */
     std::vector<std::string>
     named_sections(const std::string &section,
@@ -87,17 +88,19 @@ namespace geocone
                    const std::string &default_value) const;
 
     /**
-     * Sets every declared parameter of dealii::ParameterAcceptor.
-     * @param of_others known parameters of other kinds of objects than those in
-     * the file; they are skipped
-     * @return all parameters that are set, including the skipped ones
+     * Assigns the values of the file to all declared parameters
+     * (dealii::ParameterAcceptor).
+     * @param of_others parameters of kinds of objects that the file does not
+     * use; these parameters are skipped
+     * @return all parameters that the file sets, including skipped ones
      * @throws InputError on unknown sections and entries (with the nearest
      * known name) and on inadmissible values
      */
     std::vector<Setting>
     parse(const OfOthers &of_others = {}) const;
 
-    /** Absolute path of the file, and its name without folder and extension. */
+    /** Absolute path of the parameter file; name() omits folder and
+     *  extension. */
     const std::string &
     path() const
     {
@@ -106,7 +109,7 @@ namespace geocone
     std::string
     name() const;
 
-    /** Folder of the file; empty: the working directory. */
+    /** Folder of the parameter file; empty: the working directory. */
     const std::string &
     folder() const
     {
@@ -132,18 +135,18 @@ namespace geocone
       std::string file;
       int         number;
 
-      /** File and line, for messages. */
+      /** File name and line number, for error messages. */
       std::string
       place() const;
     };
 
-    /** A line that sets a parameter. */
+    /** A line of the form "set NAME = VALUE", with its enclosing sections. */
     struct SetLine
     {
       std::vector<std::string> sections;
       std::string              name, value;
       const Line              *line;
-      std::string              former_name; ///< in the file; empty: name
+      std::string              former_name; ///< outdated name; empty: none
     };
 
     void
@@ -151,30 +154,30 @@ namespace geocone
          const std::string &shown_name,
          const int          depth);
 
-    /** Appends the lines of a stream. @param depth of includes; -1: includes
-     *  are rejected */
+    /** Appends the lines of a stream. @param depth nesting depth of includes;
+     *  -1: includes are rejected */
     void
     read_lines(std::istream      &in,
                const std::string &file_name,
                const std::string &shown_name,
                const int          depth);
 
-    /** Position of the equals sign after the parameter name of an override;
-     *  section names can contain equals signs as well. */
+    /** Position of the equals sign that follows the parameter name in an
+     *  override. Section names can contain equals signs as well. */
     std::size_t
     equals_sign(const std::string &override_text) const;
 
-    /** Appends overrides of the command line. */
+    /** Appends the overrides of the command line as lines of the file. */
     void
     append(const std::vector<std::string> &overrides);
 
-    /** The lines that set parameters, without those of subsections removed from
-     *  their lists. @throws InputError for other lines and unknown sections, if
+    /** Lines that set parameters, except in subsections removed from their
+     *  lists. @throws InputError for invalid lines and unknown sections, if
      *  @p checks */
     std::vector<SetLine>
     set_lines(const bool checks) const;
 
-    /** The subsections of a section, with the first line of each. */
+    /** Subsections of a section by name, with the first line of each. */
     std::map<std::string, const Line *>
     subsections_of(const std::string &section) const;
 
@@ -184,15 +187,15 @@ namespace geocone
     unsigned int      n_files          = 0;
     bool              has_strict_lists = true;
 
-    /** Names in the list of each section that has one. */
+    /** Names of the listed objects, by section with a list of names. */
     mutable std::map<std::string, std::vector<std::string>> lists;
   };
 
-  /** Splits "a, b, c" into its trimmed, non-empty parts. */
+  /** Splits a list, e.g. "a, b, c", into its trimmed, non-empty parts. */
   std::vector<std::string>
   split_names(const std::string &list, const char separator = ',');
 
-  /** Known name nearest to a misspelt one, or empty. */
+  /** Known name nearest to a misspelt name; empty if none is near. */
   std::string
   nearest_name(const std::string &name, const std::vector<std::string> &known);
 } // namespace geocone

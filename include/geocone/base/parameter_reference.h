@@ -12,7 +12,7 @@
 
 namespace geocone
 {
-  /** A declared parameter as --help, --defaults, --schema and the site show it. */
+  /** A declared parameter as documented by --help, --defaults and --schema. */
   struct DocumentedParameter
   {
     std::vector<std::string> sections;
@@ -24,23 +24,23 @@ namespace geocone
     path() const;
   };
 
-  /** Placeholder for the name of a list's member in the path of a parameter. */
+  /** Placeholder for the name of a listed object in the path of a parameter. */
   extern const char *const any_name;
 
-  /** All declared parameters with their present values, by sections in the order in
-   *  which a model is built. */
+  /** All declared parameters with their present values. Sections are in the order in
+   *  which a model is defined. */
   std::vector<DocumentedParameter>
   documented_parameters();
 
-  /** The sections of the first level in this order, each with a one-line
-   *  description. */
+  /** Text that lists the top-level sections in the order of documented_parameters(),
+   *  each with a one-line description. */
   std::string
   list_of_sections();
 
   /**
-   * Parameters selected by a topic: all of a section or subsection, or those with a
-   * name, e.g. "Materials", "Cohesion", "materials/cohesion"; "all".
-   * @throws InputError if there are none
+   * Parameters selected by the topic of --help, e.g. "Materials", "Cohesion",
+   * "materials/cohesion" or "all": a section, a subsection or a parameter name.
+   * @throws InputError if no parameter matches
    */
   std::vector<DocumentedParameter>
   on_topic(const std::vector<DocumentedParameter> &all,
@@ -51,7 +51,7 @@ namespace geocone
   void
   print(std::ostream &out, const std::vector<DocumentedParameter> &parameters);
 
-  /** JSON Schema (draft 2020-12) of the tree of parameters. */
+  /** JSON Schema (draft 2020-12) of the tree of parameters in sections. */
   std::string
   json_schema(const std::vector<DocumentedParameter> &parameters);
 } // namespace geocone

@@ -12,8 +12,8 @@
 
 namespace geocone
 {
-  /** A name in the form read from a list: each comma is followed by one
-   *  blank. */
+  /** Normalises a name as by reading it from a list: each comma is followed by
+   *  one blank. */
   inline std::string
   name_in_list(const std::string &name)
   {
@@ -23,8 +23,8 @@ namespace geocone
     return all;
   }
 
-  /** A name in the form to be written in a list: in quotes if it contains a
-   *  comma. */
+  /** Name as an item of a comma-separated list: in double quotes if it contains
+   *  a comma. */
   inline std::string
   quoted_if_needed(const std::string &name)
   {
@@ -32,9 +32,10 @@ namespace geocone
   }
 
   /**
-   * Names of a list, of which some may be in double quotes, from its parts between
-   * commas.
-   * @throws InputError if a quote is not closed. @param parameter the list
+   * Names of a comma-separated list with optional double quotes around names.
+   * @param parts parts of the list between commas
+   * @param parameter path of the list, for error messages
+   * @throws InputError if a quote is not closed
    */
   inline std::vector<std::string>
   unquoted(const std::vector<std::string> &parts, const std::string &parameter)

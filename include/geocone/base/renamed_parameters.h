@@ -12,25 +12,25 @@
 namespace geocone
 {
   /**
-   * A parameter with a new name. Its former name is read with a warning until the next
+   * Renamed parameter, whose former name is still accepted with a warning until the next
    * release but one. Declared next to the parameter, as a constant outside of functions.
    */
   struct RenamedParameter
   {
-    /** @param section its path, in which a '*' stands for any name
-     *  @param before, now names without the section */
+    /** @param section path of the section; a '*' stands for any name
+     *  @param before, now former and present names without the section */
     RenamedParameter(const char *section, const char *before, const char *now);
 
     std::string section, before, now;
   };
 
-  /** Present name of a parameter of a section. */
+  /** Present name of a parameter given by its present or former name. */
   std::string
   present_name(const std::vector<std::string> &sections,
                const std::string              &name);
 
-  /** A warning line with the former names in a file and the present ones; empty if there
-   *  are none. */
+  /** Warning that lists the former parameter names used in a file with the present
+   *  names; empty if the file uses no former names. */
   std::string
   former_names(const std::vector<ParameterFile::Setting> &settings);
 } // namespace geocone

@@ -8,17 +8,17 @@
 
 namespace geocone
 {
-  /** Options of a run from the command line, besides its parameters. */
+  /** Command-line options of a run, in addition to the parameter file. */
   struct RunOptions
   {
-    std::string name;           ///< of the parameter file, no extension
-    std::string parameter_file; ///< its absolute name
-    std::string folder; ///< of the results; empty: that of the parameter file
-    bool        dry_run  = false; ///< check and estimate only
-    bool        picture  = false; ///< of a dry run: write the model for drawing
+    std::string name;           ///< name of the parameter file, no extension
+    std::string parameter_file; ///< absolute path
+    std::string folder; ///< folder of results; empty: of the parameter file
+    bool        dry_run  = false; ///< check and estimate the size only
+    bool        picture  = false; ///< dry run: write the model for plotting
     bool        force    = false; ///< run even if too large for the machine
     bool        resumes  = false; ///< resume the run in the folder
-    bool may_run_scripts = false; ///< gmsh scripts, which can execute commands
+    bool may_run_scripts = false; ///< allow gmsh scripts (can execute commands)
   };
 } // namespace geocone
 

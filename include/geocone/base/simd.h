@@ -8,7 +8,7 @@
 
 namespace geocone
 {
-  /** Baseline instruction set. */
+  /** SIMD instruction set that every supported machine has. */
 #if XSIMD_WITH_SSE2
   using BaselineArch = xsimd::sse2;
 #else
@@ -16,10 +16,10 @@ namespace geocone
 #endif
 
   /**
-   * Four doubles, in one register if the architecture has registers of four,
-   * otherwise in two registers of two. Kernels written with it are compiled
-   * once for each architecture, as templates over @p Arch, so that the linker
-   * cannot mix functions of different architectures.
+   * SIMD vector of four doubles: one register of four or two registers of two,
+   * depending on the instruction set @p Arch. Kernels that use it are templates
+   * over @p Arch, compiled once for each instruction set, so that the linker
+   * cannot mix functions of different instruction sets.
    */
   template <typename Arch>
   class Pack
@@ -117,7 +117,7 @@ namespace geocone
     GEOCONE_PACK_FUNCTION(acos)
 #undef GEOCONE_PACK_FUNCTION
 
-    /** a > b ? yes : no, component by component. */
+    /** Component-wise selection: a > b ? yes : no. */
     friend Pack
     where_greater(const Pack &a, const Pack &b, const Pack &yes, const Pack &no)
     {
@@ -128,7 +128,7 @@ namespace geocone
       return p;
     }
 
-    /** Whether a > b in any component. */
+    /** Whether a > b in at least one component. */
     friend bool
     any_greater(const Pack &a, const Pack &b)
     {
@@ -149,7 +149,8 @@ namespace geocone
       return all;
     }
 
-    /** Integer parts of values from 0 to 2^31 - 1, also as integers. */
+    /** Integer parts of values between 0 and 2^31 - 1, as doubles and as
+     *  @p integers. */
     friend Pack
     whole_part(const Pack &a, int *integers)
     {

@@ -7,8 +7,9 @@
 namespace geocone
 {
   /**
-   * Whether kernels can use AVX2 and FMA: the machine has them and the
-   * environment variable GEOCONE_SIMD is not "baseline" (for comparisons).
+   * Whether kernels use AVX2 and FMA instructions: the machine supports them
+   * and the environment variable GEOCONE_SIMD is not "baseline" (for
+   * comparisons).
    */
   bool
   machine_has_avx2();

@@ -7,8 +7,8 @@
 #include <cmath>
 
 /*
- * The functions of Pack for one number, so that a template of the number type
- * serves a single point as well as the points of a Pack.
+ * Scalar versions of the functions of Pack, so that templates over the number
+ * type apply to a single point as well as to the points of a Pack.
  */
 namespace geocone
 {

@@ -11,30 +11,30 @@
 namespace geocone
 {
   /**
-   * A square matrix as a sum over ranks: each rank stores the contributions of
-   * its cells in compressed rows of its own local numbering; entries held by
-   * several ranks are added. Distributed direct solvers accept this form, so
-   * that assembly needs no communication. On one rank it is the usual
-   * compressed-row matrix.
+   * Distributed square sparse matrix, defined as the sum of local matrices over
+   * all ranks. Each rank stores the contributions of its cells in
+   * compressed-row format (CSR) with local numbers; entries stored by several
+   * ranks are summed. Distributed direct solvers accept this format, so that
+   * assembly requires no communication. On one rank it is the usual CSR matrix.
    *
-   * Local rows: those owned by the rank come first, with consecutive global
-   * numbers.
+   * Rows owned by the rank are first in the local numbering and have
+   * consecutive global numbers.
    */
   struct SparseMatrix
   {
     MPI_Comm comm = MPI_COMM_SELF;
 
-    /** Whether only the entries with column <= row (local numbers) are
+    /** Whether only the lower triangle, column <= row (local numbers), is
      *  stored. */
     bool symmetric = false;
 
-    int n_global = 0; ///< rows of the matrix, of all ranks
-    int n_owned  = 0; ///< rows owned by this rank
+    int n_global = 0; ///< number of rows on all ranks
+    int n_owned  = 0; ///< number of rows owned by this rank
 
     /** Global number of each local row. */
     std::vector<int> global_index;
 
-    /** Compressed rows with sorted columns. */
+    /** Compressed-row format (CSR), columns sorted within each row. */
     std::vector<int>    row_start = {0};
     std::vector<int>    column;
     std::vector<double> value;
@@ -45,11 +45,11 @@ namespace geocone
       return row_start.size() - 1;
     }
 
-    /** Position of an entry of the pattern in `column` and `value`. */
+    /** Index in `column` and `value` of an entry of the sparsity pattern. */
     int
     entry(const int row, const int col) const;
 
-    /** Size of the arrays (bytes). */
+    /** Memory used by the arrays (bytes). */
     std::size_t
     memory() const;
   };

@@ -15,21 +15,22 @@
 namespace geocone
 {
   /**
-   * Variables as a row of numbers for a checkpoint. One list of variables
-   * serves for writing and reading, so that each is named once:
+   * Serialises variables to an array of numbers, e.g. for a checkpoint. The
+   * same list of variables is used for writing and reading:
    *   void state(StateRow &row) { row(time, step, records); }
    * Supported are numbers that a double represents exactly, texts, arrays,
-   * vectors and tensors of them, and classes with a function state(StateRow &).
+   * vectors and tensors of numbers, and classes with a function
+   * state(StateRow &).
    */
   class StateRow
   {
   public:
-    /** A row to be written. */
+    /** An empty row for writing. */
     StateRow()
       : reads(false)
     {}
 
-    /** A row to be read. */
+    /** A row for reading. */
     explicit StateRow(std::vector<double> values)
       : reads(true)
       , row(std::move(values))
@@ -47,7 +48,7 @@ namespace geocone
       return row;
     }
 
-    /** Whether the row has been read completely. */
+    /** Whether all numbers of the row have been read. */
     bool
     at_end() const
     {

@@ -10,7 +10,7 @@
 
 namespace geocone
 {
-  /** Termination requested by a signal, detected by all ranks together. */
+  /** Exception for a termination requested by a signal, thrown on all ranks. */
   class Stopped : public RunError
   {
   public:
@@ -21,34 +21,36 @@ namespace geocone
 
   /**
    * Installs the signal handlers. SIGINT (Ctrl-C), SIGTERM and SIGHUP (terminal
-   * closed; not under nohup) then ask the run to stop as soon as its state is
-   * consistent; a second signal terminates the program at once. Writing beyond
-   * a limit (SIGXFSZ) or into a closed pipe (SIGPIPE) is a write error, not a
-   * termination.
+   * closed; not under nohup) request the run to stop as soon as its state is
+   * consistent; a second signal terminates the program at once. Exceeding the
+   * file size limit (SIGXFSZ) or writing to a closed pipe (SIGPIPE) is a write
+   * error and does not terminate the program.
    */
   void
   watch_for_signals();
 
-  /** Signal by which any rank was asked to stop, or 0. Collective. */
+  /** Signal number of a stop request received by any rank; 0: none.
+   *  Collective. */
   int
   stop_request(const MPI_Comm comm);
 
-  /** Signal by which this rank was asked to stop, or 0. */
+  /** Signal number of a stop request received by this rank; 0: none. */
   int
   stop_request_of_rank();
 
-  /** @throws Stopped if any rank has been asked to stop. Collective. */
+  /** Ends the run if any rank has received a stop request. Collective.
+   *  @throws Stopped */
   void
   stop_if_asked(const MPI_Comm comm);
 
-  /** Prints an error. */
+  /** Prints an error message on the error stream. */
   void
   say_error(const std::string &what);
 
   /**
-   * Prints an error detected by one of several ranks alone, and terminates all
-   * of them. Otherwise the others would wait for this rank forever, and so
-   * would its own destructors of distributed objects.
+   * Prints an error detected by this rank only, and terminates all ranks.
+   * Otherwise the other ranks would wait for this rank forever, as would the
+   * destructors of its distributed objects.
    */
   [[noreturn]] void
   end_all_ranks(const std::string &what);

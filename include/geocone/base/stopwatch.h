@@ -8,7 +8,8 @@
 
 namespace geocone
 {
-  /** Adds the wall time of its scope to a number of seconds. */
+  /** Scoped timer: adds the wall time from construction to destruction to @p
+   *  seconds. */
   class Stopwatch
   {
   public:

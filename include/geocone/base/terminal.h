@@ -11,16 +11,16 @@
 
 namespace geocone
 {
-  /** Colours of a terminal, by their numbers in escape sequences. */
+  /** Terminal colours, by their numbers in ANSI escape sequences. */
   enum class Colour
   {
     red    = 31,
     yellow = 33
   };
 
-  /** A word in bold colour, if a stream is a terminal with colours that are not
-   *  disabled (https://no-color.org). @param stream STDOUT_FILENO or
-   *  STDERR_FILENO */
+  /** Word with escape sequences for bold coloured text, if the stream is a
+   *  colour terminal and colours are not disabled (https://no-color.org).
+   *  @param stream STDOUT_FILENO or STDERR_FILENO */
   inline std::string
   coloured(const std::string &word, const Colour colour, const int stream)
   {

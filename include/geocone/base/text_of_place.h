@@ -13,7 +13,8 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Components in a given printf format. */
+  /** Comma-separated components of a vector in the printf() format @p
+   *  number. */
   inline std::string
   text_of_vector(const dealii::Tensor<1, dim> &x, const char *number)
   {
@@ -23,7 +24,7 @@ namespace geocone::GEOCONE_DIM
     return text;
   }
 
-  /** Coordinates of a point, e.g. "0.5, -2". */
+  /** Comma-separated coordinates of a point, e.g. "0.5, -2". */
   inline std::string
   text_of_place(const dealii::Point<dim> &x)
   {

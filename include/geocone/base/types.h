@@ -14,10 +14,10 @@
 
 /**
  * Space dimension of a scene, set by the build. All dimension-dependent code is
- * compiled once for each dimension, in the namespace geocone::dim2 or
- * geocone::dim3, so that one program contains both without a cost at run time.
- * The namespace is inline: only main.cc has to name it. CONTRIBUTING.md
- * explains how such code is written.
+ * compiled once for each dimension, in the namespaces geocone::dim2 and
+ * geocone::dim3, so that one program supports both without a run-time cost. The
+ * namespaces are inline: only main.cc has to name them. CONTRIBUTING.md explains
+ * how dimension-dependent code is written.
  */
 #ifndef GEOCONE_DIMENSION
 #define GEOCONE_DIMENSION 2
@@ -36,13 +36,13 @@ namespace geocone
 /**
  * Conventions of the code:
  *
- *  - plane strain in the (x, y) plane with unit thickness (forces in N/m,
- *    energies in J/m), axisymmetric with x the radius, y the axis and z the
+ *  - geometry is plane strain in the (x, y) plane per unit thickness (forces in
+ *    N/m, energies in J/m), axisymmetric with x the radius, y the axis and z the
  *    hoop direction (forces in N, energies in J, of the full body), or
  *    three-dimensional (N, J);
- *  - the vertical is y in all of them;
+ *  - the vertical axis is y in all geometries;
  *  - SI units; angles in degrees in parameter files;
- *  - tension is positive, in stress and strain alike;
+ *  - stress and strain are positive in tension;
  *  - symmetric tensors are Mandel vectors, so that the scalar product of two
  *    vectors is the double contraction of the two tensors.
  */
@@ -51,11 +51,11 @@ namespace geocone::GEOCONE_DIM
   constexpr unsigned int dim = GEOCONE_DIMENSION;
   static_assert(dim == 2 || dim == 3);
 
-  /** Number of Mandel components of the strain in the dimension of the
-   *  scene. */
+  /** Number of Mandel components of the strain tensor, in-plane components only
+   *  in two dimensions. */
   constexpr int n_mandel = dim == 2 ? 3 : 6;
 
-  /** Mandel vector of a symmetric tensor: (t11, t22, sqrt(2) t12) in the plane,
+  /** Mandel vector of a symmetric tensor: (t11, t22, sqrt(2) t12) in two dimensions,
    *  (t11, t22, sqrt(2) t12, t33, sqrt(2) t23, sqrt(2) t31) in three dimensions. */
   using Mandel = Eigen::Matrix<double, n_mandel, 1>;
 
@@ -63,9 +63,10 @@ namespace geocone::GEOCONE_DIM
   using MandelMatrix =
     Eigen::Matrix<double, n_mandel, n_mandel, Eigen::RowMajor>;
 
-  /** Number of stress components that can be non-zero. In the plane there is
-   *  one more than in the Mandel vector: (t11, t22, sqrt(2) t12, t33), where 33
-   *  is the z or the hoop direction. In three dimensions the two agree. */
+  /** Number of stress components that can be non-zero. In two dimensions the
+   *  spatial Mandel vector (t11, t22, sqrt(2) t12, t33) includes the
+   *  out-of-plane (z) or hoop component t33; in three dimensions it equals the
+   *  Mandel vector. */
   constexpr int n_spatial = dim == 2 ? 4 : 6;
   using SpatialMandel     = Eigen::Matrix<double, n_spatial, 1>;
   using SpatialMandelMatrix =
@@ -84,7 +85,7 @@ namespace geocone::GEOCONE_DIM
   /** Index of t_ij in the order of Mandel vectors. */
   constexpr int index_of_component[3][3] = {{0, 2, 5}, {2, 1, 4}, {5, 4, 3}};
 
-  /** Trace of a Mandel vector, plane or spatial. */
+  /** Trace of a tensor given as a plane or spatial Mandel vector. */
   template <int n>
   double
   trace(const Eigen::Matrix<double, n, 1> &t)
@@ -95,7 +96,7 @@ namespace geocone::GEOCONE_DIM
       return t[0] + t[1] + t[3];
   }
 
-  /** The unit tensor as a Mandel vector, plane or spatial. */
+  /** Unit tensor as a plane or spatial Mandel vector. */
   template <int n>
   Eigen::Matrix<double, n, 1>
   unit_tensor()
@@ -107,12 +108,13 @@ namespace geocone::GEOCONE_DIM
     return I;
   }
 
-  /** Number of rotations: about z and, in three dimensions, about x and y. Each
-   *  turns its first axis towards its second. */
+  /** Number of rotational degrees of freedom: about z and, in three dimensions,
+   *  about x and y. A positive rotation turns the first axis of its plane towards
+   *  the second. */
   constexpr unsigned int n_rotations             = dim == 2 ? 1 : 3;
   constexpr unsigned int plane_of_rotation[3][2] = {{0, 1}, {1, 2}, {2, 0}};
 
-  /** Axis of a rotation. */
+  /** Name of the rotation axis: "x", "y" or "z". */
   inline std::string
   axis_of_rotation(const unsigned int rotation)
   {
@@ -120,29 +122,29 @@ namespace geocone::GEOCONE_DIM
     return std::string(1, "xyz"[3 - a - b]);
   }
 
-  /** Side length of the square or cube of a given volume (m). */
+  /** Side length (m) of a square of given area or a cube of given volume. */
   inline double
   length_of(const double volume)
   {
     return dim == 2 ? std::sqrt(volume) : std::cbrt(volume);
   }
 
-  /** Names of the coordinates, singly and as a list for texts. */
+  /** Names of the coordinates, as characters and as a list for messages. */
   constexpr char        coordinate[3] = {'x', 'y', 'z'};
   constexpr const char *coordinates   = dim == 2 ? "x, y" : "x, y, z";
 
-  /** Names of the components in the order of Mandel vectors. */
+  /** Names of the tensor components in the order of Mandel vectors. */
   constexpr const char *tensor_component[6] = {
     "xx", "yy", "xy", "zz", "yz", "zx"};
 
-  /** Whether a component is a shear component, with the factor sqrt(2). */
+  /** Whether a Mandel component is a shear component, scaled by sqrt(2). */
   constexpr bool
   is_shear(const int component)
   {
     return component == 2 || component > 3;
   }
 
-  /** Mandel vector of components in the order of tensor_component. */
+  /** Mandel vector from tensor components in the order of tensor_component. */
   inline Mandel
   mandel_of_components(const std::array<double, n_mandel> &values)
   {
@@ -152,7 +154,7 @@ namespace geocone::GEOCONE_DIM
     return t;
   }
 
-  /** Components of a Mandel vector in the order of tensor_component. */
+  /** Tensor components of a Mandel vector, in the order of tensor_component. */
   inline std::array<double, n_mandel>
   components_of(const Mandel &t)
   {
@@ -162,8 +164,8 @@ namespace geocone::GEOCONE_DIM
     return values;
   }
 
-  /** Strain sym(l) of a velocity or displacement gradient, l_ij at dim i +
-   *  j. */
+  /** Strain or strain rate sym(l) from a displacement or velocity gradient l,
+   *  with l_ij stored at index dim i + j. */
   inline Mandel
   symmetric_part(const std::array<double, dim * dim> &l)
   {
@@ -178,7 +180,7 @@ namespace geocone::GEOCONE_DIM
     return t;
   }
 
-  /** A three-dimensional tensor from its Mandel vector, and the inverse. */
+  /** Symmetric 3 x 3 tensor from its Mandel vector; inverse: spatial_mandel(). */
   inline Eigen::Matrix3d
   spatial_tensor(const Eigen::Matrix<double, 6, 1> &t)
   {
@@ -201,7 +203,7 @@ namespace geocone::GEOCONE_DIM
     return t;
   }
 
-  /** Mandel vector of a plane tensor. */
+  /** Mandel vector of a symmetric tensor with in-plane components only. */
   inline Mandel
   in_plane(const double xx, const double yy, const double xy)
   {
@@ -212,8 +214,8 @@ namespace geocone::GEOCONE_DIM
     return t;
   }
 
-  /** Spatial Mandel vector with a given zz component; @p zz is ignored in three
-   *  dimensions. */
+  /** Spatial Mandel vector from a Mandel vector and the component @p zz, which
+   *  is ignored in three dimensions. */
   inline SpatialMandel
   extended(const Mandel &t, const double zz)
   {

@@ -12,14 +12,16 @@
 namespace geocone
 {
   /**
-   * A rule that a parameter is used only if another one has certain values. It
-   * is declared next to the parameter, as a constant outside of functions. A
-   * '*' stands for any name, the same in all paths of a rule.
+   * Condition of use: the parameter is used only if another parameter (the
+   * chooser) has certain values. Declared next to the parameter, as a constant
+   * outside of functions. A '*' stands for any name, the same in all paths of
+   * a condition.
    */
   struct UsedWhere
   {
-    /** @param values of @p chooser for which it is used; empty: any but none
-     *  @param other a parameter that also activates it, if set */
+    /** @param values values of @p chooser for which @p parameter is used;
+     *  empty: any non-empty value
+     *  @param other another parameter that activates @p parameter if set */
     UsedWhere(const char                     *parameter,
               const char                     *chooser,
               const std::vector<std::string> &values,
@@ -31,16 +33,15 @@ namespace geocone
   };
 
   /**
-   * A warning line with the parameters that are set to other than their default
-   * values but not used by the method, the mesh, the law etc. selected by other
-   * parameters. Empty if there are none. To be called after
-   * ParameterFile::parse().
+   * Warning that lists unused parameters: set to a value other than the
+   * default, but not used by the selected method, mesh, material law etc. Empty
+   * if there are none. To be called after ParameterFile::parse().
    */
   std::string
   unused_parameters(const std::vector<ParameterFile::Setting> &settings);
 
-  /** The rules of a parameter in words, e.g. "Mesh/Type = graded or
-   *  unstructured": those of its section and its own. */
+  /** Conditions of use of a parameter in words, e.g. "Mesh/Type = graded or
+   *  unstructured", for its section and for the parameter itself. */
   struct Conditions
   {
     std::vector<std::string> of_section, own;
