@@ -15,10 +15,11 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * A uniform grid of rectangles or cuboids over a box, with splines of degree
-   * 1 (hat functions, i.e. Q1), 2 or 3 with clamped knots: the same functions
-   * as those of Space on such a mesh, without a triangulation. Cells and
-   * functions are numbered by columns, i.e. the first direction is outermost.
+   * Uniform Cartesian grid of a box with B-spline basis functions of degree 1
+   * (hat functions, i.e. Q1), 2 or 3 with clamped knots. The basis functions are
+   * the same as in Space on this grid, but no triangulation is required. Cells
+   * and basis functions are numbered by columns, i.e. the first direction varies
+   * slowest.
    */
   class CartesianGrid
   {
@@ -26,33 +27,38 @@ namespace geocone::GEOCONE_DIM
     CartesianGrid() = default;
 
     /**
-     * @param degree 1 to 3
-     * @param lines ends of the equally spaced intervals in each direction (m)
+     * Constructs the grid and its basis functions.
+     * @param degree polynomial degree, 1 to 3
+     * @param lines coordinates of the equally spaced grid lines in each
+     * direction (m)
      */
     CartesianGrid(const unsigned int                          degree,
                   const std::array<std::vector<double>, dim> &lines);
 
-    /** One direction: intervals, and functions as piecewise polynomials. */
+    /** One grid direction: intervals (cells) and piecewise polynomial basis
+     *  functions. */
     struct Axis
     {
-      double       begin = 0., end = 0.; ///< (m)
-      double       size         = 0.;    ///< of an interval (m)
-      double       inverse_size = 0.;    ///< (1/m)
+      double       begin = 0., end = 0.; ///< limits of the box (m)
+      double       size         = 0.;    ///< length of an interval (m)
+      double       inverse_size = 0.;    ///< 1 / size (1/m)
       unsigned int n_intervals  = 0;
       unsigned int n_functions  = 0;
 
-      /** Position of each function: its Greville abscissa (m). */
+      /** Greville abscissa of each basis function (m). */
       std::vector<double> places;
 
-      /** Kind of each interval: those near the ends differ from the others. */
+      /** Type of each interval, by its basis functions: near the ends of the
+       *  direction, clamped knots result in other polynomials. */
       std::vector<unsigned char> type;
 
-      /** Coefficients for each kind: p + 1 vectors of 4 for the values, and p
-       *  for the derivatives (1/m), both in powers of the position in the
-       *  interval. */
+      /** Polynomial coefficients for each type of interval: p + 1 vectors of 4
+       *  for the values of the basis functions, and p for their derivatives
+       *  (1/m), in powers of the local coordinate of the interval. */
       std::vector<double> coefficients;
 
-      /** Interval of a coordinate, which can lie beyond the ends. */
+      /** Interval that contains the coordinate @p x; beyond the ends, the first
+       *  or last interval. */
       int
       interval(const double x) const
       {
@@ -66,7 +72,7 @@ namespace geocone::GEOCONE_DIM
     unsigned int          degree = 1;
     std::array<Axis, dim> axes;
 
-    /** Smallest side of a cell (m). */
+    /** Smallest side length of the cells (m). */
     double
     cell_size() const
     {
@@ -95,16 +101,17 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * First column of each rank, followed by the number of columns, for about
-     * equal numbers of points on all ranks.
-     * @param points_in number of points per column
+     * Partition of the grid columns into contiguous slabs, one per rank, with
+     * about equal numbers of points per rank (load balance).
+     * @param points_in number of points in each column
+     * @return first column of each rank, followed by the number of columns
      */
     std::vector<int>
     slabs(const std::vector<std::size_t> &points_in,
           const unsigned int              n_ranks) const;
 
-    /** Whether x lies in the box, within a tolerance relative to the cell
-     *  size. */
+    /** Whether the point @p x lies in the box of the grid, within a tolerance
+     *  relative to the cell size. */
     bool
     contains(const dealii::Point<dim> &x, const double tolerance = 1e-9) const
     {

@@ -27,13 +27,13 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * A velocity field: dim values per node, at dim node + component of the local
-   * numbering (owned nodes first, then ghosts). Forces are stored in the same
-   * way.
+   * Nodal vector field (velocity or force) with dim components per node. The
+   * local index of a component is dim node + component; owned nodes precede
+   * ghost nodes.
    */
   using Vector = dealii::LinearAlgebra::distributed::Vector<double>;
 
-  /** The dim values at a local node. */
+  /** Nodal value of a vector field at the local number @p node. */
   inline dealii::Tensor<1, dim>
   value_at(const Vector &field, const unsigned int node)
   {
@@ -44,39 +44,40 @@ namespace geocone::GEOCONE_DIM
   }
 
   /**
-   * Space of velocities: scalar shape functions, the same for all components.
-   * Its interface is "cell -> nodes" and "cell, unit point -> N, grad N";
-   * components are interleaved, so that dof = dim node + component.
+   * Finite element or spline space of the velocity: scalar shape functions, the
+   * same for all components. The interface is "cell -> nodes" and "cell, unit
+   * point -> N, grad N". Components are interleaved: dof = dim node + component.
    *
    * Elements: P1, P2, P3 on triangles; Q1, Q2, Q3 on quadrilaterals; B-spline 2
-   * and B-spline 3 (of continuity 1 and 2, with clamped knots) on tensor grids.
-   * The basis of P2, P3, Q2 and Q3 is Lagrange's (at Gauss-Lobatto nodes on
-   * quadrilaterals) or Bernstein's, which is non-negative. A "node" of a
-   * non-nodal basis is the Greville abscissa of its function: with coefficients
-   * placed there, linear fields are reproduced.
+   * and B-spline 3 (C1 and C2, with clamped knots) on tensor-product grids.
+   * The basis of P2, P3, Q2 and Q3 is the Lagrange basis (at Gauss-Lobatto nodes
+   * on quadrilaterals) or the Bernstein basis, which is non-negative. The "node"
+   * of a non-nodal basis function is its Greville abscissa: with the nodal
+   * values of a linear field as coefficients, the field is reproduced.
    *
-   * The nodes of a cell have the order of the shape functions on the reference
-   * cell. The two nodes of a P3 edge are ordered along the edge, which can be
-   * reversed in the cell; this class sorts them per cell, so that shape
-   * functions need not be swapped (deal.II 9.4 has no cubic simplex and leaves
-   * this to its user).
+   * The nodes of a cell are ordered as the shape functions of the reference
+   * cell. The two nodes on a P3 edge are ordered along the edge, whose direction
+   * can be reversed in the cell; this class sorts the nodes per cell, so that
+   * shape functions need not be swapped (deal.II 9.4 provides no cubic simplex).
    *
-   * Nodes of tied (periodic) sides that differ by the translation between them
-   * are one node, at the place of the first side; the numbers of the others
-   * belong to no cell.
+   * On tied (periodic) sides, nodes that coincide after the translation from one
+   * side to the other are a single node, positioned on the first side. The
+   * numbers of the merged nodes belong to no cell.
    */
   class Space : public dealii::ParameterAcceptor
   {
   public:
     Space();
 
-    /** @param hard_flow see automatic_element() */
+    /** Sets up shape functions and nodes on a mesh. Collective.
+     *  @param hard_flow see automatic_element() */
     void
     prepare(const BackgroundMesh &mesh,
             const Method         &method,
             const bool            hard_flow = false);
 
-    /** Chooses and checks the element only. @throws InputError */
+    /** Selects and checks the element type, without setting up nodes.
+     *  @throws InputError */
     void
     choose_element(const bool    simplicial,
                    const bool    has_grid,
@@ -84,10 +85,10 @@ namespace geocone::GEOCONE_DIM
                    const bool    hard_flow = false);
 
     /**
-     * The element for 'automatic'.
-     * @param hard_flow LawTraits::has_hard_flow: triangles of the finite
-     * element method are then quadratic. Of the localised solutions of the
-     * exact law, cubic ones yield one that is too soft (doc/small_dilatancy.md)
+     * Element type selected by the parameter value 'automatic'.
+     * @param hard_flow LawTraits::has_hard_flow: if true, triangles of the
+     * finite element method are quadratic, because cubic triangles yield a
+     * localised solution that is too soft (doc/small_dilatancy.md)
      */
     static std::string
     automatic_element(const bool    simplicial,
@@ -95,11 +96,12 @@ namespace geocone::GEOCONE_DIM
                       const Method &method,
                       const bool    hard_flow);
 
-    /** Warnings about laws that the element represents poorly. */
+    /** Warnings about material laws for which the element is unsuitable. */
     std::vector<std::string>
     warnings(const LawTraits &law, const Method &method) const;
 
-    /** Moves functions and nodes after BackgroundMesh::move_grid(). */
+    /** Updates shape functions and node positions after
+     *  BackgroundMesh::move_grid(). */
     void
     follow_grid();
 
@@ -109,7 +111,7 @@ namespace geocone::GEOCONE_DIM
 
     using Cell = BackgroundMesh::Cell;
 
-    /** Name of the element: P1 ... Q3, B-spline 2, B-spline 3. */
+    /** Name of the element type: P1 ... Q3, B-spline 2, B-spline 3. */
     std::string
     element() const
     {
@@ -128,7 +130,8 @@ namespace geocone::GEOCONE_DIM
       return kind >= Element::spline_2;
     }
 
-    /** Smallest width of a strain band in a cell of this size (m). */
+    /** Smallest width of a shear band that cells of the size @p cell_size
+     *  resolve (m). */
     double
     band_width(const double cell_size) const
     {
@@ -143,15 +146,15 @@ namespace geocone::GEOCONE_DIM
     }
 
     /** Polynomial degree of the B-bar projection of volumetric strains in a
-     *  cell: 0 for splines and k - 1 for Qk, a pair that neither locks nor
-     *  oscillates (Q2/P-1 of Stokes flow). */
+     *  cell: 0 for splines and k - 1 for Qk, a stable pair without locking or
+     *  pressure oscillations (cf. Q2/P-1 for Stokes flow). */
     unsigned int
     volumetric_degree() const
     {
       return is_spline() ? 0 : p - 1;
     }
 
-    /** Whether volumetric strains are projected in each cell (B-bar). */
+    /** Whether the volumetric strain is projected in each cell (B-bar method). */
     bool
     has_b_bar() const
     {
@@ -173,8 +176,9 @@ namespace geocone::GEOCONE_DIM
     /**
      * Evaluates the shape functions of a cell at a unit point, in the order of
      * cell_nodes().
-     * @param[out] N values
-     * @param[out] gradient with respect to unit coordinates; can be null
+     * @param[out] N values of the shape functions
+     * @param[out] gradient gradients with respect to unit coordinates; can be
+     * null
      */
     void
     evaluate(const Cell               &cell,
@@ -182,7 +186,7 @@ namespace geocone::GEOCONE_DIM
              double                   *N,
              dealii::Tensor<1, dim>   *gradient) const;
 
-    /** Whether sides are tied. */
+    /** Whether any boundary sides are tied (periodic). */
     bool
     has_ties() const
     {
@@ -196,21 +200,22 @@ namespace geocone::GEOCONE_DIM
       return layout->size() / dim;
     }
 
-    /** Layout of a Vector: owned and ghost dofs. */
+    /** Parallel layout of a Vector: owned and ghost dofs of this rank. */
     const std::shared_ptr<const dealii::Utilities::MPI::Partitioner> &
     partitioner() const
     {
       return layout;
     }
 
-    /** Local number of a node that this rank owns or has as a ghost. */
+    /** Local number of a node, given its global number. The node must be owned or
+     *  a ghost node on this rank. */
     unsigned int
     local_node(const dealii::types::global_dof_index node) const
     {
       return layout->global_to_local(dim * node) / dim;
     }
 
-    /** Number of owned and of all locally known nodes. */
+    /** Number of nodes owned by this rank; n_local_nodes() includes ghost nodes. */
     unsigned int
     n_owned_nodes() const
     {
@@ -222,33 +227,35 @@ namespace geocone::GEOCONE_DIM
       return n_owned_nodes() + layout->n_ghost_indices() / dim;
     }
 
-    /** Positions of the locally known nodes. */
+    /** Positions of the owned and ghost nodes of this rank (m). */
     const std::vector<dealii::Point<dim>> &
     node_positions() const
     {
       return positions;
     }
 
-    /** Integrals of the functions of the locally known nodes (m^2), for
-     *  splines. */
+    /** Integrals over the domain of the spline basis functions of the owned and
+     *  ghost nodes (m^2; m^3 in three dimensions). */
     std::vector<double>
     spline_integrals() const;
 
     /**
-     * Local nodes whose functions are not zero on the boundary sides @p ids,
-     * sorted. Includes ghosts, so that all ranks agree on shared nodes.
+     * Local nodes whose shape functions are non-zero on the boundary sides
+     * @p ids, sorted. Includes ghost nodes, so that all ranks agree on shared
+     * nodes.
      */
     std::vector<unsigned int>
     nodes_on_sides(const std::set<dealii::types::boundary_id> &ids) const;
 
-    /** The same for faces of owned and ghost cells selected by @p holds. */
+    /** Local nodes whose shape functions are non-zero on the faces of owned and
+     *  ghost cells that the predicate @p holds selects, sorted. */
     std::vector<unsigned int>
     nodes_on_faces(
       const std::function<bool(const Cell &, const unsigned int)> &holds) const;
 
   private:
-    /** Sets up a finite element of deal.II. @return the nodes owned by this
-     *  rank */
+    /** Sets up a deal.II finite element and its nodes. @return the nodes owned
+     *  by this rank */
     dealii::IndexSet
     prepare_finite_element(const BackgroundMesh &mesh);
 
@@ -256,37 +263,39 @@ namespace geocone::GEOCONE_DIM
     void
     place_nodes();
 
-    /** Position of a node of a cell. */
+    /** Position (m) of a node of a cell, given its index @p i in the cell. */
     dealii::Point<dim>
     index_of_node(const Cell &cell, const unsigned int i) const;
 
-    /** cell_nodes() without ties. */
+    /** Nodes of a cell as cell_nodes(), before nodes of tied sides are merged. */
     void
     untied_nodes(const Cell                                   &cell,
                  std::vector<dealii::types::global_dof_index> &nodes) const;
 
-    /** Whether the function of a node of a cell is not zero on a face. */
+    /** Whether the shape function of node @p i of a cell is non-zero on a
+     *  face. */
     bool
     is_on_face(const unsigned int i, const unsigned int face) const;
 
-    /** Finds the nodes that are one.
+    /** Merges the matching nodes of tied (periodic) sides.
      *  @throws InputError for sides whose nodes do not match */
     void
     tie();
 
-    /** Nodes of a side with their positions, as tied so far. */
+    /** Nodes of a tied side with their positions (m); nodes merged so far are
+     *  replaced. */
     std::vector<std::pair<dealii::types::global_dof_index, dealii::Point<dim>>>
     nodes_of_tied_side(const std::string &side) const;
 
-    /** Sets up splines on the tensor grid. @return the nodes owned by this
-     *  rank */
+    /** Sets up B-splines on the tensor-product grid. @return the nodes owned by
+     *  this rank */
     dealii::IndexSet
     prepare_splines(const BackgroundMesh &mesh);
 
-    /** Triangular elements first, splines last. */
+    /** Element types: triangles first, splines last. */
     enum class Element
     {
-      automatic, ///< not after choose_element()
+      automatic, ///< replaced by choose_element()
       p1,
       p2,
       p3,
@@ -308,7 +317,7 @@ namespace geocone::GEOCONE_DIM
 
     enum class Basis
     {
-      automatic, ///< not after choose_element()
+      automatic, ///< replaced by choose_element()
       lagrange,
       bernstein
     };
@@ -318,10 +327,11 @@ namespace geocone::GEOCONE_DIM
 
     bool b_bar = false;
 
-    /** Pairs of sides by their names. */
+    /** Pairs of tied (periodic) sides by their names. */
     std::map<std::string, std::string> tied_sides;
 
-    /** Node that each node is; empty without tied sides. */
+    /** Global number of the node into which each node is merged; empty without
+     *  tied sides. */
     std::vector<dealii::types::global_dof_index> tied;
 
     const BackgroundMesh *mesh             = nullptr;
@@ -331,19 +341,19 @@ namespace geocone::GEOCONE_DIM
     std::unique_ptr<dealii::FiniteElement<dim>> fe;
     std::unique_ptr<dealii::DoFHandler<dim>>    dofs;
 
-    /** Splines in each direction, and the numbers of their products, layer by
-     *  layer. */
+    /** Univariate B-splines in each direction; spline_number contains the global
+     *  numbers of their tensor products, layer by layer. */
     std::vector<SplineBasis>                     splines;
     std::vector<dealii::types::global_dof_index> spline_number;
 
-    /** Row and column index of the nodes of a cell, from its first vertex. */
+    /** Lattice indices of the nodes in a cell, counted from the first vertex. */
     std::vector<std::array<unsigned int, dim>> lattice;
 
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> layout;
     std::vector<dealii::Point<dim>>                            positions;
   };
 
-  /** The cubic triangle: 1 dof per vertex, 2 per edge, 1 inside. */
+  /** Creates the cubic triangle P3: 1 dof per vertex, 2 per edge, 1 interior. */
   std::unique_ptr<dealii::FiniteElement<dim>>
   make_cubic_simplex();
 } // namespace geocone::GEOCONE_DIM

@@ -13,21 +13,21 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Largest polynomial degree of the bases for particles. */
+  /** Maximum polynomial degree of basis functions for material points. */
   constexpr unsigned int max_degree = 3;
 
   /**
-   * B-splines of degree p and continuity p - 1 in one dimension on n intervals
-   * of any lengths, with clamped knots (the first and last are repeated p + 1
-   * times): n + p functions, with i, ..., i + p non-zero on interval i. They
-   * are non-negative, sum up to one, and reproduce x by their Greville
-   * abscissae. At an end of the line only the first (last) function is not
-   * zero.
+   * Univariate B-splines of degree p and continuity p - 1 on n intervals of
+   * arbitrary length, with clamped knots (the first and last knots are repeated
+   * p + 1 times). Of the n + p basis functions, i, ..., i + p are non-zero on
+   * interval i. The basis functions are non-negative and a partition of unity;
+   * x is reproduced with the Greville abscissae as coefficients. At each end
+   * only the first (last) basis function is non-zero.
    */
   class SplineBasis
   {
   public:
-    /** @param breaks ends of the intervals, increasing (m) */
+    /** Constructs the basis. @param breaks interval boundaries, increasing (m) */
     SplineBasis(const unsigned int degree, const std::vector<double> &breaks);
 
     unsigned int
@@ -36,11 +36,11 @@ namespace geocone::GEOCONE_DIM
       return knots.size() - p - 1;
     }
 
-    /** Greville abscissa: the mean of the inner knots of a function (m). */
+    /** Greville abscissa: mean of the p inner knots of a basis function (m). */
     double
     greville(const unsigned int function) const;
 
-    /** Integral of a function over the line (m). */
+    /** Integral of a basis function over all intervals (m). */
     double
     integral(const unsigned int function) const
     {
@@ -48,8 +48,9 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * Evaluates the p + 1 functions of an interval and their derivatives.
-     * @param xi position in the interval, 0 to 1
+     * Evaluates the p + 1 non-zero basis functions of an interval and their
+     * derivatives.
+     * @param xi local coordinate in the interval, 0 to 1
      * @param[out] N values
      * @param[out] dN derivatives with respect to xi
      */
@@ -65,19 +66,20 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Bernstein polynomials of degree p at xi in [0, 1]: the same space as
-   * Lagrange's, but non-negative.
+   * Evaluates the Bernstein polynomials of degree p and their derivatives at xi
+   * in [0, 1]. They span the same space as the Lagrange polynomials, but are
+   * non-negative.
    */
   void
   bernstein(const unsigned int p, const double xi, double *N, double *dN);
 
   /**
-   * Bernstein polynomials of degree p on the unit triangle with the area
-   * coordinates l = (1 - x - y, x, y):
+   * Evaluates the Bernstein polynomials of degree p on the unit triangle, with
+   * the area coordinates l = (1 - x - y, x, y):
    *   B_ab = p!/((p - a - b)! a! b!) l_0^(p - a - b) l_1^a l_2^b.
-   * @param lattice (a, b) of each
+   * @param lattice exponents (a, b) of each polynomial
    * @param[out] N values
-   * @param[out] gradient with respect to (x, y); can be null
+   * @param[out] gradient gradients with respect to (x, y); can be null
    */
   void
   bernstein_on_simplex(
