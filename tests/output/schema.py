@@ -55,7 +55,8 @@ for path, entry in found.items():
     assert fits(entry["default"], entry), (path, entry)
     assert len(entry["description"]) > 8 and entry["x-allowed"], (path, entry)
 material = "Materials", "NAME"
-of_plane = ["strength reduction", "seepage"] if ("Seepage", "Names") in found else []
+is_plane = ("Boundary conditions", "NAME", "Velocity z") not in found
+of_plane = ["strength reduction", "seepage"] if is_plane else []
 assert found["Analysis", "Kind"]["enum"] == ["steps", "limit load", *of_plane]
 assert found["Time stepping", "Inertia"] == {**found["Time stepping", "Inertia"],
                                              "type": "boolean", "default": False}
