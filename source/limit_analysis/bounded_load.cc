@@ -130,21 +130,10 @@ namespace geocone::GEOCONE_DIM
   } // namespace
 
   void
-  BoundedLoad::declare(dealii::ParameterAcceptor &section)
-  {
-    asked.declare(section,
-                  "Load factor of",
-                  ". Loads multiplied by the load factor; other loads are "
-                  "constant. Velocity: the bounded load is the reaction to the "
-                  "velocities prescribed at t = 0. Automatic: velocity if one "
-                  "of them is not zero, else weight, else tractions.");
-  }
-
-  void
   BoundedLoad::prepare(const Scene &scene, const Triangles &triangles)
   {
     take_cones(scene);
-    choose_factor(scene, triangles);
+    choose(prescribed_velocity(scene, triangles), scene.gravity.acts());
     check_loads(scene, triangles);
   }
 
@@ -170,7 +159,7 @@ namespace geocone::GEOCONE_DIM
                        "> 0 Pa for some material where the strength is reduced",
                        "without cohesion loads have no factor: give a small "
                        "one, e.g. a thousandth of the weight times the height");
-    chosen = LoadFactor::all;
+    choose_all();
     check_loads(scene, triangles);
   }
 
@@ -200,17 +189,8 @@ namespace geocone::GEOCONE_DIM
     const BoundProblem problem = upper_problem(bound);
     check_supports(bound, problem);
     check_ways(bound, problem);
-    if (chosen != LoadFactor::velocity && !problem.has_factor())
-      throw InputError(chosen == LoadFactor::all ? "Gravity/Acceleration"
-                                                 : "Analysis/Load factor of",
-                       chosen == LoadFactor::all ? "0, 0" : asked.word(),
-                       "a load that is not zero",
-                       chosen == LoadFactor::all
-                         ? "give 'Gravity/Acceleration' and densities, or "
-                           "'Tractions'"
-                       : chosen == LoadFactor::weight
-                         ? "give 'Gravity/Acceleration' and densities"
-                         : "give 'Tractions' that are not zero at t = 0");
+    if (!is_reaction() && !problem.has_factor())
+      refuse_zero_load();
   }
 
   void
@@ -311,31 +291,6 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
-  BoundedLoad::choose_factor(const Scene &scene, const Triangles &triangles)
-  {
-    const auto velocity = prescribed_velocity(scene, triangles);
-    chosen              = asked;
-    if (chosen == LoadFactor::automatic)
-      chosen = velocity               ? LoadFactor::velocity
-               : scene.gravity.acts() ? LoadFactor::weight
-                                      : LoadFactor::tractions;
-    if (chosen == LoadFactor::velocity && !velocity)
-      throw InputError(
-        "Analysis/Load factor of",
-        "velocity",
-        "a prescribed velocity that is not zero at t = 0",
-        "push a part of the boundary, or bound the weight or the "
-        "tractions");
-    if (chosen != LoadFactor::velocity && velocity)
-      throw InputError("Analysis/Load factor of",
-                       asked.word(),
-                       "velocity where a velocity is prescribed that is not "
-                       "zero",
-                       "set it to 0, or bound its reaction");
-    units.velocity = velocity ? velocity->norm() : 1.;
-  }
-
-  void
   BoundedLoad::choose_units(const Scene &scene, const Triangles &triangles)
   {
     double area = 0., height = 0.;
@@ -384,7 +339,7 @@ namespace geocone::GEOCONE_DIM
                            "nothing resists in this scene");
         units.stress = dead / 8.;
       }
-    if (chosen == LoadFactor::velocity)
+    if (is_reaction())
       load_unit =
         units.stress * units.length * std::abs(scene.observation.factor);
   }
@@ -393,7 +348,7 @@ namespace geocone::GEOCONE_DIM
   BoundedLoad::on(const Scene &scene, const Triangles &triangles) const
   {
     BoundScene bound = {
-      scene, triangles, chosen, units, {}, interfaces(scene, triangles), {}};
+      scene, triangles, factor(), units, {}, interfaces(scene, triangles), {}};
     for (unsigned int m = 0; m < flow_cones.size(); ++m)
       {
         bound.cones.push_back({flow_cones[m].a,
@@ -448,14 +403,5 @@ namespace geocone::GEOCONE_DIM
           m, part * cone.a / cosine(cone.a), part / cosine(cone.a), 1. / by);
       }
     return bound;
-  }
-
-  std::string
-  BoundedLoad::word() const
-  {
-    return chosen == LoadFactor::velocity ? "velocity"
-           : chosen == LoadFactor::weight ? "weight"
-           : chosen == LoadFactor::all    ? "weight and tractions"
-                                          : "tractions";
   }
 } // namespace geocone::GEOCONE_DIM

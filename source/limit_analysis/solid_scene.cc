@@ -57,17 +57,6 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
-  SolidLoad::declare(dealii::ParameterAcceptor &section)
-  {
-    asked.declare(section,
-                  "Load factor of",
-                  ". Loads multiplied by the load factor; other loads are "
-                  "constant. Velocity: the bounded load is the reaction to the "
-                  "velocities prescribed at t = 0. Automatic: velocity if one "
-                  "of them is not zero, else weight, else tractions.");
-  }
-
-  void
   SolidLoad::take_strengths(const Scene &scene)
   {
     strengths.clear();
@@ -231,9 +220,8 @@ namespace geocone::GEOCONE_DIM
     return held;
   }
 
-  void
-  SolidLoad::choose_factor(const Scene                  &scene,
-                           const std::vector<HeldFacet> &held)
+  std::optional<Tensor<1, dim>>
+  SolidLoad::prescribed_velocity(const std::vector<HeldFacet> &held)
   {
     std::optional<Tensor<1, dim>> velocity;
     for (const HeldFacet &facet : held)
@@ -249,24 +237,7 @@ namespace geocone::GEOCONE_DIM
                              "translation");
           velocity = facet.velocity;
         }
-    chosen = asked;
-    if (chosen == LoadFactor::automatic)
-      chosen = velocity               ? LoadFactor::velocity
-               : scene.gravity.acts() ? LoadFactor::weight
-                                      : LoadFactor::tractions;
-    if (chosen == LoadFactor::velocity && !velocity)
-      throw InputError("Analysis/Load factor of",
-                       "velocity",
-                       "a prescribed velocity that is not zero at t = 0",
-                       "push a part of the boundary, or bound the weight or "
-                       "the tractions");
-    if (chosen != LoadFactor::velocity && velocity)
-      throw InputError("Analysis/Load factor of",
-                       asked.word(),
-                       "velocity where a velocity is prescribed that is not "
-                       "zero",
-                       "set it to 0, or bound its reaction");
-    units.velocity = velocity ? velocity->norm() : 1.;
+    return velocity;
   }
 
   void
@@ -341,26 +312,21 @@ namespace geocone::GEOCONE_DIM
     refuse_empty_regions(scene, n_cells);
     take_strengths(scene);
     const std::vector<HeldFacet> held = held_facets(scene, tetrahedra);
-    choose_factor(scene, held);
+    choose(prescribed_velocity(held), scene.gravity.acts());
     choose_units(scene, tetrahedra);
     check_rigid_motions(tetrahedra, held, units.length);
-    if (chosen == LoadFactor::velocity)
+    if (is_reaction())
       load_unit = units.stress * units.length * units.length *
                   std::abs(scene.observation.factor);
     const SolidScene bound   = on(scene, tetrahedra);
-    bool             is_live = chosen == LoadFactor::velocity;
+    bool             is_live = is_reaction();
     for (unsigned int c = 0; c < tetrahedra.cells.size(); ++c)
       is_live = is_live || bound.body_force(c).live.norm() > 0.;
     for (const auto &facet : bound.traction_of_facet)
       for (const auto &at_vertex : facet)
         is_live = is_live || at_vertex.live.norm() > 0.;
     if (!is_live)
-      throw InputError("Analysis/Load factor of",
-                       asked.word(),
-                       "a load that is not zero",
-                       chosen == LoadFactor::weight
-                         ? "give 'Gravity/Acceleration' and densities"
-                         : "give 'Tractions' that are not zero at t = 0");
+      refuse_zero_load();
   }
 
   SolidScene
@@ -369,7 +335,7 @@ namespace geocone::GEOCONE_DIM
     SolidScene bound;
     bound.scene      = &scene;
     bound.tetrahedra = &tetrahedra;
-    bound.factor     = chosen;
+    bound.factor     = factor();
     bound.units      = units;
     for (SolidStrength one : strengths)
       {
@@ -405,7 +371,7 @@ namespace geocone::GEOCONE_DIM
               middle += x / 3.;
               mean += t[i] / 3.;
               largest = std::max(largest, t[i].norm());
-              (chosen == LoadFactor::tractions
+              (factor() == LoadFactor::tractions
                  ? bound.traction_of_facet[f][i].live
                  : bound.traction_of_facet[f][i].dead) += t[i];
             }
@@ -431,13 +397,5 @@ namespace geocone::GEOCONE_DIM
                              "or take finer cells there");
         }
     return bound;
-  }
-
-  std::string
-  SolidLoad::word() const
-  {
-    return chosen == LoadFactor::velocity ? "velocity"
-           : chosen == LoadFactor::weight ? "weight"
-                                          : "tractions";
   }
 } // namespace geocone::GEOCONE_DIM

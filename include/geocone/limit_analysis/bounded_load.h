@@ -5,8 +5,7 @@
 #define geocone_limit_analysis_bounded_load_h
 
 #include <geocone/limit_analysis/bound_problem.h>
-
-#include <deal.II/base/parameter_acceptor.h>
+#include <geocone/limit_analysis/load_choice.h>
 
 #include <optional>
 #include <string>
@@ -29,13 +28,9 @@ namespace geocone::GEOCONE_DIM
 
   /** Load bounded by a limit analysis: loads multiplied by the load factor, strength of
    *  the materials, and scaled units in which both are of order one. */
-  class BoundedLoad
+  class BoundedLoad : public LoadChoice
   {
   public:
-    /** Declares the parameter "Load factor of" in a section. */
-    void
-    declare(dealii::ParameterAcceptor &section);
-
     /**
      * Selects the loads multiplied by the load factor, and the scaled units.
      * @param scene prepared scene
@@ -74,47 +69,6 @@ namespace geocone::GEOCONE_DIM
              const double       F,
              const DavisVariant variant) const;
 
-    /** Loads that the load factor multiplies; never LoadFactor::automatic. */
-    LoadFactor
-    factor() const
-    {
-      return chosen;
-    }
-
-    std::string
-    word() const;
-
-    /** Load that corresponds to the load factor 1 of a BoundProblem: in N/m for a
-     *  reaction, otherwise 1. */
-    double
-    value_of_unit() const
-    {
-      return load_unit;
-    }
-
-    std::string
-    unit() const
-    {
-      return chosen == LoadFactor::velocity ? "N/m" : "-";
-    }
-
-    /** Unit of the load with a leading blank; empty for a load factor. */
-    std::string
-    after_number() const
-    {
-      return chosen == LoadFactor::velocity ? " N/m" : "";
-    }
-
-    /** Whether some material has non-associated flow, i.e. a dilatancy angle smaller than
-     *  the friction angle. */
-    bool
-    non_associated() const
-    {
-      return less_dilatant;
-    }
-
-    BoundUnits units;
-
   private:
     /** Checks strength that increases with depth. @throws InputError if the strength is
      *  negative at some vertex */
@@ -129,20 +83,11 @@ namespace geocone::GEOCONE_DIM
     std::optional<dealii::Tensor<1, dim>>
     prescribed_velocity(const Scene &scene, const Triangles &triangles) const;
     void
-    choose_factor(const Scene &scene, const Triangles &triangles);
-    void
     choose_units(const Scene &scene, const Triangles &triangles);
 
-    Choice<LoadFactor>    asked     = {{{"automatic", LoadFactor::automatic},
-                                        {"velocity", LoadFactor::velocity},
-                                        {"weight", LoadFactor::weight},
-                                        {"tractions", LoadFactor::tractions}}};
-    LoadFactor            chosen    = LoadFactor::automatic;
-    double                load_unit = 1.;
     std::vector<FlowCone> flow_cones;
     /** Increase of each material's k with depth (Pa/m). */
     std::vector<Material::Growth> growth;
-    bool                          less_dilatant = false;
   };
 } // namespace geocone::GEOCONE_DIM
 

@@ -4,12 +4,9 @@
 #ifndef geocone_limit_analysis_solid_scene_h
 #define geocone_limit_analysis_solid_scene_h
 
-#include <geocone/base/choice.h>
-#include <geocone/limit_analysis/load_factor.h>
+#include <geocone/limit_analysis/load_choice.h>
 #include <geocone/mesh/tetrahedra.h>
 #include <geocone/scene/scene.h>
-
-#include <deal.II/base/parameter_acceptor.h>
 
 #include <array>
 #include <optional>
@@ -91,13 +88,9 @@ namespace geocone::GEOCONE_DIM
   };
 
   /** The load that three-dimensional bounds are of: its choice, and the units. */
-  class SolidLoad
+  class SolidLoad : public LoadChoice
   {
   public:
-    /** Declares "Load factor of" in a section. */
-    void
-    declare(dealii::ParameterAcceptor &section);
-
     /**
      * @param scene prepared
      * @throws InputError where strict bounds are not possible
@@ -109,46 +102,19 @@ namespace geocone::GEOCONE_DIM
     SolidScene
     on(const Scene &scene, const Tetrahedra &tetrahedra) const;
 
-    std::string
-    word() const;
-
-    /** Load that a problem's 1 corresponds to: (N) for a reaction, else 1. */
-    double
-    value_of_unit() const
-    {
-      return load_unit;
-    }
-    bool
-    is_reaction() const
-    {
-      return chosen == LoadFactor::velocity;
-    }
-    /** Whether the dilatancy of some material is smaller than its friction. */
-    bool
-    non_associated() const
-    {
-      return less_dilatant;
-    }
-
   private:
     void
     take_strengths(const Scene &scene);
     std::vector<HeldFacet>
     held_facets(const Scene &scene, const Tetrahedra &tetrahedra) const;
-    void
-    choose_factor(const Scene &scene, const std::vector<HeldFacet> &held);
+    /** Prescribed non-zero velocity of the body, if any.
+     *  @throws InputError for several different velocities */
+    static std::optional<dealii::Tensor<1, dim>>
+    prescribed_velocity(const std::vector<HeldFacet> &held);
     void
     choose_units(const Scene &scene, const Tetrahedra &tetrahedra);
 
-    Choice<LoadFactor>         asked  = {{{"automatic", LoadFactor::automatic},
-                                          {"velocity", LoadFactor::velocity},
-                                          {"weight", LoadFactor::weight},
-                                          {"tractions", LoadFactor::tractions}}};
-    LoadFactor                 chosen = LoadFactor::automatic;
-    double                     load_unit = 1.;
-    BoundUnits                 units;
     std::vector<SolidStrength> strengths; ///< (Pa)
-    bool                       less_dilatant = false;
   };
 } // namespace geocone::GEOCONE_DIM
 

@@ -1,0 +1,75 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/exceptions.h>
+#include <geocone/limit_analysis/load_choice.h>
+
+namespace geocone::GEOCONE_DIM
+{
+  void
+  LoadChoice::declare(dealii::ParameterAcceptor &section)
+  {
+    asked.declare(section,
+                  "Load factor of",
+                  ". Loads multiplied by the load factor; other loads are "
+                  "constant. Velocity: the bounded load is the reaction to the "
+                  "velocities prescribed at t = 0. Automatic: velocity if one "
+                  "of them is not zero, else weight, else tractions.");
+  }
+
+  void
+  LoadChoice::choose(const std::optional<dealii::Tensor<1, dim>> &velocity,
+                     const bool                                   has_weight)
+  {
+    chosen = asked;
+    if (chosen == LoadFactor::automatic)
+      chosen = velocity     ? LoadFactor::velocity
+               : has_weight ? LoadFactor::weight
+                            : LoadFactor::tractions;
+    if (chosen == LoadFactor::velocity && !velocity)
+      throw InputError(
+        "Analysis/Load factor of",
+        "velocity",
+        "a prescribed velocity that is not zero at t = 0",
+        "push a part of the boundary, or bound the weight or the "
+        "tractions");
+    if (chosen != LoadFactor::velocity && velocity)
+      throw InputError("Analysis/Load factor of",
+                       asked.word(),
+                       "velocity where a velocity is prescribed that is not "
+                       "zero",
+                       "set it to 0, or bound its reaction");
+    units.velocity = velocity ? velocity->norm() : 1.;
+  }
+
+  void
+  LoadChoice::refuse_zero_load() const
+  {
+    const std::string allowed = "a load that is not zero",
+                      weight  = "give 'Gravity/Acceleration' and densities";
+    if (chosen == LoadFactor::all)
+      throw InputError(
+        "Gravity/Acceleration", "0, 0", allowed, weight + ", or 'Tractions'");
+    throw InputError("Analysis/Load factor of",
+                     asked.word(),
+                     allowed,
+                     chosen == LoadFactor::weight
+                       ? weight
+                       : "give 'Tractions' that are not zero at t = 0");
+  }
+
+  std::string
+  LoadChoice::word() const
+  {
+    return chosen == LoadFactor::velocity ? "velocity"
+           : chosen == LoadFactor::weight ? "weight"
+           : chosen == LoadFactor::all    ? "weight and tractions"
+                                          : "tractions";
+  }
+
+  std::string
+  LoadChoice::unit() const
+  {
+    return !is_reaction() ? "-" : dim == 2 ? "N/m" : "N";
+  }
+} // namespace geocone::GEOCONE_DIM
