@@ -4,18 +4,15 @@
 #ifndef geocone_limit_analysis_limit_analysis_h
 #define geocone_limit_analysis_limit_analysis_h
 
+#include <geocone/limit_analysis/bound_analysis.h>
 #include <geocone/limit_analysis/bounded_load.h>
 #include <geocone/limit_analysis/certified_bounds.h>
 #include <geocone/limit_analysis/gradients.h>
-#include <geocone/limit_analysis/limit_output.h>
 #include <geocone/limit_analysis/strength_reduction.h>
 #include <geocone/mesh/domain_of_triangles.h>
-#include <geocone/run/simulation.h>
 
 #include <deal.II/base/bounding_box.h>
-#include <deal.II/base/parameter_acceptor.h>
 
-#include <algorithm>
 #include <array>
 #include <optional>
 #include <string>
@@ -37,16 +34,10 @@ namespace geocone::GEOCONE_DIM
    * limit load, or of the factor of safety, on meshes refined adaptively where the
    * bounds differ. Each level is a step of the run.
    */
-  class LimitAnalysis : public Simulation, public dealii::ParameterAcceptor
+  class LimitAnalysis : public BoundAnalysis
   {
   public:
     LimitAnalysis(const MPI_Comm comm, const ParameterFile &file, Log &log);
-
-    OutputBase &
-    output() override
-    {
-      return limit_output;
-    }
 
     AnalysisKind
     kind() const
@@ -55,23 +46,6 @@ namespace geocone::GEOCONE_DIM
     }
 
   private:
-    /** Tolerance of the interior-point method, relative to the load. */
-    double
-    inner_tolerance() const
-    {
-      return std::min(tolerance, gap_tolerance / 10.);
-    }
-
-    /** Checks the parameters. @throws InputError for parameters out of range, several
-     *  ranks, and particles */
-    void
-    check_parameters() const;
-
-    /** Prepares the scene and checks that it admits strict bounds.
-     *  @throws InputError if it does not */
-    void
-    prepare_scene(const RunOptions &options);
-
     /** Returns warnings about the magnitudes of the scene's parameters, a fixed mesh and
      *  time-dependent loads. */
     std::vector<std::string>
@@ -89,12 +63,12 @@ namespace geocone::GEOCONE_DIM
       return analysis == AnalysisKind::strength_reduction;
     }
 
-    /** Name of the bounded quantity, used in messages. */
-    std::string
-    bounded() const
-    {
-      return reduces_strength() ? "factor of safety" : "load";
-    }
+    static Side
+    figures_of(const CertifiedBounds::Side &side);
+
+    /** Collects `bounds`. @param unit load that a problem's 1 corresponds to */
+    BoundLevel
+    level_of(const double unit) const;
 
     /** Computes both bounds of the load on the current mesh.
      *  @throws StepFailure if there is no bound */
@@ -106,9 +80,8 @@ namespace geocone::GEOCONE_DIM
     BoundLevel
     bound_factor();
 
-    /** Whether other meshes than the first one can be made. */
     bool
-    refines() const
+    refines() const override
     {
       return scene.geometry.shape != Geometry::Shape::file ||
              file_domain->obstacle().empty();
@@ -138,27 +111,36 @@ namespace geocone::GEOCONE_DIM
 
     /** Returns the bracket certified so far, with Davis's estimate. */
     LoadBracket
-    bracket() const;
+    bracket() const override;
+
+    std::string
+    kind_word() const override
+    {
+      return analysis.word();
+    }
+    const LoadChoice &
+    load_choice() const override
+    {
+      return bounded_load;
+    }
+    std::string
+    bounded() const override
+    {
+      return reduces_strength() ? "factor of safety" : "load";
+    }
+    void
+    prepare_water(const RunOptions &options) override;
+    Json
+    results() const override;
 
     std::vector<std::string>
     prepare(const RunOptions &options) override;
-    std::vector<unsigned int>
-    programme() const override;
-    void
-    prepare_output(const RunOptions &options) override;
     std::string
     headline(const std::string &name) const override;
     Json
     model() override;
-    void
-    begin(const TimePoint &) override
-    {}
     StepOutcome
     advance(TimePoint &now) override;
-    void
-    record(const TimePoint &now) override;
-    std::string
-    progress(const TimePoint &now) const override;
     void
     write_fields(const double t) override;
     Json
@@ -168,10 +150,6 @@ namespace geocone::GEOCONE_DIM
     void
     state(StateRow &row) override;
 
-    Scene             scene;
-    Method            method;
-    MeshParameters    mesh_parameters;
-    LimitOutput       limit_output;
     BoundedLoad       bounded_load;
     StrengthReduction reduction;
 
@@ -180,11 +158,6 @@ namespace geocone::GEOCONE_DIM
        {"limit load", AnalysisKind::limit_load},
        {"strength reduction", AnalysisKind::strength_reduction},
        {"seepage", AnalysisKind::seepage}}};
-    double       gap_tolerance = 0.01;
-    double       growth        = 2.;
-    unsigned int most_cells    = 20000;
-    unsigned int most_levels   = 12;
-    double       tolerance     = 1e-3;
 
     std::optional<CellSizes> sizes; ///< of the next mesh
 

@@ -4,12 +4,8 @@
 #ifndef geocone_limit_analysis_solid_limit_analysis_h
 #define geocone_limit_analysis_solid_limit_analysis_h
 
-#include <geocone/limit_analysis/limit_output.h>
+#include <geocone/limit_analysis/bound_analysis.h>
 #include <geocone/limit_analysis/solid_certificate.h>
-#include <geocone/mesh/mesh_parameters.h>
-#include <geocone/run/simulation.h>
-
-#include <deal.II/base/parameter_acceptor.h>
 
 #include <optional>
 #include <string>
@@ -22,18 +18,12 @@ namespace geocone::GEOCONE_DIM
    * bounds of the limit load on tetrahedra. Each mesh is a step of the run; the cells of
    * the next one are smaller everywhere.
    */
-  class SolidLimitAnalysis : public Simulation, public dealii::ParameterAcceptor
+  class SolidLimitAnalysis : public BoundAnalysis
   {
   public:
     SolidLimitAnalysis(const MPI_Comm       comm,
                        const ParameterFile &file,
                        Log                 &log);
-
-    OutputBase &
-    output() override
-    {
-      return limit_output;
-    }
 
     /** Whether loads are bounded instead of steps taken. */
     bool
@@ -43,37 +33,33 @@ namespace geocone::GEOCONE_DIM
     }
 
   private:
-    /** @throws InputError for parameters out of range, several ranks and particles */
-    void
-    check_parameters() const;
+    static Side
+    figures_of(const SolidBound &side);
 
-    /** Checks the scene, and that it admits strict bounds. @throws InputError */
-    void
-    prepare_scene(const RunOptions &options);
-
+    std::string
+    kind_word() const override
+    {
+      return kind.word();
+    }
+    const LoadChoice &
+    load_choice() const override
+    {
+      return load;
+    }
+    bool
+    refines() const override
+    {
+      return scene.geometry.shape != Geometry::Shape::file;
+    }
     LoadBracket
-    bracket() const;
+    bracket() const override;
+    void
+    prepare_water(const RunOptions &options) override;
 
     std::vector<std::string>
     prepare(const RunOptions &options) override;
-    std::vector<unsigned int>
-    programme() const override;
-    void
-    prepare_output(const RunOptions &options) override;
-    std::string
-    headline(const std::string &name) const override;
-    void
-    begin(const TimePoint &) override
-    {}
     StepOutcome
     advance(TimePoint &now) override;
-    void
-    record(const TimePoint &now) override;
-    std::string
-    progress(const TimePoint &) const override
-    {
-      return "";
-    }
     Json
     topics() override;
     void
@@ -81,11 +67,7 @@ namespace geocone::GEOCONE_DIM
     void
     state(StateRow &row) override;
 
-    Scene          scene;
-    Method         method;
-    MeshParameters mesh_parameters;
-    LimitOutput    limit_output;
-    SolidLoad      load;
+    SolidLoad load;
 
     enum class Kind
     {
@@ -94,11 +76,6 @@ namespace geocone::GEOCONE_DIM
     };
     Choice<Kind> kind = {
       {{"steps", Kind::steps}, {"limit load", Kind::limit_load}}};
-    double       gap_tolerance = 0.01;
-    double       growth        = 2.;
-    unsigned int most_cells    = 20000;
-    unsigned int most_levels   = 12;
-    double       tolerance     = 1e-3;
 
     enum class Order
     {
