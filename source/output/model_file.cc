@@ -142,32 +142,46 @@ namespace geocone::GEOCONE_DIM
       return all;
     }
 
-    /** Row-wise lattice points over the body selected by a function, for shapes given
-     *  by formulas. */
+    /** Lattice points over the body selected by a function, for shapes given by
+     *  formulas: rows along x; in three dimensions, layers of rows along z. */
     template <typename Selected>
     Json
     lattice_of(const Geometry &geometry, const Selected &selected)
     {
-      constexpr unsigned int most = 240;
+      constexpr unsigned int most = dim == 2 ? 240 : 48;
       const auto [low, high]      = geometry.bounding_box();
-      const double width = high[0] - low[0], height = high[1] - low[1];
-      const double step = std::max(width, height) / most;
-      const auto   nx   = static_cast<unsigned int>(std::ceil(width / step));
-      const auto   ny   = static_cast<unsigned int>(std::ceil(height / step));
-      Json         rows = Json::array();
-      for (unsigned int j = 0; j < ny; ++j)
+      const auto   size           = high - low;
+      double       largest        = 0.;
+      for (unsigned int d = 0; d < dim; ++d)
+        largest = std::max(largest, size[d]);
+      std::array<unsigned int, 3> n{{1, 1, 1}};
+      for (unsigned int d = 0; d < dim; ++d)
+        n[d] = static_cast<unsigned int>(std::ceil(size[d] / largest * most));
+      Json layers = Json::array();
+      for (unsigned int k = 0; k < n[2]; ++k)
         {
-          std::string row;
-          for (unsigned int i = 0; i < nx; ++i)
+          Json rows = Json::array();
+          for (unsigned int j = 0; j < n[1]; ++j)
             {
-              Point<dim> x = low;
-              x[0] += (i + .5) * width / nx;
-              x[1] += (j + .5) * height / ny;
-              row += selected(x) ? '1' : '0';
+              std::string row;
+              for (unsigned int i = 0; i < n[0]; ++i)
+                {
+                  const std::array<unsigned int, 3> index{{i, j, k}};
+                  Point<dim>                        x;
+                  for (unsigned int d = 0; d < dim; ++d)
+                    x[d] = low[d] + (index[d] + .5) * size[d] / n[d];
+                  row += selected(x) ? '1' : '0';
+                }
+              rows.push_back(row);
             }
-          rows.push_back(row);
+          layers.push_back(rows);
         }
-      return {{"low", json(low)}, {"high", json(high)}, {"rows", rows}};
+      Json lattice = {{"low", json(low)}, {"high", json(high)}};
+      if (dim == 2)
+        lattice["rows"] = layers[0];
+      else
+        lattice["layers"] = layers;
+      return lattice;
     }
 
     Json
@@ -189,7 +203,7 @@ namespace geocone::GEOCONE_DIM
           body["holes"] = holes;
         }
       // Outlines describe neither discs nor the region where a formula is positive.
-      if (dim == 2 && geometry.shape != Geometry::Shape::file &&
+      if (geometry.shape != Geometry::Shape::file &&
           (geometry.outline.empty() || geometry.is_part_by_formula()))
         body["lattice"] = lattice_of(
           geometry, [&](const Point<dim> &x) { return geometry.contains(x); });
@@ -205,7 +219,7 @@ namespace geocone::GEOCONE_DIM
           Json one = {{"name", stage->name}, {"duration_s", stage->duration}};
           if (!stage->removed_polygon.empty())
             one["removed"] = json_of_places(stage->removed_polygon);
-          else if (dim == 2 && stage->removes() &&
+          else if (stage->removes() &&
                    scene.geometry.shape != Geometry::Shape::file)
             one["removed_lattice"] =
               lattice_of(scene.geometry, [&](const Point<dim> &x) {

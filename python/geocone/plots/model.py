@@ -16,7 +16,6 @@ from matplotlib.path import Path as Outline
 from matplotlib.transforms import offset_copy
 
 from geocone.parameter_file import IncludeError, parameters_of
-from geocone.plots.solid import View, add_directions
 from geocone.reader import Missing, ReadError, mass_unit
 from geocone.style import (WATER, draw_free_surface, draw_table, plain, save, subplots, table_of,
                            unit_for)
@@ -351,10 +350,13 @@ class ArrowHandler(HandlerPatch):
         return [arrow]
 
 
-def add_legend(axes, entries, below):
-    """Adds the legend under the axes. @param below so many points"""
+def add_legend(axes, entries, below, centre=0.5):
+    """Adds the legend under the axes.
+
+    @param below so many points
+    @param centre of the legend, in widths of the axes"""
     axes.legend(entries.values(), entries.keys(), loc="upper center", frameon=False,
-                bbox_to_anchor=(0.5, 0.), fontsize=8.5, ncols=1 if len(entries) < 5 else 2,
+                bbox_to_anchor=(centre, 0.), fontsize=8.5, ncols=1 if len(entries) < 5 else 2,
                 bbox_transform=offset_copy(axes.transAxes, axes.figure, y=-below,
                                            units="points"),
                 handler_map={FancyArrow: ArrowHandler()})
@@ -587,95 +589,15 @@ def draw_plane(model, path):
     save(figure, None, path, cropped=True)
 
 
-def box_faces(low, high):
-    """The faces (6, 4, 3) of a box and their outward normals (6, 3)."""
-    faces, normals = [], []
-    for d in range(3):
-        a, b = (d + 1) % 3, (d + 2) % 3
-        for end, sign in ((low, -1.), (high, 1.)):
-            corners = np.tile(end, (4, 1)).astype(float)
-            for corner, (u, v) in zip(corners, ((0, 0), (1, 0), (1, 1), (0, 1))):
-                corner[a], corner[b] = (low, high)[u][a], (low, high)[v][b]
-            faces.append(corners)
-            normals.append(sign * np.eye(3)[d])
-    return np.array(faces), np.array(normals)
-
-
-def is_seen(view, face):
-    """Whether a view shows the outside of a face, whose corners are counterclockwise there."""
-    return np.cross(face[1] - face[0], face[2] - face[0]) @ view.towards > 0.
-
-
-def draw_space(model, path):
-    """The picture of a scene in three dimensions, from above and a corner."""
-    view = View(1., 1.)
-    corners = np.array([[x, y, z] for x in (model.low[0], model.high[0])
-                        for y in (model.low[1], model.high[1])
-                        for z in (model.low[2], model.high[2])])
-    seen = view.seen(corners)
-    box = np.array([seen.min(axis=0), seen.max(axis=0)])
-    box = np.array([box[0] - 0.12 * model.size, box[1] + 0.15 * model.size])
-    w = min(9., max(4., 7. * np.ptp(box[:, 0]) / np.ptp(box[:, 1])))
-    figure, axes = subplots(figsize=(w, w * np.ptp(box[:, 1]) / np.ptp(box[:, 0]) + 1.))
-    frame(axes, box)
-    entries = legend_of(model)
-    absent = model.absent()
-    of_cell = model.data["material_of_cell"] or []
-    if of_cell:  # the boundary faces of the mesh, the nearest last
-        faces = [np.array(face, dtype=float) for face in model.data["cells"]]
-        order = np.argsort([face.mean(axis=0) @ view.towards for face in faces])
-        axes.add_collection(PolyCollection(
-            [view.seen(faces[i]) for i in order], edgecolors="#50505060", linewidths=0.2,
-            facecolors=[color_of(of_cell[i]) for i in order], zorder=1))
-    for i, material in enumerate(() if of_cell else model.data["materials"]):
-        ends = (model.low, model.high) if i == 0 else (
-            np.array(material["region"], dtype=float) if "region" in material else None)
-        if ends is None or material["name"] in absent:
-            continue
-        low, high = np.maximum(ends[0], model.low), np.minimum(ends[1], model.high)
-        for face, normal in zip(*box_faces(low, high)):
-            if normal @ view.towards > 0.:
-                axes.add_patch(Polygon(view.seen(face), facecolor=color_of(i), zorder=1 + 0.01 * i,
-                                       edgecolor="#505050", linewidth=0.8, alpha=0.85))
-    for obstacle in model.data["obstacles"]:
-        triangles = np.array(obstacle["triangles"], dtype=float).reshape(-1, 3, 3)
-        order = np.argsort(triangles.mean(axis=1) @ view.towards)
-        axes.add_collection(PolyCollection(view.seen(triangles.reshape(-1, 3)).reshape(
-            -1, 3, 2)[order], facecolors="#8c8c8cb0", edgecolors="#606060", linewidths=0.3,
-            zorder=3), autolim=False)
-    for kind, color, unit in (("supports", MOTION, "m/s"), ("tractions", LOAD, "Pa")):
-        for condition in model.data[kind]:
-            faces = [np.array(face, dtype=float) for face in condition["faces"]]
-            if not faces:
-                continue
-            values = np.array(condition["values"], dtype=float)
-            moved = np.linalg.norm(values, axis=1) > 0.
-            shown = color if np.any(moved) else SUPPORT
-            axes.add_collection(PolyCollection(
-                [view.seen(face) for face in faces if is_seen(view, face)],
-                facecolors=shown + "30", edgecolors="none", zorder=2))
-            text = plain(condition["name"])
-            if np.any(moved):
-                places = np.array([face.mean(axis=0) for face in faces])[moved]
-                every = max(1, len(places) // 40)
-                draw_arrows(axes, view.seen(places[::every]), view.seen(values[moved][::every]),
-                            -view.seen(values[moved][::every]), color, 0.1 * model.size)
-                entries[f"{text}: {value_text(values, unit)}"] = arrow_entry(color)
-            else:
-                held = [c for c, given in zip("xyz", condition["prescribed"]) if given]
-                entries[f"{text}: fixed in " + (", ".join(held) or "the normal direction")] = (
-                    Patch(facecolor=SUPPORT + "30", edgecolor=SUPPORT))
-    add_directions(axes, view, box)
-    axes.set_title(f"{plain(model.name)}: model, seen from {view.name()}")
-    add_legend(axes, entries, below=2.)
-    save(figure, None, path, cropped=True)
-
-
 def draw(folder, path):
     """Draws the model in the folder of a run or of a check.
     @throw Missing where there is none, ReadError if it is damaged"""
     model = Model(folder)
-    (draw_plane if model.data["dimension"] == 2 else draw_space)(model, path)
+    if model.data["dimension"] == 2:
+        draw_plane(model, path)
+    else:
+        from geocone.plots import model_solid
+        model_solid.draw(model, path)
 
 
 def draw_run(run, path):

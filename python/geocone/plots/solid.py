@@ -53,16 +53,17 @@ def outer_faces(points, cells, vertices):
 
 
 class View:
-    """Parallel projection from above, from one of the four corners of the horizon.
+    """Parallel projection from one of the four corners of the horizon, from above (height
+    > 0, rad) or from below.
 
     towards  unit vector to the eye; right, up  those of the picture"""
 
-    def __init__(self, sign_x, sign_z):
-        self.signs = np.array([sign_x, sign_z])
+    def __init__(self, sign_x, sign_z, height=HEIGHT):
+        self.signs, self.below = np.array([sign_x, sign_z]), height < 0.
         self.right = np.array([sign_z, 0., -sign_x]) / np.sqrt(2.)
         level = np.array([sign_x, 0., sign_z]) / np.sqrt(2.)
-        self.towards = np.cos(HEIGHT) * level + np.array([0., np.sin(HEIGHT), 0.])
-        self.up = np.cos(HEIGHT) * np.array([0., 1., 0.]) - np.sin(HEIGHT) * level
+        self.towards = np.cos(height) * level + np.array([0., np.sin(height), 0.])
+        self.up = np.cos(height) * np.array([0., 1., 0.]) - np.sin(height) * level
 
     def seen(self, points):
         """Where points are in the picture (n, 2)."""
@@ -70,8 +71,8 @@ class View:
 
     def name(self):
         """Where the eye is."""
-        return ", ".join("-+"[int(sign > 0)] + axis
-                         for sign, axis in zip(self.signs, "xz"))
+        return ", ".join("-+"[int(sign > 0)] + axis for sign, axis in zip(
+            self.signs, "xz")) + " and below" * self.below
 
 
 def facing(faces, normals, view):

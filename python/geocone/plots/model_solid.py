@@ -1,0 +1,283 @@
+# Copyright (C) 2026 by the geocone authors
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""model.png of a scene in three dimensions: the body from above, from below where supports
+are hidden, and the stages that change it."""
+
+import numpy as np
+from matplotlib.collections import PolyCollection
+from matplotlib.colors import to_rgb
+from matplotlib.patches import Patch
+
+from geocone.plots.model import (LOAD, MOST_STAGES, MOTION, add_legend, arrow_entry, color_of,
+                                 draw_arrows, frame, legend_of, notable_stages, value_text,
+                                 words_of)
+from geocone.plots.solid import View, add_directions
+from geocone.style import plain, save, subplots
+
+# Of supports: apart from those of soils, loads and motions, and from one another.
+SUPPORTS = ["#4d4d4d", "#1b7f79", "#8a5a9e", "#7a6a1f", "#3f6fb0", "#a4526b"]
+ABOVE = View(1., 1.)
+BELOW = View(-1., -1., -np.radians(20.))
+
+
+def normal_of(face):
+    """Twice the area of a face times its normal, outward for corners that are
+    counterclockwise there."""
+    return np.cross(face[1] - face[0], face[2] - face[0])
+
+
+def seen_faces(condition, view):
+    """The faces of a condition whose outside a view shows."""
+    faces = [np.array(face, dtype=float) for face in condition["faces"]]
+    return [face for face in faces
+            if normal_of(face) @ view.towards > 1e-9 * np.linalg.norm(normal_of(face))]
+
+
+def is_moved(condition):
+    """Whether a condition prescribes values that are not zero."""
+    return bool(np.any(condition["values"]))
+
+
+def grid_of(model):
+    """Lines (x, y, z) of a grid that the body fills in part, and where it does (nx, ny, nz);
+    None for a body of a mesh file.
+
+    A body that a formula gives is on its lattice; a box is divided where regions of
+    materials and of excavations end."""
+    body = model.data["body"]
+    if "lattice" in body:
+        inside = selected(body["lattice"])
+        low, high = (np.array(body["lattice"][end]) for end in ("low", "high"))
+        return [np.linspace(low[d], high[d], inside.shape[d] + 1) for d in range(3)], inside
+    if body["shape"] != "box":
+        return None
+    boxes = [one[key] for kind, key in (("materials", "region"), ("stages", "removed"))
+             for one in model.data[kind] if key in one]
+    lines = [np.unique(np.clip([model.low[d], model.high[d], *(
+        end[d] for ends in boxes for end in ends)], model.low[d], model.high[d]))
+        for d in range(3)]
+    return lines, np.ones([len(line) - 1 for line in lines], dtype=bool)
+
+
+def selected(lattice):
+    """The points (nx, ny, nz) of a lattice that a formula selects."""
+    return np.array([[[int(c) for c in row] for row in layer]
+                     for layer in lattice["layers"]], dtype=bool).transpose(2, 1, 0)
+
+
+def centres_of(lines):
+    """Centres of the cells of a grid (nx, ny, nz, 3)."""
+    return np.stack(np.meshgrid(*((line[1:] + line[:-1]) / 2. for line in lines),
+                                indexing="ij"), axis=-1)
+
+
+def in_box(points, ends):
+    """Which points lie in a box, whose corners are given."""
+    ends = np.sort(np.array(ends, dtype=float), axis=0)
+    return np.all((points > ends[0]) & (points < ends[1]), axis=-1)
+
+
+def draw_grid(axes, view, lines, colors):
+    """Draws the faces of a grid's cells that a view shows, the nearest last.
+
+    @param colors of the cells (nx, ny, nz, 3), not a number where there is nothing"""
+    there = ~np.isnan(colors[..., 0])
+    signs = np.sign(view.towards).astype(int)
+    faces, paint, order = [], [], []
+    for d in range(3):
+        a, b = (d + 1) % 3, (d + 2) % 3
+        behind = np.roll(there, -signs[d], axis=d)  # the neighbour towards the eye
+        edge = [slice(None)] * 3
+        edge[d] = -1 if signs[d] > 0 else 0
+        behind[tuple(edge)] = False
+        cells = np.argwhere(there & ~behind)
+        corners = np.empty((len(cells), 4, 3))
+        corners[:, :, d] = lines[d][cells[:, d] + (signs[d] > 0)][:, None]
+        for corner, (u, v) in enumerate(((0, 0), (1, 0), (1, 1), (0, 1))):
+            corners[:, corner, a] = lines[a][cells[:, a] + u]
+            corners[:, corner, b] = lines[b][cells[:, b] + v]
+        faces.append(view.seen(corners.reshape(-1, 3)).reshape(-1, 4, 2))
+        paint.append(colors[tuple(cells.T)] * (0.94, 1., 0.86)[d])
+        order.append(cells @ signs)
+    # Parallel rays pass cells in the order of their numbers.
+    nearest = np.argsort(np.concatenate(order), kind="stable")
+    paint = np.concatenate(paint)[nearest]
+    few = there.sum() < 1000
+    axes.add_collection(PolyCollection(
+        np.concatenate(faces)[nearest], facecolors=paint, zorder=1, linewidths=0.6 if few else 0.4,
+        edgecolors="#50505080" if few else paint))
+
+
+def draw_body(axes, model, view, absent, changed=None, removed=()):
+    """Fills the materials that are there.
+
+    @param changed {name: name} what has become another one
+    @param removed boxes and lattices that have been taken away"""
+    changed = changed or {}
+    names = [material["name"] for material in model.data["materials"]]
+
+    def shown(material):
+        name = names[material]
+        while name in changed:
+            name = changed[name]
+        return color_of(names.index(name))
+
+    of_cell, grid = model.data["material_of_cell"] or [], grid_of(model)
+    if of_cell and not (removed and grid):  # the boundary faces of the mesh, the nearest last
+        faces = [np.array(face, dtype=float) for face in model.data["cells"]]
+        there = [i for i in np.argsort([face.mean(axis=0) @ view.towards for face in faces])
+                 if names[of_cell[i]] not in absent]
+        axes.add_collection(PolyCollection(
+            [view.seen(faces[i]) for i in there], edgecolors="#50505060", linewidths=0.2,
+            facecolors=[shown(of_cell[i]) for i in there], zorder=1))
+    elif grid:
+        lines, inside = grid
+        centres = centres_of(lines)
+        colors = np.full((*inside.shape, 3), np.nan)
+        for i, material in enumerate(model.data["materials"]):
+            its = inside if i == 0 else (
+                inside & in_box(centres, material["region"]) if "region" in material else None)
+            if its is not None:
+                colors[its] = np.nan if material["name"] in absent else to_rgb(shown(i))
+        for what in removed:
+            colors[selected(what) if isinstance(what, dict) else in_box(centres, what)] = np.nan
+        draw_grid(axes, view, lines, colors)
+
+
+def view_of_stages(model):
+    """The view from above that shows most of what stages dig away: its sides that are free."""
+    boxes = [np.array(stage["removed"]) for stage in model.data["stages"] if "removed" in stage]
+
+    def shown(view):
+        free = [view.signs * (ends[:, [0, 2]].max(axis=0) >= model.high[[0, 2]]) +
+                view.signs * -1 * (ends[:, [0, 2]].min(axis=0) <= model.low[[0, 2]])
+                for ends in boxes]
+        return sum(float(np.sum(one)) for one in free)
+
+    return max((View(x, z) for x in (1., -1.) for z in (1., -1.)), key=shown)
+
+
+def draw_obstacles(axes, model, view):
+    """Fills the surfaces of obstacles."""
+    for obstacle in model.data["obstacles"]:
+        triangles = np.array(obstacle["triangles"], dtype=float).reshape(-1, 3, 3)
+        order = np.argsort(triangles.mean(axis=1) @ view.towards)
+        axes.add_collection(PolyCollection(view.seen(triangles.reshape(-1, 3)).reshape(
+            -1, 3, 2)[order], facecolors="#8c8c8cb0", edgecolors="#606060", linewidths=0.3,
+            zorder=3), autolim=False)
+
+
+def held_conditions(model):
+    """Supports at rest on faces, with their colours."""
+    held = [one for one in model.data["supports"] if one["faces"] and not is_moved(one)]
+    return [(one, SUPPORTS[i % len(SUPPORTS)]) for i, one in enumerate(held)]
+
+
+def draw_supports(axes, model, view):
+    """Fills the faces of supports that are seen. @return entries of the legend"""
+    entries = {}
+    for condition, color in held_conditions(model):
+        axes.add_collection(PolyCollection(
+            [view.seen(face) for face in seen_faces(condition, view)],
+            facecolors=color + "90", edgecolors=color, linewidths=0.3, zorder=2))
+        held = [c for c, given in zip("xyz", condition["prescribed"]) if given]
+        when = ", ".join(condition.get("stages", []))
+        text = f"{plain(condition['name'])}: fixed in " + (", ".join(held) or
+                                                           "the normal direction")
+        entries[text + (f" ({plain(when)})" if when else "")] = Patch(
+            facecolor=color + "90", edgecolor=color)
+    return entries
+
+
+def draw_loads(axes, model, view):
+    """Arrows of tractions and of supports that move. @return entries of the legend"""
+    entries = {}
+    for kind, color, unit in (("supports", MOTION, "m/s"), ("tractions", LOAD, "Pa")):
+        for condition in model.data[kind]:
+            if not condition["faces"] or not is_moved(condition):
+                continue
+            values = np.array(condition["values"], dtype=float)
+            moved = np.linalg.norm(values, axis=1) > 0.
+            axes.add_collection(PolyCollection(
+                [view.seen(face) for face in seen_faces(condition, view)],
+                facecolors=color + "30", edgecolors="none", zorder=2))
+            places = np.array([np.mean(face, axis=0) for face in condition["faces"]])[moved]
+            every = max(1, len(places) // 40)
+            vectors = view.seen(values[moved][::every])
+            draw_arrows(axes, view.seen(places[::every]), vectors, -vectors, color,
+                        0.1 * model.size)
+            text = f"{plain(condition['name'])}: {value_text(values, unit)}"
+            entries[text] = arrow_entry(color)
+    return entries
+
+
+def box_of(model, view):
+    """Corners of the picture of the body."""
+    corners = np.array([[x, y, z] for x in (model.low[0], model.high[0])
+                        for y in (model.low[1], model.high[1])
+                        for z in (model.low[2], model.high[2])])
+    seen = view.seen(corners)
+    loads = any(is_moved(one) for kind in ("supports", "tractions") for one in model.data[kind])
+    margin = model.size * np.array([0.12, 0.15 if loads and not view.below else 0.05])
+    return np.array([seen.min(axis=0) - 0.12 * model.size, seen.max(axis=0) + margin])
+
+
+def draw_stages(axes_of, model, stages):
+    """A small picture of the body in each of some stages."""
+    absent, changed, removed = model.absent(), {}, []
+    pictures = []
+    for stage in model.data["stages"]:
+        absent = absent - set(stage.get("added", ())) - set(stage.get("changed", {}).values())
+        changed = {**changed, **stage.get("changed", {})}
+        removed = removed + [stage[key] for key in ("removed", "removed_lattice")
+                             if key in stage]
+        if stage in stages:
+            pictures.append((stage, absent, changed, removed))
+    view = view_of_stages(model)
+    for axes, (stage, absent, changed, removed) in zip(axes_of, pictures):
+        frame(axes, box_of(model, view))
+        draw_body(axes, model, view, absent, changed, removed)
+        draw_obstacles(axes, model, view)
+        axes.set_title(f"{words_of(stage)}\nseen from {view.name()}", fontsize=8)
+        axes.set(xticks=[], yticks=[])
+        axes.set_frame_on(False)
+
+
+def draw(model, path):
+    """Draws the scene from above and a corner, from below where this view hides supports,
+    and its stages."""
+    hidden = any(len(seen_faces(condition, ABOVE)) < len(condition["faces"])
+                 for condition, _ in held_conditions(model))
+    views = [ABOVE, BELOW] if hidden else [ABOVE]
+    boxes = [box_of(model, view) for view in views]
+    size = np.max([np.ptp(box, axis=0) for box in boxes], axis=0)
+    boxes = [box.mean(axis=0) + np.array([-size / 2., size / 2.]) for box in boxes]  # one scale
+    stages = notable_stages(model)[:MOST_STAGES]
+    w = min(5.5 if hidden else 7., 6. * size[0] / size[1])
+    h = w * size[1] / size[0]
+    strip = 0.5 + 0.5 * h if stages else 0.
+    figure, axes_of = subplots(
+        2 if stages else 1, len(views), squeeze=False,
+        figsize=(w * len(views), h + strip + 1.),
+        gridspec_kw={"height_ratios": [h, strip]} if stages else None)
+    entries = legend_of(model)
+    for axes, view, box in zip(axes_of[0], views, boxes):
+        frame(axes, box)
+        draw_body(axes, model, view, model.absent())
+        draw_obstacles(axes, model, view)
+        entries.update(draw_supports(axes, model, view))
+        if not view.below:
+            entries.update(draw_loads(axes, model, view))
+        add_directions(axes, view, box)
+        axes.set_title(f"seen from {view.name()}", fontsize=10)
+    figure.suptitle(f"{plain(model.name)}: model")
+    add_legend(axes_of[0, 0], entries, below=2., centre=1.1 if hidden else 0.5)
+    if stages:
+        for axes in axes_of[1]:
+            axes.axis("off")
+        n = max(3, len(stages))
+        lower = figure.add_subplot(axes_of[1, 0].get_subplotspec().get_gridspec()[1, :])
+        lower.axis("off")
+        draw_stages([lower.inset_axes([i / n, 0., 0.96 / n, 0.9]) for i in range(len(stages))],
+                    model, stages)
+    save(figure, None, path, cropped=True)
