@@ -11,18 +11,18 @@
 
 namespace geocone
 {
-  /** The stages of the loading programme in which a structure or a condition
-   *  acts: the parameter 'Active in'. */
+  /** Stages of the loading programme in which a structure or condition is
+   *  active, from the parameter 'Active in'. */
   class ActingStages
   {
   public:
-    /** Declares the parameter 'Active in'.
-     *  @param rest remainder of its documentation */
+    /** Declares the parameter 'Active in' in a section of the parameter file.
+     *  @param rest second part of the documentation of the parameter */
     void
     declare(dealii::ParameterAcceptor &section, const std::string &rest);
 
-    /** Checks the names of the stages.
-     *  @param parameter full name of the parameter, for messages
+    /** Checks that all selected stages exist in the loading programme.
+     *  @param parameter full name of the parameter, for error messages
      *  @param all names of all stages
      *  @throws InputError for an unknown stage */
     void
@@ -38,14 +38,14 @@ namespace geocone
     bool
     include(const std::string &stage) const;
 
-    /** Names of the stages; empty: all stages. */
+    /** Names of the selected stages. If empty, all stages are selected. */
     const std::vector<std::string> &
     names() const
     {
       return list;
     }
 
-    /** Name of the parameter. */
+    /** Name of the parameter that selects the stages. */
     static constexpr const char *entry = "Active in";
 
   private:

@@ -20,92 +20,101 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** A part of the boundary: selected sides, optionally restricted to a box or
-   *  to the region where a formula is positive. Base of all boundary
+  /** Part of the boundary to which a boundary condition applies. The part
+   *  consists of selected sides, optionally restricted to a box or to the
+   *  region where a formula is positive. Base class of all boundary
    *  conditions. */
   class BoundaryPart : public dealii::ParameterAcceptor
   {
   public:
-    /** @param name name of the condition
+    /** Declares the parameters of a part of the boundary.
+     *  @param name name of the condition
      *  @param list section of the list, e.g. "Boundary conditions" */
     BoundaryPart(const std::string &name, const std::string &list);
 
     void
     prepare();
 
-    /** Replaces names of groups by the names of their sides.
-     *  @throws InputError for a name that begins like a group and is none */
+    /** Replaces the names of holes by the names of the sides of each hole.
+     *  @throws InputError for a hole that does not exist
+     *  @param groups names of the sides of each hole */
     void
     replace_groups(
       const std::map<std::string, std::vector<std::string>> &groups);
 
-    /** Whether a side of this name, or all sides, are in the list. */
+    /** Returns true if the condition applies to the side of the given name, or
+     *  to all sides. */
     bool
     is_on_side(const std::string &side) const;
 
-    /** Whether a box or a formula restricts the part. */
+    /** Returns true if the selected sides are restricted to a box or by a
+     *  formula. */
     bool
     is_restricted() const
     {
       return !box.empty() || !where_text.empty();
     }
 
-    /** Whether a formula selects the part. */
+    /** Returns true if the selected sides are restricted by a formula. */
     bool
     has_formula() const
     {
       return where.has_value();
     }
 
-    /** Whether a point on a selected side belongs to the part. */
+    /** Returns true if a point on a selected side satisfies the restrictions by
+     *  box and formula. */
     bool
     holds_at(const dealii::Point<dim> &x) const;
 
-    /** Whether the formula of the parameter 'Where' is positive at a point. */
+    /** Returns true if the formula of the parameter 'Where' is positive at a
+     *  point. */
     bool
     formula_holds(const dealii::Point<dim> &x) const;
 
-    /** Corners of the bounding box of the selected part of @p faces; no value
-     *  for an empty selection.
-     *  @param faces vertices of each face */
+    /** Returns two corners of the bounding box of the selected part of the
+     *  boundary. No value is returned for an empty selection.
+     *  @param faces vertices of each boundary face */
     std::optional<std::array<dealii::Point<dim>, 2>>
     reach(const std::vector<std::vector<dealii::Point<dim>>> &faces) const;
 
-    /** Corners of the parameter 'Box', enlarged by a rounding tolerance; no
-     *  value without a box. */
+    /** Returns the lower and the upper corner of the parameter 'Box', enlarged
+     *  by a rounding tolerance. No value is returned without a box. */
     std::optional<std::array<dealii::Point<dim>, 2>>
     wide_box() const;
 
-    /** Lower left and upper right corner of the parameter 'Box'; no value
-     *  without a box.
+    /** Returns the lower and the upper corner of the parameter 'Box'. No value
+     *  is returned without a box.
      *  @throws InputError if a formula selects the part */
     std::optional<std::array<dealii::Point<dim>, 2>>
     box_corners() const;
 
-    /** Checks the names of the sides.
+    /** Checks that all selected sides exist.
      *  @throws InputError for an unknown side
      *  @param what description of @p known, e.g. "sides of the body" */
     void
     check_sides(const std::map<std::string, dealii::types::boundary_id> &known,
                 const std::string &what) const;
 
-    /** Checks that the part contains nodes.
+    /** Checks that the selected part of the boundary contains nodes.
      *  @param n_nodes number of selected nodes over all ranks
      *  @throws InputError if no node is selected */
     void
     check_selection(const unsigned int n_nodes) const;
 
-    /** Full name of a parameter of the condition, for messages. */
+    /** Returns the full name of a parameter of the condition, for error
+     *  messages. */
     std::string
     parameter(const std::string &entry) const;
 
-    /** Description of the selected part of the boundary, for messages. */
+    /** Returns a description of the selected part of the boundary, for error
+     *  messages. */
     std::string
     part() const;
 
     const std::string name;
 
-    /** Names of the sides. */
+    /** Names of the selected sides. */
     std::vector<std::string> sides;
 
   private:
@@ -115,17 +124,20 @@ namespace geocone::GEOCONE_DIM
     std::optional<Expression>       where;
   };
 
-  /** A vector-valued boundary condition with Cartesian, normal and tangential
-   *  components: a prescribed velocity, a traction or the velocity of an
-   *  incoming wave. */
+  /** Boundary condition that prescribes a vector by Cartesian, normal or
+   *  tangential components. The vector is a prescribed velocity, a traction or
+   *  the velocity of an incoming wave. */
   class BoundaryCondition : public BoundaryPart
   {
   public:
     /**
+     * Declares the parameters of the boundary condition.
      * @param name name of this condition
      * @param list section of the list, e.g. "Boundary conditions"
      * @param quantity "Velocity", "Traction" or "Incoming velocity"
      * @param unit unit of the quantity, for the documentation
+     * @param unset value of the parameter for a component that is not
+     * prescribed
      * @param folder to which file names of time histories are relative
      */
     BoundaryCondition(const std::string &name,
@@ -138,7 +150,7 @@ namespace geocone::GEOCONE_DIM
     void
     prepare();
 
-    /** Formula of a component as text, for messages.
+    /** Returns the formula of a component as text, for error messages.
      *  @param component Cartesian (< dim), normal (dim) or tangential (dim +
      *  1) */
     const std::string &
@@ -147,35 +159,36 @@ namespace geocone::GEOCONE_DIM
       return texts[component];
     }
 
-    /** Stages in which a prescribed velocity acts. */
+    /** Stages in which a prescribed velocity is active. */
     ActingStages stages;
 
-    /** Imposition method of a prescribed velocity. */
+    /** Method by which a prescribed velocity is imposed. */
     Choice<const Imposition *> imposition = imposition_choice();
 
-    /** Number of segments of the side, for the imposition method `segments`. */
+    /** Number of segments into which a side is divided, for the imposition
+     *  method `segments`. */
     unsigned int n_segments = 2;
 
-    /** Reduction of the length of the side for the imposition method
-     *  `segments`, in cell sizes. */
+    /** Length by which a side is shortened, in cell sizes, for the imposition
+     *  method `segments`. */
     double shortening = 0.;
 
-    /** Entities with a prescribed velocity: nodes of the mesh, particles or a
-     *  side of the body. */
+    /** Returns the type of entity with a prescribed velocity: nodes of the
+     *  mesh, particles or a side of the body. */
     Imposition::On
     holds() const
     {
       return imposition.get()->on;
     }
 
-    /** Whether the condition prescribes a traction. */
+    /** Returns true if the condition prescribes a traction. */
     bool
     is_traction() const
     {
       return quantity == "Traction";
     }
 
-    /** Whether the condition prescribes the velocity of particles or of a side
+    /** Returns true if the velocity is prescribed for particles or for a side
      *  of the body instead of nodes. */
     bool
     moves() const
@@ -183,16 +196,17 @@ namespace geocone::GEOCONE_DIM
       return holds() != Imposition::On::nodes;
     }
 
-    /** Cartesian components as functions of position and time; no value: not
-     *  prescribed. */
+    /** Formulas of the Cartesian components of the prescribed vector, in terms
+     *  of position and time. Components without a value are not prescribed. */
     std::array<std::optional<Expression>, dim> components;
 
-    /** Components along the outward normal n of the side and, for tractions,
-     *  along the tangent (-n_y, n_x), which has the body on its left. */
+    /** Formulas of the normal and tangential components of the prescribed
+     *  vector. The normal n points outward from the body; the tangent (-n_y,
+     *  n_x), for tractions only, has the body on its left. */
     std::optional<Expression> normal, tangential;
 
-    /** Value of a Cartesian component (< dim) or of the normal component (dim)
-     *  at a position and a time. @pre the component is given */
+    /** Evaluates a Cartesian (< dim) or normal (dim) component of the
+     *  prescribed vector. @pre the component is prescribed */
     double
     value(const unsigned int        component,
           const dealii::Point<dim> &x,
@@ -201,16 +215,16 @@ namespace geocone::GEOCONE_DIM
       return (component < dim ? components[component] : normal)->value(x, t);
     }
 
-    /** Vector with the prescribed normal and tangential components at time t,
-     *  for the outward normal n. */
+    /** Returns the sum of the prescribed normal and tangential components as a
+     *  vector. @param n outward unit normal */
     dealii::Tensor<1, dim>
     vector_on_side(const dealii::Point<dim>     &x,
                    const dealii::Tensor<1, dim> &n,
                    const double                  t) const;
 
-    /** Rejects a prescribed normal velocity, for methods that do not support
-     *  it. @throws InputError
-     *  @param allowed,remedy texts of the error */
+    /** Rejects a prescribed normal velocity. Called by methods that do not
+     *  support it. @throws InputError
+     *  @param allowed,remedy texts of the error message */
     void
     refuse_normal(const std::string &allowed, const std::string &remedy) const;
 
@@ -222,9 +236,10 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Boundary conditions of one kind, named in the list "SECTION/Names":
-   * prescribed velocities ("Boundary conditions", m/s), tractions ("Tractions",
-   * Pa) or velocities of incoming waves ("Absorbing boundaries", m/s).
+   * List of all boundary conditions of one kind, from the parameter
+   * "SECTION/Names". Kinds are prescribed velocities ("Boundary conditions",
+   * m/s), tractions ("Tractions", Pa) and velocities of incoming waves
+   * ("Absorbing boundaries", m/s).
    */
   class BoundaryConditions : public NamedList<BoundaryCondition>
   {
@@ -236,17 +251,19 @@ namespace geocone::GEOCONE_DIM
                        const std::string   &unset,
                        const std::string   &documentation);
 
-    /** Checks the stages in which conditions act.
+    /** Checks that the stages selected for each condition exist.
      *  @param all names of all stages
      *  @throws InputError for an unknown stage */
     void
     check_stages(const std::vector<std::string> &all) const;
 
-    /** Rejects conditions that act in some stages only. @throws InputError */
+    /** Rejects boundary conditions that are active only in some stages. @throws
+     *  InputError */
     void
     refuse_stages(const std::string &what, const std::string &remedy) const;
 
-    /** For each condition, whether it acts in a stage. */
+    /** Returns one flag per boundary condition: true if the condition is active
+     *  in the given stage. */
     std::vector<bool>
     acting_in(const std::string &stage) const;
   };

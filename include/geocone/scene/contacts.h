@@ -27,12 +27,13 @@ namespace geocone
   public:
     explicit BodyPair(const std::string &name);
 
-    /** Assigns materials to the two bodies. @param materials names of all
-     *  materials @throws InputError */
+    /** Assigns each material to the first or the second body, or to neither.
+     *  @param materials names of all materials @throws InputError */
     void
     prepare(const std::vector<std::string> &materials);
 
-    /** Whether two materials are on different sides of the contact. */
+    /** Returns true if two materials belong to the two different bodies of the
+     *  contact. */
     bool
     separates(const unsigned int a, const unsigned int b) const
     {
@@ -42,7 +43,7 @@ namespace geocone
     const std::string name;
     InterfaceLaw      law;
 
-    /** For each material, whether it belongs to the first or to the second
+    /** For each material, true if the material belongs to the first (second)
      *  body. */
     std::vector<bool> is_first, is_other;
 
@@ -50,7 +51,8 @@ namespace geocone
     std::vector<std::string> first, other;
   };
 
-  /** The contacts of a scene, named in the list "Contacts/Names". */
+  /** List of all contacts between bodies of a scene, from the parameter
+   *  "Contacts/Names". */
   class Contacts : public NamedList<BodyPair>
   {
   public:
@@ -59,29 +61,29 @@ namespace geocone
     void
     prepare(const std::vector<std::string> &materials);
 
-    /** Whether two materials belong to different bodies with a contact. */
+    /** Returns true if two materials belong to different bodies in contact. */
     bool
     are_apart(const unsigned int a, const unsigned int b) const;
 
-    /** Index of the body of a material, from 0. Materials that are on the same
-     *  side of all contacts form one body; without contacts there is one
-     *  body. */
+    /** Returns the index of the body that contains a material, counted from 0.
+     *  Materials that are on the same side of all contacts form one body;
+     *  without contacts there is one body. */
     unsigned int
     body_of(const unsigned int material) const
     {
       return body[material];
     }
 
-    /** Number of bodies, 1 without contacts. */
+    /** Returns the number of bodies: 1 without contacts. */
     unsigned int
     n_bodies() const
     {
       return number;
     }
 
-    /** Requires a contact for each pair of bodies, in methods in which bodies
-     *  without a contact could penetrate each other. @throws InputError for a
-     *  pair without a contact */
+    /** Checks that each pair of bodies has a contact. For methods in which
+     *  bodies without a contact could penetrate each other. @throws InputError
+     *  for a pair without a contact */
     void
     check_all_pairs() const;
 

@@ -24,76 +24,82 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Vertices of a polygon in order; in three dimensions the lowest and the
-   *  highest corner of a box, the only predefined shape. */
+  /** Vertices of a polygon in order. In three dimensions: the two opposite
+   *  corners of a box, with the smallest and the largest coordinates. */
   using Polygon = std::vector<dealii::Point<dim>>;
 
   Polygon
   outline_of_box(const dealii::Point<dim> &lower,
                  const dealii::Point<dim> &upper);
 
-  /** Names of the sides of a box, by axis and end (lower, upper). */
+  /** Names of the six sides of a box, by axis (x, y, z) and end (lower,
+   *  upper). */
   constexpr const char *side_of_box[3][2] = {
     {"left", "right"}, {"bottom", "top"}, {"back", "front"}};
 
-  /** Boundary id of each side of a box: left and right are the sides at the
-   *  smallest and largest x, bottom and top at the smallest and largest y, back
-   *  and front at the smallest and largest z. */
+  /** Returns the boundary id of each side of a box, by name. The sides left and
+   *  right are at the smallest and largest x, bottom and top at the smallest
+   *  and largest y, back and front at the smallest and largest z. */
   std::map<std::string, dealii::types::boundary_id>
   sides_of_box();
 
   /**
-   * Limits of coordinates and lengths that double precision resolves with a
-   * margin for the solution: coordinates up to 1e12 m, whose squares and
-   * products are far from overflow, and lengths of at least 1e-12 m and 1e-9 of
-   * the coordinates. The rounding error of coordinates is 1e-16 of their
-   * magnitude, and thus at most 1e-7 of a cell size.
+   * Largest coordinates and smallest lengths (m) that are resolved in double
+   * precision. Coordinates up to 1e12 m have squares and products far from
+   * overflow. Lengths are at least 1e-12 m and 1e-9 of the coordinates, whose
+   * rounding error is 1e-16 of their magnitude and thus at most 1e-7 of a cell
+   * size.
    */
   constexpr double largest_coordinate     = 1e12;
   constexpr double smallest_size          = 1e-12;
   constexpr double smallest_relative_size = 1e-9;
 
-  /** Smallest resolved length (m) at the coordinates of @p points. */
+  /** Returns the smallest length (m) resolved in double precision at the
+   *  coordinates of @p points. */
   double
   resolved_length(const std::vector<dealii::Point<dim>> &points);
 
   /**
-   * Checks the coordinates of points. @throws InputError if they are not finite
-   * or too large, or if the extent of the points along x or y is not resolved
-   * by their coordinates
+   * Checks that the coordinates of points are finite and resolved in double
+   * precision. @throws InputError if a coordinate is not finite or too large,
+   * or if the extent of the points along x or y is too small relative to the
+   * coordinates
    */
   void
   check_coordinates(const std::vector<dealii::Point<dim>> &points,
                     const std::string                     &parameter);
 
-  /** Whether x lies inside a polygon (crossing number). */
+  /** Returns true if the point x lies inside a polygon (crossing number
+   *  algorithm). */
   bool
   contains(const Polygon &polygon, const dealii::Point<dim> &x);
 
-  /** Point of the segment ab nearest to x. */
+  /** Returns the point nearest to x on the line segment ab. */
   dealii::Point<dim>
   nearest_on_segment(const dealii::Point<dim> &x,
                      const dealii::Point<dim> &a,
                      const dealii::Point<dim> &b);
 
-  /** Distance of x from the segment ab (m). */
+  /** Returns the distance (m) of the point x from the line segment ab. */
   double
   distance_to_segment(const dealii::Point<dim> &x,
                       const dealii::Point<dim> &a,
                       const dealii::Point<dim> &b);
 
   /**
-   * Checks the vertices of a polygon. @throws InputError if it has fewer than
+   * Checks that a polygon is simple. @throws InputError if it has fewer than
    * three vertices, repeated vertices, no area, or sides that cross or touch
    */
   void
   check_polygon(const Polygon &polygon, const std::string &parameter);
 
-  /** Area of a polygon (m^2), positive if its vertices are counterclockwise. */
+  /** Returns the signed area of a polygon (m^2). The area is positive if the
+   *  vertices are in counterclockwise order. */
   double
   signed_area(const Polygon &polygon);
 
-  /** Whether two sides, ab and cd, meet within a tolerance (m). */
+  /** Returns true if the line segments ab and cd intersect within a tolerance
+   *  (m). */
   bool
   segments_meet(const dealii::Point<dim> &a,
                 const dealii::Point<dim> &b,
@@ -101,18 +107,19 @@ namespace geocone::GEOCONE_DIM
                 const dealii::Point<dim> &d,
                 const double              tolerance);
 
-  /** Vertices as in a parameter file, for messages. */
+  /** Returns the vertices of a polygon in the format of the parameter file, for
+   *  error messages. */
   std::string
   text_of_polygon(const Polygon &polygon);
 
   /**
-   * The domain: a box, a polygon, discs, or the content of a .msh file (or of a
-   * gmsh script); for MPM optionally only its part with a positive formula. The
-   * sides of a box are called bottom, right, top, left; those of a polygon 0,
-   * 1, 2, ... (side i connects vertex i to the next one); the numbers of the
-   * sides of holes follow those of the outline; those of a file have
-   * the numbers or names of its physical curves; discs have none, and are
-   * supported by the material point method only.
+   * Geometry of the body: a box, a polygon, discs, or a mesh from a .msh file
+   * or gmsh script. For MPM a formula can restrict the body to the part where
+   * the formula is positive. The sides of a box are called bottom, right, top,
+   * left; those of a polygon 0, 1, 2, ... (side i connects vertex i to the next
+   * one); the numbers of the sides of holes follow those of the outline; those
+   * of a file have the numbers or names of its physical curves; discs have
+   * none, and are supported by the material point method only.
    */
   class Geometry : public dealii::ParameterAcceptor
   {
@@ -125,7 +132,7 @@ namespace geocone::GEOCONE_DIM
       file
     };
 
-    /** Symmetry of a plane scene: plane strain or axisymmetry. */
+    /** Symmetry of a plane problem: plane strain or axisymmetry. */
     enum class Symmetry
     {
       plane_strain, ///< a body of unit thickness that does not move along z
@@ -146,24 +153,31 @@ namespace geocone::GEOCONE_DIM
       return symmetry == Symmetry::axisymmetric;
     }
 
-    /** Factor from areas and lengths in the plane to volumes and areas, at x: 1
-     *  in plane strain (per metre of thickness), 2 pi r in axisymmetry (m). */
+    /** Returns the factor by which an area in the plane of the model is
+     *  multiplied to obtain a volume. Lengths are multiplied by the same factor
+     *  to obtain areas. The factor is 1 in plane strain (per metre of
+     *  thickness) and 2 pi r at the point x in axisymmetry (m). */
     static double
     measure(const Symmetry symmetry, const dealii::Point<dim> &x)
     {
       return symmetry == Symmetry::axisymmetric ? 2. * pi * x[0] : 1.;
     }
 
-    /** Side length of the square or cube of a material point at x (m).
-     *  @param volume of the point; in axisymmetry of the ring it represents */
+    /** Returns the side length (m) of the square or cube represented by a
+     *  material point.
+     *  @param x position of the material point
+     *  @param volume of the material point; in axisymmetry of the ring it
+     *  represents */
     double
     size_of_point(const dealii::Point<dim> &x, const double volume) const
     {
       return length_of(volume / measure(symmetry, x));
     }
 
-    /** Unit of a quantity, e.g. "N/m" or "load (N/m)" or "energy_J_per_m",
-     *  without "per metre of thickness" in axisymmetry. */
+    /** Returns the unit of a quantity, without "per metre of thickness" in
+     *  axisymmetry.
+     *  @param in_plane_strain unit in plane strain, e.g. "N/m" or "load (N/m)"
+     *  or "energy_J_per_m" */
     std::string
     unit(const std::string &in_plane_strain) const;
 
@@ -178,68 +192,73 @@ namespace geocone::GEOCONE_DIM
                             {"discs", Shape::discs},
                             {"file", Shape::file}}};
 
-    /** Vertices of the box or polygon, in order; empty for discs and files. */
+    /** Vertices of the outer boundary of a box or polygon, in order. Empty for
+     *  discs and files. */
     Polygon outline;
 
-    /** Polygons inside the outline that are no part of the body. */
+    /** Holes in the body, as polygons inside the outer boundary. */
     std::vector<Polygon> holes;
 
     /** Outline and holes. */
     std::vector<Polygon>
     loops() const;
 
-    /** Number of each named side of the box or polygon, and of its holes. */
+    /** Boundary id of each side of the box or polygon and of the holes, by
+     *  name. */
     std::map<std::string, dealii::types::boundary_id> sides;
 
-    /** Names of the sides of each hole: "hole 0", "hole 1", ... */
+    /** Names of the sides of each hole, by name of the hole: "hole 0", "hole
+     *  1", ... */
     std::map<std::string, std::vector<std::string>> sides_of_hole;
 
-    /** Name of the .msh file or the geo script. */
+    /** Name of the .msh file or gmsh script. */
     std::string file;
 
-    /** Whether the command line allows gmsh to run a script. */
+    /** True if a command-line option allows the execution of a gmsh script. */
     bool may_run_script = false;
 
-    /** Whether the file is a gmsh script, whose mesh does not exist before gmsh
-     *  has run. */
+    /** Returns true if the geometry is a gmsh script. The mesh exists only
+     *  after gmsh has run the script. */
     bool
     is_script() const;
 
-    /** Ends of a side of the outline or of a hole, with the body to the left. */
+    /** Returns the two ends of a side of the body or of a hole. The body is on
+     *  the left of the line from the first to the second end. */
     std::array<dealii::Point<dim>, 2>
     side_ends(const dealii::types::boundary_id side) const;
 
-    /** Whether the body is the part of the shape where a formula is
-     *  positive. */
+    /** Returns true if a formula restricts the body to the part where the
+     *  formula is positive. */
     bool
     is_part_by_formula() const
     {
       return where.has_value();
     }
 
-    /** Whether x lies in the body; always true for a file, because the mesh
-     *  defines the body. */
+    /** Returns true if the point x lies in the body. Always true for a geometry
+     *  from a file, because the mesh defines the body. */
     bool
     contains(const dealii::Point<dim> &x) const;
 
-    /** Lower left and upper right corner of the bounding box of the body. @pre
-     *  the body is not from a file */
+    /** Returns the lower and the upper corner of the bounding box of the body.
+     *  @pre the geometry is not from a file */
     std::pair<dealii::Point<dim>, dealii::Point<dim>>
     bounding_box() const;
 
-    /** Length (m) below which distances are treated as zero: 1e-9 of the body's
-     *  size, but at least the resolution of its coordinates. @pre the body is
-     *  not from a file */
+    /** Returns the length (m) below which distances are treated as zero. It is
+     *  1e-9 of the size of the body, but at least the resolution of the
+     *  coordinates. @pre the geometry is not from a file */
     double
     rounding() const;
 
-    /** Area or volume of the body (m^2, m^3); by sampling if a formula
-     *  restricts the body. @pre the body is not from a file */
+    /** Returns the area (m^2) or volume (m^3) of the body. If a formula
+     *  restricts the body, the value is an estimate from sampling points. @pre
+     *  the geometry is not from a file */
     double
     area() const;
 
-    /** Rejects a body restricted by a formula. @throws InputError @param who
-     *  feature that does not support it
+    /** Rejects a body that is restricted by a formula. @throws InputError
+     *  @param who feature that does not support it
      *  @param remedy e.g. "set ..." */
     void
     refuse_where(const std::string &who, const std::string &remedy) const;
@@ -248,8 +267,8 @@ namespace geocone::GEOCONE_DIM
     void
     check_discs();
 
-    /** Area or volume of the body from sampling points on a lattice (m^2,
-     *  m^3). */
+    /** Estimates the area (m^2) or volume (m^3) of the body from sampling
+     *  points on a lattice. */
     double
     area_of_samples() const;
 

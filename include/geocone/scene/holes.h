@@ -12,11 +12,12 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Holes of a plane body, separated by |: polygons x, y; x, y; ... or
-   * circle(x, y, r), circle(x, y, r, n), a regular polygon whose n vertices lie
-   * on the circle, from its lowest vertex on counterclockwise.
-   *
-   * @throws InputError if one of them is no polygon, is not inside the outline,
+   * Converts the description of the holes of a plane body to polygons. The
+   * holes are separated by |. A hole is a polygon x, y; x, y; ... or circle(x,
+   * y, r) or circle(x, y, r, n). A circle is replaced by a regular polygon
+   * whose n vertices lie on the circle, counterclockwise from the lowest
+   * vertex.
+   * @throws InputError if a hole is not a polygon, is not inside the outline,
    * or meets the outline or another hole
    */
   std::vector<Polygon>

@@ -11,9 +11,10 @@
 namespace geocone
 {
   /**
-   * Imposition method of prescribed velocities: the controlled entities and,
-   * for particles, constraints sum_p w_p v(x_p) = sum_p w_p q(x_p), each with a
-   * multiplier. FEM supports nodes only. A new method is a line in
+   * Method of imposing prescribed velocities on nodes, particles or a side of
+   * the body. For particles, each constraint has the form sum_p w_p v(x_p) =
+   * sum_p w_p q(x_p) with the weights w_p and the prescribed velocity q, and a
+   * Lagrange multiplier. FEM supports nodes only. A new method is a line in
    * impositions().
    */
   struct Imposition
@@ -25,19 +26,20 @@ namespace geocone
       side       ///< a side of the body, which moves as prescribed
     };
 
-    /** A particle controlled by a condition. */
+    /** Particle with a prescribed velocity. */
     struct PrescribedParticle
     {
       unsigned int id;
       unsigned int cell; ///< index of the particle's cell
-      /** Weight of the particle among the controlled particles of the cell and
-       *  of the condition: one over their number, in axisymmetry proportional
-       *  to the circumference. */
+      /** Weights of the particle in the mean velocities of its cell (of_cell)
+       *  and of the boundary condition (of_all). A weight is one over the
+       *  number of particles; in axisymmetry it is proportional to the
+       *  circumference. */
       double of_cell, of_all;
     };
 
-    /** Index of the constraint that contains a particle, and weight of the
-     *  particle in it. */
+    /** Index of the constraint on the velocity of a particle, with the weight
+     *  of the particle in the constraint. */
     struct Share
     {
       unsigned int row;
@@ -48,13 +50,14 @@ namespace geocone
     On          on;
     Share (*share)(const PrescribedParticle &); ///< constraint of a particle
     bool single;                  ///< each particle has the prescribed velocity
-    /** Whether constraints prescribe the velocity of particles at the end of
-     *  the step, v_p + N (v - v^L), instead of the grid velocity N v (equations
-     *  (66) to (69) of Guillet et al. 2025). */
+    /** If true, constraints prescribe the particle velocity at the end of the
+     *  step instead of the grid velocity N v. With FLIP the particle velocity
+     *  is v_p + N (v - v^L), equations (66) to (69) of Guillet et al.
+     *  (2025). */
     bool through_flip = false;
   };
 
-  /** All imposition methods; the first one is the default. */
+  /** Returns all imposition methods. The first one is the default. */
   const std::vector<Imposition> &
   impositions();
 

@@ -21,7 +21,7 @@ namespace geocone::GEOCONE_DIM
 {
   class Water;
 
-  /** Initial velocity: zero, or given by formulas. */
+  /** Initial velocity field: zero, or given by formulas. */
   class InitialVelocity : public dealii::ParameterAcceptor
   {
   public:
@@ -33,12 +33,13 @@ namespace geocone::GEOCONE_DIM
     dealii::Tensor<1, dim>
     at(const dealii::Point<dim> &x) const;
 
-    /** Initial velocity gradient dv_i/dx_j (1/s) by central differences over
-     *  the size of a material point (m); exact for linear velocities. */
+    /** Returns the initial velocity gradient dv_i/dx_j (1/s) by central
+     *  differences. The step is the size of a material point (m). The result is
+     *  exact for a linear velocity field. */
     dealii::Tensor<2, dim>
     gradient(const dealii::Point<dim> &x, const double size) const;
 
-    /** Whether the initial velocity is not identically zero. */
+    /** Returns true if the initial velocity is not identically zero. */
     bool
     is_given() const;
 
@@ -48,7 +49,8 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Initial stress: zero, given by formulas, or geostatic,
+   * Initial stress field: zero, given by formulas, or geostatic. Geostatic
+   * stresses are
    *   s_yy = -(surcharge + integral of rho |g| from y to the surface - u),
    *   s_xx = K0 s_yy, s_xy = 0,
    * with the densities of the materials above, and with u the difference of the
@@ -68,29 +70,30 @@ namespace geocone::GEOCONE_DIM
             const Water            &water,
             const std::vector<int> &stage_that_adds);
 
-    /** Initial stress at a point x of a material (Pa). */
+    /** Returns the initial stress (Pa) of a material at the point x. */
     Mandel
     at(const dealii::Point<dim> &x,
        const unsigned int        material,
        const Materials          &materials,
        const Regions            &regions) const;
 
-    /** Initial out-of-plane stress s_zz (Pa): equal to s_xx, unless given by a
-     *  formula. Plane-strain laws store s_zz, but do not depend on it. */
+    /** Returns the initial out-of-plane stress s_zz (Pa): s_xx, unless given by
+     *  a formula. Plane-strain laws store s_zz, but do not depend on it. */
     double
     zz_at(const dealii::Point<dim> &x,
           const unsigned int        material,
           const Mandel             &in_plane) const;
 
   private:
-    /** Reads the parameter K0. @throws InputError */
+    /** Reads the coefficient of earth pressure at rest, K0. @throws
+     *  InputError */
     void
     prepare_k0();
 
     void
     check_level_ground(const Geometry &geometry) const;
 
-    /** Checks that the water table is level. @throws InputError */
+    /** Checks that the water table is horizontal. @throws InputError */
     void
     check_level_water() const;
 
@@ -107,27 +110,30 @@ namespace geocone::GEOCONE_DIM
                               {"given", Type::given},
                               {"geostatic", Type::geostatic}}};
 
-    /** Type of the initial stress of a material: zero, given or geostatic. */
+    /** Returns the type of the initial stress in a material: zero, given or
+     *  geostatic. */
     Type
     type_of(const unsigned int material) const
     {
       return stage_of[material] < 0 ? type.get() : of_added.get();
     }
 
-    /** Whether stages add soil with a stress of this type. */
+    /** Returns true if a stage adds material whose initial stress has the given
+     *  type. */
     bool
     adds(const Type one) const;
 
-    /** Checks gravity and regions for a geostatic state. @throws InputError if
-     *  the weight of a column of soil is not defined */
+    /** Checks that gravity and material regions allow a geostatic stress state.
+     *  @throws InputError if the weight of a column of soil is not defined */
     void
     check_geostatic(const std::string &parameter,
                     const std::string &word,
                     const Gravity     &gravity,
                     const Regions     &regions) const;
 
-    /** Vertical effective stress at x due to the column of soil above (Pa).
-     *  @param stage whose added soil is the column; -1: the initial soil */
+    /** Returns the vertical effective stress (Pa) at x due to the weight of the
+     *  soil above.
+     *  @param stage stage that adds the soil; -1: the initially present soil */
     double
     vertical_stress(const dealii::Point<dim> &x,
                     const int                 stage,
@@ -144,8 +150,8 @@ namespace geocone::GEOCONE_DIM
     double                            surcharge = 0.;
     double                            g         = 0.;
     const Water                      *water = nullptr; ///< null without water
-    /** Index of the stage that adds each material, from 0; -1: initially
-     *  present. */
+    /** Index of the stage that adds each material, counted from 0; -1 for
+     *  initially present materials. */
     std::vector<int> stage_of;
     double           top = 0.; ///< y of the top of the body (m)
   };

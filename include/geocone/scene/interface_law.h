@@ -8,8 +8,8 @@
 
 namespace geocone
 {
-  /** Interface law: friction, adhesion, tensile strength and restitution, the
-   *  parameters common to obstacles and contacts. */
+  /** Interface law of obstacles and contacts, with friction, adhesion, tensile
+   *  strength and restitution. */
   struct InterfaceLaw
   {
     double friction    = 0.; ///< friction coefficient mu (-)
@@ -17,16 +17,16 @@ namespace geocone
     double tension     = 0.; ///< tensile strength (Pa)
     double restitution = 0.; ///< coefficient of restitution e (-)
 
-    /** Whether the tensile strength is so large (1 GPa) that the interface
-     *  never opens. */
+    /** Returns true if the tensile strength is so large (at least 1 GPa) that
+     *  the interface never separates. */
     bool
     never_parts() const
     {
       return tension >= 1e9;
     }
 
-    /** Declares 'Friction coefficient', 'Adhesion', 'Tensile strength' and
-     *  'Restitution'. */
+    /** Declares the parameters 'Friction coefficient', 'Adhesion', 'Tensile
+     *  strength' and 'Restitution'. */
     void
     declare(dealii::ParameterAcceptor &section);
 
@@ -34,8 +34,8 @@ namespace geocone
     void
     check(const dealii::ParameterAcceptor &section) const;
 
-    /** Rejects adhesion and tensile strength for particles, which have no
-     *  contact area.
+    /** Rejects adhesion and tensile strength of the interface. For methods with
+     *  contact of particles, which have no contact area.
      *  @param section name of the section with a slash
      *  @throws InputError */
     void

@@ -21,8 +21,8 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** One stage of the loading programme: duration, time steps, and changes of
-   *  the body and the loads. */
+  /** One stage of the loading programme, with a duration, time steps, and
+   *  changes of the body and the loads. */
   class Stage : public dealii::ParameterAcceptor
   {
   public:
@@ -31,12 +31,13 @@ namespace geocone::GEOCONE_DIM
     void
     prepare();
 
-    /** Sizes of the time steps in order (s); their sum is the duration. */
+    /** Returns the sizes of the time steps in order (s). Their sum is the
+     *  duration of the stage. */
     std::vector<double>
     step_sizes() const;
 
-    /** Approximate number of time steps, in closed form; differs from the
-     *  number of step_sizes() by a few steps. */
+    /** Estimates the number of time steps in closed form. The number of
+     *  step_sizes() differs by a few steps. */
     double
     expected_steps() const;
 
@@ -54,25 +55,26 @@ namespace geocone::GEOCONE_DIM
     unsigned int      output_every       = 0;
     bool              reset_displacement = false;
 
-    /** Strength reduction factor, the divisor of c and tan(phi), at the end of
-     *  the stage; 0: unchanged. It varies linearly in time from its previous
-     *  value. */
+    /** Strength reduction factor at the end of the stage, by which c and
+     *  tan(phi) are divided. It varies linearly in time from its previous
+     *  value. If 0, the factor does not change. */
     double strength_factor = 0.;
 
-    /** Whether the run terminates as intended at the first step that does not
+    /** If true, the run terminates normally at the first step that does not
      *  converge, i.e. at failure. */
     bool until_failure = false;
 
-    /** Whether time steps of implicit runs require static equilibrium, as in
-     *  strength reduction until failure. */
+    /** Returns true if each step of an implicit run must reach static
+     *  equilibrium, as in strength reduction until failure. */
     bool
     seeks_equilibrium() const
     {
       return strength_factor > 0. && until_failure;
     }
 
-    /** Reason why a time step is not in static equilibrium, see
-     *  accelerating_share(); empty: in equilibrium. */
+    /** Returns the reason why a time step is not in static equilibrium. The
+     *  text is empty in equilibrium.
+     *  @param accelerating_share see accelerating_share() */
     std::string
     no_equilibrium(const double accelerating_share) const;
 
@@ -91,34 +93,37 @@ namespace geocone::GEOCONE_DIM
     scales(const std::string &load) const;
     /** @} */
 
-    /** Piezometric line (x, y) at the end of the stage; empty: unchanged. Pore
-     *  pressures vary linearly in time during the stage. */
+    /** Vertices (x, y) of the piezometric line at the end of the stage. Pore
+     *  pressures vary linearly in time during the stage. If empty, the line
+     *  does not change. */
     std::vector<dealii::Point<2>> water_table;
 
-    /** Levels of open water at the end of the stage, by name of the seepage
-     *  boundary (m), and number of time steps of transient flow; 0: steady
-     *  flow. */
+    /** Water levels (m) at the end of the stage, by name of the seepage
+     *  boundary. The number flow_steps is the number of time steps of transient
+     *  flow; 0: steady flow. */
     std::map<std::string, double> water_levels;
     unsigned int                  flow_steps = 0;
 
     /** @name Changes of the body at the beginning of the stage */
     /** @{ */
 
-    /** Excavated polygon or box, restricted to the region where a formula is
-     *  positive, and duration (s) over which the forces of the excavated soil
-     *  are ramped down. */
+    /** Vertices (m) of the excavated polygon, or corners of the excavated box.
+     *  A formula can restrict the region. During removal_duration (s) the
+     *  forces of the excavated soil are ramped down. */
     std::vector<dealii::Point<dim>> removed_polygon;
     double                          removal_duration = 0.;
 
-    /** Added materials, and duration (s) over which their weight is ramped
-     *  up. */
+    /** Names of the materials that the stage adds. Their weight is ramped up
+     *  during addition_duration (s). */
     std::vector<std::string> added_materials;
     double                   addition_duration = 0.;
 
-    /** Replaced materials and their replacements, by name. */
+    /** Names of the replaced materials, each with the name of the
+     *  replacement. */
     std::map<std::string, std::string> changed_materials;
 
-    /** Whether the stage excavates material: anywhere, or at x. */
+    /** Returns true if the stage excavates material: anywhere, or at the point
+     *  x. */
     bool
     removes() const
     {
@@ -127,7 +132,7 @@ namespace geocone::GEOCONE_DIM
     bool
     removes(const dealii::Point<dim> &x) const;
 
-    /** Whether the stage removes, adds or replaces material. */
+    /** Returns true if the stage removes, adds or replaces material. */
     bool
     changes_body() const
     {
@@ -135,8 +140,8 @@ namespace geocone::GEOCONE_DIM
              !changed_materials.empty();
     }
 
-    /** Message on the number of excavated cells or points. @param what name of
-     *  the counted entities, e.g. "points"
+    /** Returns a message on the number of excavated cells or points. @param
+     *  what name of the counted entities, e.g. "points"
      *  @throws StepFailure if the stage removes nothing or everything */
     std::string
     removal_text(const unsigned long n_removed,
@@ -147,26 +152,30 @@ namespace geocone::GEOCONE_DIM
     /** @name For explicit MPM only */
     /** @{ */
 
-    /** Local damping coefficient (-): fraction of the unbalanced force that
-     *  acts against the velocity. */
+    /** Local damping coefficient: ratio of damping force to unbalanced force
+     *  (-). The damping force is opposite to the velocity. */
     double damping = 0.;
 
-    /** Whether velocities are set to zero at each peak of the kinetic energy. */
+    /** If true, velocities are set to zero at each peak of the kinetic
+     *  energy. */
     bool kinetic_damping = false;
 
-    /** Equilibrium tolerances at the end of the stage: unbalanced force over
-     *  weight, and kinetic energy over stress work; 0: not tested. */
+    /** Tolerances for equilibrium at the end of the stage. They limit the ratio
+     *  of unbalanced force to weight, and of kinetic energy to stress work. If
+     *  0, the ratio is not checked. */
     double largest_unbalanced_force = 0.;
     double largest_kinetic_energy   = 0.;
 
-    /** Resets at the beginning of the stage: velocities to zero; history
-     *  variables to initial values for the current stress. */
+    /** Flags that reset the state at the beginning of the stage. Velocities are
+     *  set to zero; history variables are initialised for the current
+     *  stress. */
     bool reset_velocity = false;
     bool reset_history  = false;
     /** @} */
 
   private:
-    /** Checks the excavated and added regions, and parses the formula.
+    /** Checks the regions of excavated and added material, and parses the
+     *  formula.
      *  @throws InputError */
     void
     prepare_changes();
@@ -179,7 +188,7 @@ namespace geocone::GEOCONE_DIM
     std::optional<Expression> removed_where;
   };
 
-  /** The loading programme: consecutive stages of "Loading/Stages", from t =
+  /** Loading programme: sequence of the stages of "Loading/Stages", from t =
    *  0. */
   class LoadingProgramme : public NamedList<Stage>
   {
@@ -192,53 +201,56 @@ namespace geocone::GEOCONE_DIM
     prepare(const std::vector<std::string> &materials,
             const std::vector<std::string> &tractions);
 
-    /** Stage at time t. */
+    /** Returns the stage that is active at time t. */
     const Stage &
     stage_at(const double t) const;
 
-    /** Whether any stage uses load stepping. */
+    /** Returns true if any stage uses load stepping. */
     bool
     scales_loads() const;
 
-    /** Whether any stage reduces the strength. */
+    /** Returns true if any stage reduces the strength. */
     bool
     reduces_strength() const;
 
-    /** Whether any stage removes, adds or replaces material. */
+    /** Returns true if any stage removes, adds or replaces material. */
     bool
     changes_body() const;
 
-    /** Index of the stage that adds a material, from 0; -1: initially
-     *  present. */
+    /** Returns the index of the stage that adds a material, counted from 0; -1
+     *  if the material is initially present. */
     int
     stage_that_adds(const std::string &material) const;
 
-    /** Whether a material is absent until a stage adds it. */
+    /** Returns true if the material is initially absent and added by a
+     *  stage. */
     bool
     adds(const std::string &material) const
     {
       return stage_that_adds(material) >= 0;
     }
 
-    /** Whether any stage replaces another material by this material. */
+    /** Returns true if any stage replaces another material by the given
+     *  material. */
     bool
     makes(const std::string &material) const;
 
-    /** Strength reduction factor at time t, the divisor of c and tan(phi). */
+    /** Returns the strength reduction factor at time t, by which c and tan(phi)
+     *  are divided. */
     double
     strength_factor(const double t) const;
 
-    /** Strength reduction factor at the beginning of a stage. */
+    /** Returns the strength reduction factor at the beginning of a stage. */
     double
     factor_before(const std::string &stage) const;
 
-    /** Total duration of all stages (s). */
+    /** Returns the total duration of all stages (s). */
     double
     duration() const;
   };
 
-  /** Gravitational acceleration g(t): constant, or ramped up linearly over a
-   *  duration. */
+  /** Gravitational acceleration g(t), either constant or ramped up linearly
+   *  over a given duration. */
   class Gravity : public dealii::ParameterAcceptor
   {
   public:

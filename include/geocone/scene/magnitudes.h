@@ -13,14 +13,15 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** One line of text, which reveals wrong units: size of the body and strength
-   *  of each material, also relative to gamma H, i.e. unit weight times height
-   *  of the body. */
+  /** Returns a line of text with the size of the body and the strength of each
+   *  material. The strength is also given relative to gamma H, i.e. unit weight
+   *  times height of the body. The values reveal input in wrong units. */
   std::string
   text_of_magnitudes(const Scene &scene, const dealii::BoundingBox<dim> &body);
 
-  /** Warnings about dimensions, densities, stiffnesses and strengths outside
-   *  the usual range of soils, most often because of a wrong unit. */
+  /** Returns warnings about dimensions, densities, stiffnesses and strengths
+   *  outside the usual range of soils. The most frequent cause is a wrong
+   *  unit. */
   std::vector<std::string>
   warn_of_magnitudes(const Scene &scene, const dealii::BoundingBox<dim> &body);
 } // namespace geocone::GEOCONE_DIM

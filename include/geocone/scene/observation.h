@@ -18,10 +18,10 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Exact bearing capacity factors Nq and Nc of a weightless half-plane under a
-   * strip footing (Prandtl 1920, Reissner 1924; Guillet et al. 2025, equation
-   * (77)):
-   *   Nq = exp(pi tan(phi)) tan^2(pi/4 + phi/2),  Nc = (Nq - 1)/tan(phi),
+   * Returns the exact bearing capacity factor Nq (Nc) of a strip footing on a
+   * weightless half-plane. The factors of Prandtl (1920) and Reissner (1924),
+   * equation (77) of Guillet et al. (2025), are
+   *   Nq = exp(pi tan(phi)) tan^2(pi/4 + phi/2), Nc = (Nq - 1)/tan(phi),
    * and Nc = 2 + pi for phi = 0.
    * @param phi friction angle (degrees)
    */
@@ -31,9 +31,9 @@ namespace geocone::GEOCONE_DIM
   bearing_capacity_factor_c(const double phi);
 
   /**
-   * Observed quantities of a run: reactions of selected supports, the first of
-   * which is the load of the load-displacement curve, and a reference value of
-   * the limit load.
+   * Observed quantities of a run: reactions of selected supports, displacements
+   * of selected points and a reference value of the limit load. The reaction of
+   * the first support is the load of the load-displacement curve.
    */
   class Observation : public dealii::ParameterAcceptor
   {
@@ -46,8 +46,8 @@ namespace geocone::GEOCONE_DIM
             const Gravity                  &gravity,
             const bool                      scales_loads);
 
-    /** Whether a load-displacement curve exists: of the first observed support
-     *  or, if none is observed, of load stepping. */
+    /** Returns true if the run has a load-displacement curve. It belongs to the
+     *  first observed support or, if none is observed, to load stepping. */
     bool
     has_load() const
     {
@@ -55,39 +55,42 @@ namespace geocone::GEOCONE_DIM
     }
     bool of_scaled_loads = false;
 
-    /** Indices of the observed supports in Scene::supports(). */
+    /** Indices of the observed supports in the list Scene::supports(). */
     std::vector<unsigned int> conditions;
 
-    /** Component of the reaction that is the load: 0 for x, 1 for y, 2 for
+    /** Component of the reaction used as the load: 0 for x, 1 for y, 2 for
      *  z. */
     unsigned int component = 1;
 
-    /** Factor from the reaction to the load, e.g. -2 for a downward load on
-     *  half of a symmetric body; for load stepping, load = |factor| x load
+    /** Ratio of load to reaction, e.g. -2 for a downward load on half of a
+     *  symmetric body. In load stepping the load is |factor| times the load
      *  factor. */
     double factor = -1.;
 
-    /** Positions whose displacement is reported. */
+    /** Positions (m) at which displacements are reported. */
     std::vector<dealii::Point<dim>> points;
 
-    /** Reference point of the moments of the reactions; no value: the centre of
-     *  the initial bounding box of each support. */
+    /** Returns the reference point for moments of the reactions. Without a
+     *  value, the point is the centre of the initial bounding box of each
+     *  support. */
     std::optional<dealii::Point<dim>>
     moment_centre() const
     {
       return centre.empty() ? std::nullopt : std::make_optional(centre[0]);
     }
 
-    /** Reference value of the limit load (N/m). */
+    /** Reference value of the limit load (N/m), for comparison with the
+     *  result. */
     std::optional<double> reference;
     std::string           reference_name;
 
-    /** Tolerance for the relative drift of the load over a plateau (-). */
+    /** Tolerance for a plateau of the load-displacement curve: relative change
+     *  of the load over the plateau (-). */
     double plateau_tolerance = 0.01;
 
   private:
     /** Sets the reference value to Prandtl's limit load. @throws InputError if
-     *  the material does not have one */
+     *  this load does not exist for the material */
     void
     take_prandtl(const Materials &materials, const Gravity &gravity);
 

@@ -24,12 +24,14 @@ namespace geocone::GEOCONE_DIM
 {
   class Obstacle;
 
-  /** Neighbours of an obstacle, which cover parts of its boundary: adjacent
-   *  convex obstacles form one surface without the shared sides. */
+  /** Neighbours of an obstacle: the other obstacles adjacent to this obstacle.
+   *  Neighbours cover parts of the boundary of the obstacle: adjacent convex
+   *  obstacles form one surface without the common sides. */
   class Neighbours
   {
   public:
     /**
+     * Constructs the list of the neighbours of an obstacle.
      * @param list all obstacles
      * @param own index of the obstacle with these neighbours
      * @param moved displacements of all obstacles since the start; empty: zero
@@ -40,19 +42,20 @@ namespace geocone::GEOCONE_DIM
                const std::vector<RigidMotion>               &moved,
                const double                                  margin);
 
-    /** Whether the obstacle has neighbours. */
+    /** Returns true if the obstacle has neighbours. */
     bool
     exist() const
     {
       return list.size() > 1;
     }
 
-    /** Whether a point lies inside a neighbour. */
+    /** Returns true if a point lies inside a neighbour of the obstacle. */
     bool
     cover(const dealii::Point<dim> &place) const;
 
-    /** Whether a neighbour continues the surface beyond a vertex: it contains
-     *  the vertex and is nearer to x than the vertex. */
+    /** Returns true if a neighbour continues the surface of the obstacle beyond
+     *  a vertex. The neighbour contains the vertex and is nearer to x than the
+     *  vertex. */
     bool
     go_on_from(const dealii::Point<dim> &vertex,
                const dealii::Point<dim> &x) const;
@@ -69,13 +72,13 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * A rigid body in frictional, unilateral contact with the soil: a half-plane,
-   * a disc or a convex polygon, in three dimensions a half-space, a ball, a
-   * cylinder or a convex polyhedron, at rest, driven or free. In contact the
-   * force r of the obstacle on the body and the relative velocity u satisfy the
-   * Signorini and Coulomb laws (see Contact). Each component of motion, i.e. a
-   * translation of the centre or a rotation about it, is driven by a formula or
-   * free; a free component obeys
+   * Rigid body in frictional, unilateral contact with the soil. The shape is a
+   * half-plane, a disc or a convex polygon, in three dimensions a half-space, a
+   * ball, a cylinder or a convex polyhedron. In contact the force r of the
+   * obstacle on the body and the relative velocity u satisfy the Signorini and
+   * Coulomb laws (see Contact). Each component of motion, i.e. a translation of
+   * the centre or a rotation about it, is driven by a formula or free; a free
+   * component obeys
    *   M dV/dt = F + M g - sum r,  J dw/dt = T - sum (x - X) x r,
    * in three dimensions with the same J about all axes, as for a ball or a
    * cube.
@@ -89,18 +92,19 @@ namespace geocone::GEOCONE_DIM
     void
     prepare();
 
-    /** Distance and normal of the nearest boundary point; infinite distance if
-     *  neighbours cover that point. */
+    /** Distance from a point to the obstacle and unit normal at the nearest
+     *  boundary point. The distance is infinite if neighbours cover that
+     *  boundary point. */
     using Nearest = ObstacleShape::Nearest;
 
     /**
-     * Distance from the obstacle to a point, and normal. The distance is a
-     * convex function of the position, bounded below by its linearisation along
-     * the normal.
+     * Returns the distance from a point to the obstacle, and the normal of the
+     * obstacle. The distance is a convex function of the position, bounded
+     * below by its linearisation along the normal.
      * @param x a point (m)
      * @param moved displacement of the obstacle since the start
-     * @param approach direction of its motion relative to x: at an edge, the
-     * approaching side is chosen
+     * @param approach direction of the motion of the obstacle relative to x: at
+     * an edge, the approaching side is chosen
      * @param beside neighbours that cover parts of the boundary; null: none
      */
     Nearest
@@ -110,8 +114,9 @@ namespace geocone::GEOCONE_DIM
             const Neighbours             *beside = nullptr) const;
 
     /**
-     * Distance and normal for small sliding: distance along the normal at the
-     * initial position of the point, in the frame of the obstacle (m).
+     * Returns the distance (m) from a point to the obstacle, and the normal,
+     * for small sliding. The distance is measured along the normal at the
+     * initial position of the point, in the frame of the obstacle.
      * @param start initial position of the point
      * @param step largest relative displacement in a step (m)
      * @param beside neighbours at their initial positions; null: none
@@ -124,21 +129,24 @@ namespace geocone::GEOCONE_DIM
                      const Neighbours             *beside = nullptr) const;
 
     /**
-     * Lower bound of the distance to another obstacle (m), negative if the two
-     * overlap; infinite for two half-planes. Convex shapes are separated by one
-     * of their sides or, in three dimensions, by a plane along an edge of each.
-     * @param moved,its_moved displacements of both since the start
+     * Returns a lower bound of the distance to another obstacle (m). The bound
+     * is negative if the obstacles overlap, and infinite for two half-planes.
+     * Convex shapes are separated by one of their sides or, in three
+     * dimensions, by a plane along an edge of each.
+     * @param moved,its_moved displacements of both obstacles since the start
      */
     double
     distance_to(const Obstacle    &other,
                 const RigidMotion &moved,
                 const RigidMotion &its_moved) const;
 
-    /** Prescribed velocity at time t; zero for free components. */
+    /** Returns the prescribed velocity of the obstacle at time t. Free
+     *  components are zero. */
     RigidMotion
     velocity(const double t) const;
 
-    /** Whether component k of the motion is free, numbered as in
+    /** Returns true if component k of the rigid-body motion is free, or any
+     *  component (without argument). Components are numbered as in
      *  RigidMotion. */
     bool
     is_free(const unsigned int k) const
@@ -151,58 +159,64 @@ namespace geocone::GEOCONE_DIM
       return std::find(free.begin(), free.end(), true) != free.end();
     }
 
-    /** Mass (kg/m) or moment of inertia (kg m) for component k of the motion;
-     *  in three dimensions kg, kg m^2. */
+    /** Returns the mass or moment of inertia for component k of the rigid-body
+     *  motion. Units are kg/m and kg m in two dimensions, kg and kg m^2 in
+     *  three dimensions. */
     double
     inertia(const unsigned int k) const
     {
       return k < dim ? mass : moment_of_inertia;
     }
 
-    /** Prescribed forces and moments at time t, without weight. */
+    /** Returns the prescribed forces and moments on the obstacle at time t,
+     *  without its weight. */
     RigidMotion
     load(const double t) const;
 
-    /** Whether sliding is small: nodes retain their initial projection onto the
-     *  boundary, because slip is small compared with the obstacle. */
+    /** Returns true if sliding along the obstacle is small. Nodes then retain
+     *  their initial projection onto the boundary, because slip is small
+     *  compared with the obstacle. */
     bool
     slides_little() const
     {
       return sliding == Sliding::small;
     }
 
-    /** Greatest width of the obstacle (m); infinite for a half-plane. */
+    /** Returns the largest width of the obstacle (m). It is infinite for a
+     *  half-plane. */
     double
     width() const
     {
       return body->width();
     }
 
-    /** Triangles for visualisation (ObstacleShape::triangles()) after a
-     *  motion. */
+    /** Returns the surface of the displaced obstacle as triangles for
+     *  visualisation, see ObstacleShape::triangles(). */
     std::vector<ObstacleShape::Triangle>
     triangles(const RigidMotion        &moved,
               const dealii::Point<dim> &body_of_soil,
               const double              size) const;
 
-    /** Initial position of the centre, the reference point of moments; for a
-     *  polygon the mean of its vertices. */
+    /** Returns the initial position of the centre of the obstacle, the
+     *  reference point of moments. The centre of a polygon is the mean of the
+     *  vertices. */
     dealii::Point<dim>
     centre() const
     {
       return body->centre();
     }
 
-    /** Checks an obstacle of an axisymmetric scene. @throws InputError if it
-     *  moves other than along the axis y */
+    /** Checks that an obstacle is admissible in axisymmetry. @throws InputError
+     *  if it moves other than along the axis y */
     void
     check_round() const;
 
-    /** Full name of a parameter of the obstacle, for messages. */
+    /** Returns the full name of a parameter of the obstacle, for error
+     *  messages. */
     std::string
     parameter(const std::string &entry) const;
 
-    /** Rejects an obstacle that overlaps with the body at the start.
+    /** Throws the error for an obstacle that initially overlaps with the body.
      *  @throws InputError
      *  @param how depth and position of the overlap, for the message */
     [[noreturn]] void
@@ -221,7 +235,8 @@ namespace geocone::GEOCONE_DIM
     moved_place(const dealii::Point<dim> &x, const RigidMotion &moved) const;
     /** @} */
 
-    /** Extent of the obstacle in a direction, max n.x, after a motion (m). */
+    /** Returns the support function of the displaced obstacle: the maximum of
+     *  n.x over the obstacle (m). */
     double
     reach(const dealii::Tensor<1, dim> &n, const RigidMotion &moved) const;
 
@@ -237,7 +252,7 @@ namespace geocone::GEOCONE_DIM
     shape_words();
 
     /** Declares the parameters of driven motions (velocities) and of free
-     *  motions (forces, mass, moment of inertia). */
+     *  motions (forces, mass and moment of inertia). */
     void
     declare_motions();
 
@@ -268,22 +283,23 @@ namespace geocone::GEOCONE_DIM
     double                             mass = 0., moment_of_inertia = 0.;
   };
 
-  /** The obstacles of a scene, named in the list "Obstacles/Names". */
+  /** List of all obstacles of a scene, from the parameter "Obstacles/Names". */
   class Obstacles : public NamedList<Obstacle>
   {
   public:
     explicit Obstacles(const ParameterFile &file);
 
-    /** Neighbours of each obstacle; for obstacles with small sliding, at their
-     *  initial positions.
+    /** Returns the neighbours of each obstacle. For obstacles with small
+     *  sliding, neighbours are at their initial positions.
      *  @param moved displacements since the start @param margin see
      *  Neighbours */
     std::vector<Neighbours>
     neighbours(const std::vector<RigidMotion> &moved,
                const double                    margin) const;
 
-    /** Names of two overlapping obstacles of which one is free; empty: none.
-     *  Contact between obstacles is not computed.
+    /** Returns the names of two overlapping obstacles, at least one of them
+     *  free. The text is empty if there are none. Contact between obstacles is
+     *  not computed.
      *  @param moved displacements since the start
      *  @param margin tolerance for overlap (m) */
     std::string

@@ -15,13 +15,15 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Assignment of materials to regions of the body: for each material a
-   * polygon, the part below a line, or a physical surface of a .msh file.
+   * Assignment of materials to regions of the body. The region of a material is
+   * a polygon, the part of the body below a line, or a physical surface of a
+   * .msh file.
    */
   class Regions
   {
   public:
-    /** @param materials names of all materials */
+    /** Declares the parameters of the region of each material. @param materials
+     *  names of all materials */
     explicit Regions(const std::vector<std::string> &materials);
 
     /** Checks the regions.
@@ -31,7 +33,7 @@ namespace geocone::GEOCONE_DIM
     prepare(const Geometry          &geometry,
             const std::vector<bool> &may_be_empty = {});
 
-    /** Whether the region of a material may be empty. */
+    /** Returns true if the region of a material may be empty. */
     bool
     may_be_empty(const unsigned int material) const
     {
@@ -39,49 +41,52 @@ namespace geocone::GEOCONE_DIM
              (material < empty_ones.size() && empty_ones[material]);
     }
 
-    /** Polygons of all materials, for mesh generators. */
+    /** Returns the polygons of all materials, for mesh generators. */
     std::vector<Polygon>
     polygons() const;
 
-    /** Polygon of a material; empty for materials without a polygon. */
+    /** Returns the polygon of the region of a material. Empty for materials
+     *  without a polygon. */
     const Polygon &
     polygon_of(const unsigned int material) const
     {
       return regions[material]->outline;
     }
 
-    /** Whether any material is identified by a physical surface. */
+    /** Returns true if the region of any material is a physical surface of a
+     *  .msh file. */
     bool
     have_groups() const;
 
-    /** Checks the physical surfaces of a file. @throws InputError if the
-     *  surface of a material is missing
+    /** Checks that the physical surfaces of all materials exist in the mesh
+     *  file. @throws InputError if the surface of a material is missing
      *  @param groups numbers and names (possibly empty) of the physical
      *  surfaces */
     void
     check_groups(const std::map<int, std::string> &groups) const;
 
-    /** Index of the material at x, for cells outside of all physical
-     *  surfaces. */
+    /** Returns the index of the material at the point x, for cells outside of
+     *  all physical surfaces. */
     unsigned int
     material_at(const dealii::Point<dim> &x) const;
 
-    /** Index of the material at x in a cell of a physical surface.
+    /** Returns the index of the material at the point x, for cells of a
+     *  physical surface.
      *  @param group,name number and name of the surface; empty: unnamed */
     unsigned int
     material_at(const dealii::Point<dim> &x,
                 const int                 group,
                 const std::string        &name) const;
 
-    /** Whether the points of a material are fixed like quadrature points,
-     *  instead of moving with the material. */
+    /** Returns true if the points of a material are fixed quadrature points
+     *  instead of moving material points. */
     bool
     are_fixed(const unsigned int material) const
     {
       return regions[material]->points == Points::fixed;
     }
 
-    /** Rejects materials with fixed points. @throws InputError
+    /** Rejects materials with fixed quadrature points. @throws InputError
      *  @param method name of the method, which moves all points */
     void
     refuse_fixed(const std::string &method) const;

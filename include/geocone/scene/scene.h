@@ -19,8 +19,8 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * The mechanical problem before any discretisation: body, materials,
-   * supports, loads and observed quantities.
+   * Mechanical problem before discretisation: body, materials, supports, loads
+   * and observed quantities.
    */
   class Scene
   {
@@ -31,33 +31,36 @@ namespace geocone::GEOCONE_DIM
     void
     prepare();
 
-    /** Names of all supports, whose reactions can be observed: boundary
-     *  conditions with prescribed velocities, then obstacles and contacts. */
+    /** Returns the names of all supports with observable reactions. These are
+     *  boundary conditions with prescribed velocities, then obstacles and
+     *  contacts. */
     std::vector<std::string>
     supports() const;
 
-    /** Whether the scene contains obstacles or contacts between bodies. */
+    /** Returns true if the scene contains obstacles or contacts between
+     *  bodies. */
     bool
     has_contact() const
     {
       return !obstacles.list.empty() || !contacts.list.empty();
     }
 
-    /** Prepares the conditions on the boundary. */
+    /** Checks and initialises all boundary conditions. */
     void
     prepare_conditions();
 
-    /** Prepares gravity, water, and the densities derived from them. */
+    /** Checks gravity and pore water, and passes the gravitational acceleration
+     *  to the materials. */
     void
     prepare_weight();
 
-    /** Mass density of a material at x (kg/m^3), saturated below the initial
-     *  water table. */
+    /** Returns the mass density of a material at the point x (kg/m^3). Below
+     *  the initial water table it is the saturated density. */
     double
     density(const unsigned int material, const dealii::Point<dim> &x) const;
 
-    /** Rejects obstacles and contacts. @throws InputError @param what feature
-     *  that does not support contact */
+    /** Rejects scenes with obstacles or contacts. @throws InputError @param
+     *  what feature that does not support contact */
     void
     refuse_contact(const std::string &what, const std::string &remedy) const
     {
@@ -65,13 +68,14 @@ namespace geocone::GEOCONE_DIM
       contacts.refuse(what, remedy);
     }
 
-    /** Warning about a time history that ends before the loading programme with
-     *  a non-zero value, which then remains constant; empty: none. */
+    /** Returns a warning about time histories that end before the loading
+     *  programme with a non-zero value. This value then remains constant. The
+     *  text is empty if there are none. */
     std::string
     warn_of_records() const;
 
-    /** Warning that loads and reactions do not include the water pressure;
-     *  empty without water. */
+    /** Returns the warning that loads and reactions do not include the water
+     *  pressure. The text is empty without water. */
     std::string
     warn_of_effective_loads() const;
 

@@ -15,8 +15,8 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** A boundary of the seepage problem: a part of the boundary exposed to open
-   *  water, air or rain, or a drain in the body. */
+  /** Boundary condition of the seepage problem. It applies to a part of the
+   *  boundary exposed to open water, air or rain, or to a drain in the body. */
   class SeepageBoundary : public BoundaryPart
   {
   public:
@@ -25,17 +25,19 @@ namespace geocone::GEOCONE_DIM
     void
     prepare();
 
-    /** Level y of open water (m); no value: air. */
+    /** Water level y at the boundary (m). Without a value the boundary is
+     *  exposed to air. */
     std::optional<double> level;
 
-    /** Rainfall rate (m/s) per horizontal area, an upper limit of
+    /** Rainfall rate per horizontal area (m/s): an upper limit of
      *  infiltration. */
     double rain = 0.;
 
-    /** Polyline of a drain in the body (m); empty: no drain. */
+    /** Vertices (m) of the polyline that represents a drain in the body. Empty
+     *  without a drain. */
     std::vector<dealii::Point<dim>> drain;
 
-    /** Whether x lies on the drain, within rounding. */
+    /** Returns true if the point x lies on the drain, within rounding. */
     bool
     is_on_drain(const dealii::Point<dim> &x) const;
 
@@ -43,8 +45,8 @@ namespace geocone::GEOCONE_DIM
     std::string level_text = "none";
   };
 
-  /** The boundaries of the seepage problem, named in "Seepage/Names"; all other
-   *  parts of the boundary are impervious. */
+  /** List of all boundary conditions of the seepage problem, from the parameter
+   *  "Seepage/Names". All other parts of the boundary are impervious. */
   class Seepage : public NamedList<SeepageBoundary>
   {
   public:
@@ -61,11 +63,12 @@ namespace geocone::GEOCONE_DIM
       return !list.empty();
     }
 
-    /** Water levels of all boundaries, in the order of the list (m; no value:
-     *  air). */
+    /** Water levels at all seepage boundaries (m), in the order of the list.
+     *  Boundaries without a value are exposed to air. */
     using Levels = std::vector<std::optional<double>>;
 
-    /** A flow problem: steady flow, or a time step of transient flow. */
+    /** A flow problem: either steady flow, or one time step of transient
+     *  flow. */
     struct Step
     {
       Levels levels;        ///< at the end of the step
@@ -77,17 +80,19 @@ namespace geocone::GEOCONE_DIM
     Levels
     levels() const;
 
-    /** Flow problems of a stage that begins at the time @p begin (s) with the
-     *  water levels @p before; empty if the stage does not change the levels.
+    /** Returns the flow problems of a stage of the loading programme. The list
+     *  is empty if the stage does not change the water levels.
+     *  @param begin time at the beginning of the stage (s)
+     *  @param before water levels at the beginning of the stage
      *  @throws InputError for unknown names */
     std::vector<Step>
     steps(const Stage &stage, const double begin, const Levels &before) const;
 
-    /** Target number of triangles of the finest mesh. */
+    /** Target number of triangles in the finest mesh of the seepage problem. */
     unsigned int n_cells = 5000;
 
-    /** Time in the loading programme at which limit analysis takes the pore
-     *  pressures of the flow (s). */
+    /** Time in the loading programme (s) whose pore pressures are used in limit
+     *  analysis. */
     double time = 0.;
   };
 } // namespace geocone::GEOCONE_DIM

@@ -13,15 +13,15 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Vertices of each face in a list of faces. */
+  /** List of faces, each as a list of its vertices. */
   using VerticesOfFaces = std::vector<std::vector<dealii::Point<dim>>>;
 
   /**
-   * Time in which a loaded part of the boundary moves at its greatest speed by
-   * a thousandth of its length (s): minimum over all parts, 0 without loaded
-   * parts. For a boundary condition the length is the extent of the selected
-   * part, doubled if it ends in a plane of symmetry; for an obstacle, the width
-   * of the obstacle or of the body.
+   * Returns the time (s) in which a loaded part of the boundary, at its maximum
+   * speed, moves by a thousandth of its length. The time is the minimum over
+   * all loaded parts, 0 without loaded parts. For a boundary condition the
+   * length is the extent of the selected part, doubled if it ends in a plane of
+   * symmetry; for an obstacle, the width of the obstacle or of the body.
    * @param mesh bounding box of the mesh, also of the body if it is from a file
    * @param faces_of vertices of the faces on the sides of a condition, gathered
    * from all ranks

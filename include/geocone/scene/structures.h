@@ -18,7 +18,7 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** A structural element: anchor, strut, geogrid or plate. Anchors, struts and
+  /** Structural element: anchor, strut, geogrid or plate. Anchors, struts and
    *  geogrids are straight bars along a polyline, tied to the body at the
    *  vertices of the polyline; a plate is tied to the body along the polyline
    *  and has bending stiffness. Forces and stiffness are per metre of
@@ -48,15 +48,16 @@ namespace geocone::GEOCONE_DIM
     void
     prepare(const std::vector<std::string> &stages);
 
-    /** Parameter name "Structures/NAME/ENTRY", for messages. */
+    /** Returns the full parameter name "Structures/NAME/ENTRY", for error
+     *  messages. */
     std::string
     parameter(const std::string &entry) const
     {
       return "Structures/" + name + "/" + entry;
     }
 
-    /** Names of the bars in results; empty for a plate, which has separate
-     *  results. */
+    /** Returns the names of the bars of the structure, for results. Empty for a
+     *  plate, whose results are written separately. */
     std::vector<std::string>
     names_of_bars() const;
 
@@ -66,15 +67,15 @@ namespace geocone::GEOCONE_DIM
       return type == Type::plate;
     }
 
-    /** Whether the polyline of a plate is closed. */
+    /** Returns true if the structure is a plate with a closed polyline. */
     bool
     is_closed() const
     {
       return is_plate() && points.front() == points.back();
     }
 
-    /** Whether the rotation of the first or the last end of a plate is
-     *  fixed. */
+    /** Returns true if the rotation of a plate is fixed at the first end, or at
+     *  the last end if @p at_last. */
     bool
     is_clamped(const bool at_last) const
     {
@@ -82,37 +83,39 @@ namespace geocone::GEOCONE_DIM
              clamped == (at_last ? Ends::last : Ends::first);
     }
 
-    /** Type of the structure as a word, e.g. "anchor". */
+    /** Returns the type of the structure as a word, e.g. "anchor". */
     std::string
     kind() const
     {
       return type.word();
     }
 
-    /** Axial force from a trial force (N/m): projection onto [-N_c, N_t]. */
+    /** Projects a trial axial force onto the admissible interval [-N_c, N_t]
+     *  (N/m). */
     double
     admissible(const double trial) const
     {
       return std::clamp(trial, -compressive, tensile);
     }
 
-    /** Bending moment from a trial moment (N): projection onto [-M_p, M_p]. */
+    /** Projects a trial bending moment onto the admissible interval [-M_p, M_p]
+     *  (N). */
     double
     admissible_moment(const double trial) const
     {
       return std::clamp(trial, -capacity, capacity);
     }
 
-    /** Whether one end may lie outside of the body as a fixed point (anchors
-     *  and struts). */
+    /** Returns true if one end of the structure may be a fixed point outside of
+     *  the body, as for anchors and struts. */
     bool
     may_be_fixed() const
     {
       return type == Type::anchor || type == Type::strut;
     }
 
-    /** Whether the structure is a chain of bars, each of which couples
-     *  neighbouring cells only. */
+    /** Returns true if the structure is a chain of bars, each coupling only
+     *  neighbouring cells. */
     bool
     is_chain() const
     {
@@ -126,8 +129,9 @@ namespace geocone::GEOCONE_DIM
     double                          pre_stress = 0.; ///< initial force (N/m)
     double                          bending    = 0.; ///< stiffness EI (N m)
 
-    /** Largest distance between the tie points of a plate (m); infinite: ties
-     *  only where the plate crosses cell faces. */
+    /** Maximum distance between the points at which a plate is tied to the body
+     *  (m). If infinite, the plate is tied to the body only where it crosses
+     *  cell faces. */
     double spacing = 0.;
 
   private:
@@ -149,7 +153,8 @@ namespace geocone::GEOCONE_DIM
     prepare_plate();
   };
 
-  /** The structures of a scene, named in the list "Structures/Names". */
+  /** List of all structures of a scene, from the parameter
+   *  "Structures/Names". */
   class Structures : public NamedList<Structure>
   {
   public:
@@ -159,7 +164,8 @@ namespace geocone::GEOCONE_DIM
     void
     prepare(const Geometry &geometry, const std::vector<std::string> &stages);
 
-    /** Names of the bars of all structures except plates, in order. */
+    /** Returns the names of the bars of all structures except plates, in
+     *  order. */
     std::vector<std::string>
     names_of_bars() const;
 
@@ -167,7 +173,8 @@ namespace geocone::GEOCONE_DIM
     std::vector<const Structure *>
     plates() const;
 
-    /** Converts a name to a part of a key of summary.json, without blanks. */
+    /** Replaces blanks in the name of a structure by underscores, for a key of
+     *  summary.json. */
     static std::string
     key_of(std::string name);
   };

@@ -22,10 +22,10 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Pore water: at rest below a piezometric line y = Y(x), uniform along z in
-   * three dimensions, with the pressure
-   *   u = gamma_w max(0, Y(x) - y),
-   * or with the pressures of seepage (Seepage) or of a file (PressureGrid).
+   * Pore water pressure: hydrostatic, from a seepage analysis (Seepage) or from
+   * a file (PressureGrid). Water at rest below a piezometric line y = Y(x),
+   * uniform along z in three dimensions, has the pressure
+   *   u = gamma_w max(0, Y(x) - y).
    * Effective stresses s' = s + u 1 (tension positive) satisfy
    *   div s' + rho g - grad u = 0,
    * where rho is the density of the soil including its water. Where the line
@@ -43,7 +43,8 @@ namespace geocone::GEOCONE_DIM
     void
     prepare(const Gravity &gravity, const Geometry &geometry);
 
-    /** Checks the parameters except gravity. @throws InputError */
+    /** Checks the parameters of pore water that do not depend on gravity.
+     *  @throws InputError */
     void
     prepare_pressures(const Geometry &geometry);
 
@@ -53,37 +54,39 @@ namespace geocone::GEOCONE_DIM
       return !table.empty() || grid.has_value() || seepage.acts();
     }
 
-    /** Whether the water table is level. */
+    /** Returns true if the water table is horizontal. */
     bool
     is_level() const;
 
-    /** Whether the seepage force varies within the cells of any mesh, as for
-     *  pressures from a file or from seepage. */
+    /** Returns true if the seepage force varies within the cells of a mesh, as
+     *  for pressures from a file or from seepage. */
     bool
     varies_in_cells() const
     {
       return grid.has_value() || seepage.acts();
     }
 
-    /** Boundaries of the seepage problem. */
+    /** Boundary conditions of the seepage problem. */
     Seepage seepage;
 
-    /** Whether any flow problem is transient. */
+    /** Returns true if any flow problem is transient. */
     bool
     flows_in_time() const;
 
-    /** Flow problems in order: the initial flow, then the flows of stages. */
+    /** Returns all flow problems in order: the initial flow problem, then the
+     *  flow problems of the stages. */
     std::vector<Seepage::Step>
     flow_steps() const;
 
-    /** Solution of a flow problem: pore pressures and free surface. */
+    /** Solution of a flow problem: pore pressures and position of the free
+     *  surface. */
     struct Flow
     {
       TriangleField                                  pressure; ///< (Pa)
       std::vector<std::array<dealii::Point<dim>, 2>> surface;  ///< segments
     };
 
-    /** Stores the solutions of flow_steps().
+    /** Stores the solutions of the flow problems listed by flow_steps().
      *  @param time at which the pressures are the initial pore pressures (s) */
     void
     set_flows(std::vector<Flow> of_steps, const double time = 0.)
@@ -98,37 +101,38 @@ namespace geocone::GEOCONE_DIM
       return all_flows;
     }
 
-    /** Unit weight of water (N/m^3). */
+    /** Returns the unit weight of water (N/m^3). */
     double
     weight() const
     {
       return unit_weight;
     }
 
-    /** Reads the piezometric lines and water levels of stages.
+    /** Reads the piezometric lines and water levels of all stages.
      *  @throws InputError if initial lines or levels are missing, or for
      *  invalid values */
     void
     prepare_stages(const LoadingProgramme &loading);
 
-    /** Initial pore pressure u (Pa). */
+    /** Returns the initial pore pressure u (Pa) at the point x. */
     double
     pressure(const dealii::Point<dim> &x) const;
 
-    /** Seepage force -grad u (N/m^3) of one piezometric line or flow.
+    /** Returns the seepage force -grad u (N/m^3) at the point x for one
+     *  piezometric line or flow problem.
      *  @param line index: 0 initially, then in the order of stages */
     dealii::Tensor<1, dim>
     force(const dealii::Point<dim> &x, const std::size_t line = 0) const;
 
-    /** Interpolation weight of each piezometric line or flow in the pore
-     *  pressures at time t; the weights sum to 1. */
+    /** Returns the interpolation weights for the pore pressures at time t, one
+     *  for each piezometric line or flow problem. The weights sum to 1. */
     std::vector<double>
     parts(const double t) const;
 
     /**
-     * Line segments across which the seepage force is discontinuous: the water
-     * table, and vertical lines below its vertices; empty for pressures from a
-     * file or from seepage.
+     * Returns the line segments across which the seepage force is
+     * discontinuous. These are the water table, and vertical lines below its
+     * vertices. The list is empty for pressures from a file or from seepage.
      * @param lower,upper corners of a box around the body
      */
     std::vector<std::array<dealii::Point<dim>, 2>>
@@ -143,11 +147,13 @@ namespace geocone::GEOCONE_DIM
   private:
     using Table = std::vector<dealii::Point<2>>; ///< x, y
 
-    /** Checks a piezometric line. @throws InputError unless x increases */
+    /** Checks that the x coordinates of a piezometric line increase. @throws
+     *  InputError */
     static void
     check(const Table &table, const std::string &parameter);
 
-    /** Level Y (m) and slope dY/dx of a piezometric line at x. */
+    /** Returns the level Y (m) and the slope dY/dx of a piezometric line at
+     *  x. */
     static std::array<double, 2>
     level(const Table &table, const double x);
 
@@ -164,7 +170,7 @@ namespace geocone::GEOCONE_DIM
     std::vector<Flow>           all_flows;
     std::vector<double>         initial_parts; ///< initial weights
 
-    /** Piezometric line at the end of a stage, or a flow problem during the
+    /** Piezometric line at the end of a stage, or flow problem during the
      *  stage. */
     struct Later
     {
