@@ -15,11 +15,11 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Uniform Cartesian grid of a box with B-spline basis functions of degree 1
-   * (hat functions, i.e. Q1), 2 or 3 with clamped knots. The basis functions are
-   * the same as in Space on this grid, but no triangulation is required. Cells
-   * and basis functions are numbered by columns, i.e. the first direction varies
-   * slowest.
+   * Uniform Cartesian grid of a box with B-spline basis functions of degree 1,
+   * 2 or 3. The knots are clamped; functions of degree 1 are hat functions
+   * (Q1). The basis functions are the same as in Space on this grid, but no
+   * triangulation is required. Cells and basis functions are numbered by
+   * columns: the first direction varies slowest.
    */
   class CartesianGrid
   {
@@ -35,8 +35,8 @@ namespace geocone::GEOCONE_DIM
     CartesianGrid(const unsigned int                          degree,
                   const std::array<std::vector<double>, dim> &lines);
 
-    /** One grid direction: intervals (cells) and piecewise polynomial basis
-     *  functions. */
+    /** Data of one grid direction: intervals (cells) and piecewise polynomial
+     *  basis functions. */
     struct Axis
     {
       double       begin = 0., end = 0.; ///< limits of the box (m)
@@ -45,20 +45,22 @@ namespace geocone::GEOCONE_DIM
       unsigned int n_intervals  = 0;
       unsigned int n_functions  = 0;
 
-      /** Greville abscissa of each basis function (m). */
+      /** Greville abscissae of the basis functions (m). */
       std::vector<double> places;
 
-      /** Type of each interval, by its basis functions: near the ends of the
-       *  direction, clamped knots result in other polynomials. */
+      /** Type of each interval, by which the polynomials of the basis functions
+       *  are selected. Near the ends of the direction the polynomials differ
+       *  because of the clamped knots. */
       std::vector<unsigned char> type;
 
-      /** Polynomial coefficients for each type of interval: p + 1 vectors of 4
-       *  for the values of the basis functions, and p for their derivatives
-       *  (1/m), in powers of the local coordinate of the interval. */
+      /** Polynomial coefficients of the basis functions and their derivatives
+       *  (1/m) for each type of interval. There are p + 1 vectors of 4 for the
+       *  values, then p for the derivatives, in powers of the local coordinate
+       *  of the interval. */
       std::vector<double> coefficients;
 
-      /** Interval that contains the coordinate @p x; beyond the ends, the first
-       *  or last interval. */
+      /** Returns the index of the interval that contains the coordinate @p x.
+       *  Beyond the ends, the first or last interval is returned. */
       int
       interval(const double x) const
       {
@@ -72,7 +74,7 @@ namespace geocone::GEOCONE_DIM
     unsigned int          degree = 1;
     std::array<Axis, dim> axes;
 
-    /** Smallest side length of the cells (m). */
+    /** Returns the smallest side length of the cells (m). */
     double
     cell_size() const
     {
@@ -101,8 +103,8 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * Partition of the grid columns into contiguous slabs, one per rank, with
-     * about equal numbers of points per rank (load balance).
+     * Divides the grid columns into contiguous slabs, one per rank, with about
+     * equal numbers of points.
      * @param points_in number of points in each column
      * @return first column of each rank, followed by the number of columns
      */
@@ -110,8 +112,8 @@ namespace geocone::GEOCONE_DIM
     slabs(const std::vector<std::size_t> &points_in,
           const unsigned int              n_ranks) const;
 
-    /** Whether the point @p x lies in the box of the grid, within a tolerance
-     *  relative to the cell size. */
+    /** Returns true if the point @p x lies in the box of the grid, within a
+     *  tolerance relative to the cell size. */
     bool
     contains(const dealii::Point<dim> &x, const double tolerance = 1e-9) const
     {

@@ -33,7 +33,8 @@ namespace geocone::GEOCONE_DIM
    */
   using Vector = dealii::LinearAlgebra::distributed::Vector<double>;
 
-  /** Nodal value of a vector field at the local number @p node. */
+  /** Returns the value of a vector field at the node with the local number @p
+   *  node. */
   inline dealii::Tensor<1, dim>
   value_at(const Vector &field, const unsigned int node)
   {
@@ -44,24 +45,26 @@ namespace geocone::GEOCONE_DIM
   }
 
   /**
-   * Finite element or spline space of the velocity: scalar shape functions, the
-   * same for all components. The interface is "cell -> nodes" and "cell, unit
-   * point -> N, grad N". Components are interleaved: dof = dim node + component.
+   * Finite element or spline space of the velocity, with the same scalar shape
+   * functions for all components. The interface is "cell -> nodes" and "cell,
+   * unit point -> N, grad N". Components are interleaved: dof = dim node +
+   * component.
    *
    * Elements: P1, P2, P3 on triangles; Q1, Q2, Q3 on quadrilaterals; B-spline 2
-   * and B-spline 3 (C1 and C2, with clamped knots) on tensor-product grids.
-   * The basis of P2, P3, Q2 and Q3 is the Lagrange basis (at Gauss-Lobatto nodes
-   * on quadrilaterals) or the Bernstein basis, which is non-negative. The "node"
+   * and B-spline 3 (C1 and C2, with clamped knots) on tensor-product grids. The
+   * basis of P2, P3, Q2 and Q3 is the Lagrange basis (at Gauss-Lobatto nodes on
+   * quadrilaterals) or the Bernstein basis, which is non-negative. The "node"
    * of a non-nodal basis function is its Greville abscissa: with the nodal
    * values of a linear field as coefficients, the field is reproduced.
    *
    * The nodes of a cell are ordered as the shape functions of the reference
-   * cell. The two nodes on a P3 edge are ordered along the edge, whose direction
-   * can be reversed in the cell; this class sorts the nodes per cell, so that
-   * shape functions need not be swapped (deal.II 9.4 provides no cubic simplex).
+   * cell. The two nodes on a P3 edge are ordered along the edge, whose
+   * direction can be reversed in the cell; this class sorts the nodes per cell,
+   * so that shape functions need not be swapped (deal.II 9.4 provides no cubic
+   * simplex).
    *
-   * On tied (periodic) sides, nodes that coincide after the translation from one
-   * side to the other are a single node, positioned on the first side. The
+   * On tied (periodic) sides, nodes that coincide after the translation from
+   * one side to the other are a single node, positioned on the first side. The
    * numbers of the merged nodes belong to no cell.
    */
   class Space : public dealii::ParameterAcceptor
@@ -85,7 +88,7 @@ namespace geocone::GEOCONE_DIM
                    const bool    hard_flow = false);
 
     /**
-     * Element type selected by the parameter value 'automatic'.
+     * Returns the element type for the parameter value 'automatic'.
      * @param hard_flow LawTraits::has_hard_flow: if true, triangles of the
      * finite element method are quadratic, because cubic triangles yield a
      * localised solution that is too soft (doc/small_dilatancy.md)
@@ -96,7 +99,8 @@ namespace geocone::GEOCONE_DIM
                       const Method &method,
                       const bool    hard_flow);
 
-    /** Warnings about material laws for which the element is unsuitable. */
+    /** Returns warnings about material laws for which the element type is
+     *  unsuitable. */
     std::vector<std::string>
     warnings(const LawTraits &law, const Method &method) const;
 
@@ -111,7 +115,8 @@ namespace geocone::GEOCONE_DIM
 
     using Cell = BackgroundMesh::Cell;
 
-    /** Name of the element type: P1 ... Q3, B-spline 2, B-spline 3. */
+    /** Returns the name of the element type: P1, P2, P3, Q1, Q2, Q3, B-spline 2
+     *  or B-spline 3. */
     std::string
     element() const
     {
@@ -130,31 +135,33 @@ namespace geocone::GEOCONE_DIM
       return kind >= Element::spline_2;
     }
 
-    /** Smallest width of a shear band that cells of the size @p cell_size
-     *  resolve (m). */
+    /** Returns the smallest width (m) of a shear band that cells of size @p
+     *  cell_size resolve. */
     double
     band_width(const double cell_size) const
     {
       return is_spline() ? cell_size : cell_size / p;
     }
 
-    /** Whether all shape functions are non-negative. */
+    /** Returns true if all shape functions are non-negative. */
     bool
     is_non_negative() const
     {
       return p == 1 || is_spline() || basis == Basis::bernstein;
     }
 
-    /** Polynomial degree of the B-bar projection of volumetric strains in a
-     *  cell: 0 for splines and k - 1 for Qk, a stable pair without locking or
-     *  pressure oscillations (cf. Q2/P-1 for Stokes flow). */
+    /** Returns the polynomial degree of the B-bar projection of volumetric
+     *  strains in a cell. The degree is 0 for splines and k - 1 for Qk, a
+     *  stable pair without locking or pressure oscillations (cf. Q2/P-1 for
+     *  Stokes flow). */
     unsigned int
     volumetric_degree() const
     {
       return is_spline() ? 0 : p - 1;
     }
 
-    /** Whether the volumetric strain is projected in each cell (B-bar method). */
+    /** Returns true if volumetric strains are projected in each cell (B-bar
+     *  method). */
     bool
     has_b_bar() const
     {
@@ -167,15 +174,15 @@ namespace geocone::GEOCONE_DIM
       return n_nodes_per_cell;
     }
 
-    /** Global numbers of the nodes of a cell, in the order of the shape
-     *  functions. */
+    /** Finds the global numbers of the nodes of a cell, in the order of the
+     *  shape functions. */
     void
     cell_nodes(const Cell                                   &cell,
                std::vector<dealii::types::global_dof_index> &nodes) const;
 
     /**
-     * Evaluates the shape functions of a cell at a unit point, in the order of
-     * cell_nodes().
+     * Evaluates the shape functions of a cell at a point in unit coordinates.
+     * The order is that of cell_nodes().
      * @param[out] N values of the shape functions
      * @param[out] gradient gradients with respect to unit coordinates; can be
      * null
@@ -186,36 +193,38 @@ namespace geocone::GEOCONE_DIM
              double                   *N,
              dealii::Tensor<1, dim>   *gradient) const;
 
-    /** Whether any boundary sides are tied (periodic). */
+    /** Returns true if any boundary sides are tied (periodic). */
     bool
     has_ties() const
     {
       return !tied_sides.empty();
     }
 
-    /** Number of nodes on all ranks. */
+    /** Returns the number of nodes on all ranks. */
     dealii::types::global_dof_index
     n_nodes() const
     {
       return layout->size() / dim;
     }
 
-    /** Parallel layout of a Vector: owned and ghost dofs of this rank. */
+    /** Returns the parallel layout of a Vector: owned and ghost degrees of
+     *  freedom of this rank. */
     const std::shared_ptr<const dealii::Utilities::MPI::Partitioner> &
     partitioner() const
     {
       return layout;
     }
 
-    /** Local number of a node, given its global number. The node must be owned or
-     *  a ghost node on this rank. */
+    /** Returns the local number of the node with a given global number. The
+     *  node must be owned or a ghost node on this rank. */
     unsigned int
     local_node(const dealii::types::global_dof_index node) const
     {
       return layout->global_to_local(dim * node) / dim;
     }
 
-    /** Number of nodes owned by this rank; n_local_nodes() includes ghost nodes. */
+    /** Returns the number of nodes owned by this rank. The function
+     *  n_local_nodes() includes ghost nodes. */
     unsigned int
     n_owned_nodes() const
     {
@@ -227,28 +236,30 @@ namespace geocone::GEOCONE_DIM
       return n_owned_nodes() + layout->n_ghost_indices() / dim;
     }
 
-    /** Positions of the owned and ghost nodes of this rank (m). */
+    /** Returns the positions of the owned and ghost nodes of this rank (m). */
     const std::vector<dealii::Point<dim>> &
     node_positions() const
     {
       return positions;
     }
 
-    /** Integrals over the domain of the spline basis functions of the owned and
-     *  ghost nodes (m^2; m^3 in three dimensions). */
+    /** Returns the integral of each spline basis function over the domain (m^2;
+     *  m^3 in three dimensions). The order is that of the owned and ghost
+     *  nodes. */
     std::vector<double>
     spline_integrals() const;
 
     /**
-     * Local nodes whose shape functions are non-zero on the boundary sides
-     * @p ids, sorted. Includes ghost nodes, so that all ranks agree on shared
-     * nodes.
+     * Returns the local nodes whose shape functions are non-zero on the
+     * boundary sides @p ids, sorted. Includes ghost nodes, so that all ranks
+     * agree on shared nodes.
      */
     std::vector<unsigned int>
     nodes_on_sides(const std::set<dealii::types::boundary_id> &ids) const;
 
-    /** Local nodes whose shape functions are non-zero on the faces of owned and
-     *  ghost cells that the predicate @p holds selects, sorted. */
+    /** Returns the local nodes whose shape functions are non-zero on selected
+     *  faces, sorted. The predicate @p holds selects the faces among those of
+     *  owned and ghost cells. */
     std::vector<unsigned int>
     nodes_on_faces(
       const std::function<bool(const Cell &, const unsigned int)> &holds) const;
@@ -263,17 +274,18 @@ namespace geocone::GEOCONE_DIM
     void
     place_nodes();
 
-    /** Position (m) of a node of a cell, given its index @p i in the cell. */
+    /** Returns the position (m) of a node of a cell. */
     dealii::Point<dim>
     index_of_node(const Cell &cell, const unsigned int i) const;
 
-    /** Nodes of a cell as cell_nodes(), before nodes of tied sides are merged. */
+    /** Finds the nodes of a cell before the nodes of tied (periodic) sides are
+     *  merged. The order is that of cell_nodes(). */
     void
     untied_nodes(const Cell                                   &cell,
                  std::vector<dealii::types::global_dof_index> &nodes) const;
 
-    /** Whether the shape function of node @p i of a cell is non-zero on a
-     *  face. */
+    /** Returns true if the shape function of node @p i of a cell is non-zero on
+     *  a face. */
     bool
     is_on_face(const unsigned int i, const unsigned int face) const;
 
@@ -282,8 +294,8 @@ namespace geocone::GEOCONE_DIM
     void
     tie();
 
-    /** Nodes of a tied side with their positions (m); nodes merged so far are
-     *  replaced. */
+    /** Returns the nodes of a tied (periodic) side with their positions (m).
+     *  Nodes merged so far are replaced. */
     std::vector<std::pair<dealii::types::global_dof_index, dealii::Point<dim>>>
     nodes_of_tied_side(const std::string &side) const;
 
@@ -292,7 +304,8 @@ namespace geocone::GEOCONE_DIM
     dealii::IndexSet
     prepare_splines(const BackgroundMesh &mesh);
 
-    /** Element types: triangles first, splines last. */
+    /** Types of finite elements and splines. Triangles come first, splines
+     *  last. */
     enum class Element
     {
       automatic, ///< replaced by choose_element()
@@ -327,11 +340,11 @@ namespace geocone::GEOCONE_DIM
 
     bool b_bar = false;
 
-    /** Pairs of tied (periodic) sides by their names. */
+    /** Pairs of tied (periodic) boundary sides, by name. */
     std::map<std::string, std::string> tied_sides;
 
-    /** Global number of the node into which each node is merged; empty without
-     *  tied sides. */
+    /** Global number of the node into which each node of tied (periodic) sides
+     *  is merged. Empty without tied sides. */
     std::vector<dealii::types::global_dof_index> tied;
 
     const BackgroundMesh *mesh             = nullptr;
@@ -341,19 +354,21 @@ namespace geocone::GEOCONE_DIM
     std::unique_ptr<dealii::FiniteElement<dim>> fe;
     std::unique_ptr<dealii::DoFHandler<dim>>    dofs;
 
-    /** Univariate B-splines in each direction; spline_number contains the global
-     *  numbers of their tensor products, layer by layer. */
+    /** Univariate B-splines in each direction. The array spline_number contains
+     *  the global numbers of their tensor products, layer by layer. */
     std::vector<SplineBasis>                     splines;
     std::vector<dealii::types::global_dof_index> spline_number;
 
-    /** Lattice indices of the nodes in a cell, counted from the first vertex. */
+    /** Integer lattice coordinates of the nodes in a cell, relative to the
+     *  first vertex. */
     std::vector<std::array<unsigned int, dim>> lattice;
 
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> layout;
     std::vector<dealii::Point<dim>>                            positions;
   };
 
-  /** Creates the cubic triangle P3: 1 dof per vertex, 2 per edge, 1 interior. */
+  /** Creates the cubic triangular element P3, with 1 degree of freedom per
+   *  vertex, 2 per edge and 1 in the interior. */
   std::unique_ptr<dealii::FiniteElement<dim>>
   make_cubic_simplex();
 } // namespace geocone::GEOCONE_DIM

@@ -13,16 +13,16 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Maximum polynomial degree of basis functions for material points. */
+  /** Maximum polynomial degree of shape functions. */
   constexpr unsigned int max_degree = 3;
 
   /**
    * Univariate B-splines of degree p and continuity p - 1 on n intervals of
-   * arbitrary length, with clamped knots (the first and last knots are repeated
-   * p + 1 times). Of the n + p basis functions, i, ..., i + p are non-zero on
-   * interval i. The basis functions are non-negative and a partition of unity;
-   * x is reproduced with the Greville abscissae as coefficients. At each end
-   * only the first (last) basis function is non-zero.
+   * arbitrary length. The knots are clamped: the first and last knots are
+   * repeated p + 1 times. Of the n + p basis functions, i, ..., i + p are
+   * non-zero on interval i. The basis functions are non-negative and a
+   * partition of unity; x is reproduced with the Greville abscissae as
+   * coefficients. At each end only the first (last) basis function is non-zero.
    */
   class SplineBasis
   {
@@ -36,11 +36,12 @@ namespace geocone::GEOCONE_DIM
       return knots.size() - p - 1;
     }
 
-    /** Greville abscissa: mean of the p inner knots of a basis function (m). */
+    /** Returns the Greville abscissa of a basis function (m): the mean of its p
+     *  inner knots. */
     double
     greville(const unsigned int function) const;
 
-    /** Integral of a basis function over all intervals (m). */
+    /** Returns the integral of a basis function over all intervals (m). */
     double
     integral(const unsigned int function) const
     {
@@ -48,7 +49,7 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * Evaluates the p + 1 non-zero basis functions of an interval and their
+     * Evaluates the p + 1 non-zero basis functions of an interval, and their
      * derivatives.
      * @param xi local coordinate in the interval, 0 to 1
      * @param[out] N values
@@ -74,8 +75,8 @@ namespace geocone::GEOCONE_DIM
   bernstein(const unsigned int p, const double xi, double *N, double *dN);
 
   /**
-   * Evaluates the Bernstein polynomials of degree p on the unit triangle, with
-   * the area coordinates l = (1 - x - y, x, y):
+   * Evaluates the Bernstein polynomials of degree p on the unit triangle.
+   * With the area coordinates l = (1 - x - y, x, y) they are
    *   B_ab = p!/((p - a - b)! a! b!) l_0^(p - a - b) l_1^a l_2^b.
    * @param lattice exponents (a, b) of each polynomial
    * @param[out] N values
