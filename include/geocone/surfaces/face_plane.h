@@ -10,40 +10,42 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Projection of a face onto a plane. */
+  /** Face of a cell, projected onto a plane. */
   using FlatPart = Outline<dim - 1>;
 
-  /** Unit coordinates of a position in a flat outline; positions outside are
-   *  moved onto the boundary of the outline. */
+  /** Returns the unit coordinates of a position in the projection of a face.
+   *  Positions outside are moved onto the boundary of the outline. */
   dealii::Point<dim - 1>
   unit_place(const FlatPart &outline, const dealii::Point<dim - 1> &x);
 
-  /** Whether a position is in a convex flat outline. */
+  /** Returns true if a position lies in the convex projection of a face. */
   bool
   is_in(const FlatPart &outline, const dealii::Point<dim - 1> &x);
 
-  /** Length (m) of an interval, or area (m^2) of a triangle. */
+  /** Returns the length (m) of an interval, or the area (m^2) of a triangle. */
   double
   size_of(const FlatPart &simplex);
 
-  /** Intersection of two convex flat outlines, as disjoint intervals or
-   *  triangles. */
+  /** Returns the intersection of two convex projections of faces, divided into
+   *  intervals or triangles. */
   std::vector<FlatPart>
   shared_part(const FlatPart &a, const FlatPart &b);
 
-  /** Plane of a face; the mean plane of a warped quadrilateral. */
+  /** Plane of a face of a cell. For a warped quadrilateral it is the mean
+   *  plane. */
   class FacePlane
   {
   public:
-    /** @param face with corners counterclockwise as seen from outside of the
+    /** Computes the plane of a face.
+     *  @param face with corners counterclockwise as seen from outside of the
      *  body; in two dimensions the body is on the left of the line */
     explicit FacePlane(const SidePart &face);
 
     FlatPart
     project(const SidePart &face) const;
 
-    /** Signed distance of a position from the plane, positive outside of the
-     *  body (m). */
+    /** Returns the signed distance of a position from the plane (m), positive
+     *  outside of the body. */
     double
     ahead(const dealii::Point<dim> &x) const
     {

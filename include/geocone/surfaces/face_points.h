@@ -14,7 +14,7 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** A quadrature point of a face of a cell. */
+  /** Quadrature point on a face of a cell. */
   struct FacePoint
   {
     dealii::Point<dim>        position;
@@ -24,8 +24,8 @@ namespace geocone::GEOCONE_DIM
     std::vector<double>       values; ///< shape functions N, by node
   };
 
-  /** Gauss points on a face or a part of a face, exact for polynomial degree 2p
-   *  + 3. */
+  /** Returns Gauss points on a face or a part of a face. With shape functions
+   *  of degree p, the quadrature is exact for polynomials of degree 2p + 3. */
   std::vector<FacePoint>
   points_on_face(const BackgroundMesh       &mesh,
                  const Space                &space,
@@ -33,8 +33,9 @@ namespace geocone::GEOCONE_DIM
                  const unsigned int          face,
                  const UnitPart             &part = UnitPart::whole());
 
-  /** Part of a face selected by a condition, no value if none. A box can select
-   *  a part of a face; formulas select entire faces.
+  /** Returns the part of a face selected by a boundary condition. No value is
+   *  returned for a face that is not selected. A box can select a part of a
+   *  face; formulas select entire faces.
    *  @throws InputError for a part of a three-dimensional face that is oblique
    *  to the axes */
   std::optional<UnitPart>
@@ -44,8 +45,8 @@ namespace geocone::GEOCONE_DIM
                const unsigned int          face);
 
   /**
-   * Calls f(cell, point) for each Gauss point of the faces of this rank's cells
-   * selected by a boundary condition.
+   * Calls f(cell, point) for each Gauss point on the faces selected by a
+   * boundary condition. Faces of the cells of this rank are included.
    * @return number of selected faces on this rank
    */
   template <typename Function>
@@ -71,8 +72,8 @@ namespace geocone::GEOCONE_DIM
     return n_faces;
   }
 
-  /** Rejects a condition that selects no face. @throws InputError if no rank
-   *  has a selected face
+  /** Rejects a boundary condition that selects no face. @throws InputError if
+   *  no rank has a selected face
    *  @param what consequence, for the message. Collective. */
   void
   refuse_no_face(const BoundaryCondition &condition,

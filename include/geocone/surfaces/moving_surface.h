@@ -13,33 +13,34 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Boundary segments of a body, or parts of segments in a box, that move with
-   * the body. The segments consist of facets (lines or triangles) whose corners
+   * Boundary segments that move with the body. The segments, entire or
+   * restricted to a box, consist of facets (lines or triangles) whose corners
    * move with the grid velocity.
    */
   class MovingSurface
   {
   public:
     /**
+     * Divides boundary segments into facets.
      * @param panels boundary segments of the body
      * @param longest maximum edge length of facets (m); in three dimensions of
      * parallelograms, each of which is divided into two facets
      */
     MovingSurface(const std::vector<SidePart> &panels, const double longest);
 
-    /** Facets at their current positions. */
+    /** Returns the facets at their current positions. */
     std::vector<SidePart>
     facets() const;
 
-    /** Initial size of a facet (m, or m^2). */
+    /** Returns the initial length (m) or area (m^2) of a facet. */
     double
     size_at_start(const std::size_t facet) const
     {
       return parts[facet].size;
     }
 
-    /** Moves the corners with the grid velocity over a step h (s), limited to
-     *  the box of the mesh. Collective. */
+    /** Moves the corners of the facets with the grid velocity over a step h
+     *  (s). Positions are limited to the box of the mesh. Collective. */
     void
     move(const BackgroundMesh &mesh,
          const Space          &space,
@@ -53,7 +54,7 @@ namespace geocone::GEOCONE_DIM
     }
 
   private:
-    /** A facet, by indices of its corners. */
+    /** Facet, defined by the indices of its corners. */
     struct Part
     {
       std::array<unsigned int, dim> corners;

@@ -12,31 +12,31 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Boundary faces of a body by node: for each face at node i the integral of
-   * N_i (m, m^2) and the outward normal. Tributary areas thus include only
-   * faces in contact: a node at the end of such a face represents half a cell,
-   * regardless of the other faces at the node.
+   * Boundary faces of a body, listed for each node. For each face at node i,
+   * the integral of N_i (m, m^2) and the outward normal are stored. Tributary
+   * areas thus include only faces in contact: a node at the end of such a face
+   * represents half a cell, regardless of the other faces at the node.
    */
   class NodeSides
   {
   public:
     explicit NodeSides(const Space &space);
 
-    /** Appends a face of the boundary. @param points all quadrature points of
-     *  the face */
+    /** Appends a boundary face of the body. @param points all quadrature points
+     *  of the face */
     void
     add(const std::vector<FacePoint> &points);
 
-    /** Exchanges the faces between ranks, so that owned nodes have the faces of
-     *  all ranks. Collective. */
+    /** Exchanges boundary faces between ranks. Then owned nodes have the faces
+     *  of all ranks. Collective. */
     void
     exchange();
 
     /**
-     * Integral of N_i over the faces at a node that face an obstacle: the face
-     * whose normal is most nearly opposite to the normal of the obstacle, and
-     * faces with almost the same deviation (two faces for a corner that points
-     * at the obstacle).
+     * Returns the integral of the shape function N_i over the faces of node i
+     * that face an obstacle. These are the face whose normal is most nearly
+     * opposite to the normal of the obstacle, and faces with almost the same
+     * deviation (two faces for a corner that points at the obstacle).
      * @param node an owned node
      * @param normal outward normal of the obstacle
      */

@@ -13,8 +13,8 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Part of a line or quadrilateral: the range of unit coordinates between two
-   *  corners. */
+  /** Part of a line or quadrilateral, defined by a range of unit
+   *  coordinates. */
   struct UnitPart
   {
     dealii::Point<dim - 1> lower, upper;
@@ -24,9 +24,9 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * A part of a boundary segment, given by its corners in order: a line, a
-   * triangle, or a quadrilateral with a map that is linear in each unit
-   * coordinate.
+   * Part of a boundary segment: a line, a triangle or a quadrilateral. The
+   * corners are stored in order; the map of a quadrilateral is linear in each
+   * unit coordinate.
    * @tparam n dim, or dim - 1 for the projection onto a plane
    */
   template <int n>
@@ -45,14 +45,15 @@ namespace geocone::GEOCONE_DIM
       return corners[0] + x;
     }
 
-    /** Edge vector from the first corner along a unit coordinate. */
+    /** Returns the edge vector from the first corner along the unit coordinate
+     *  @p k. */
     dealii::Tensor<1, n>
     edge(const unsigned int k) const
     {
       return (k == 0 ? corners[1] : corners.back()) - corners[0];
     }
 
-    /** Mean of the corners. */
+    /** Returns the mean position of the corners. */
     dealii::Point<n>
     middle() const
     {
@@ -62,9 +63,9 @@ namespace geocone::GEOCONE_DIM
       return sum;
     }
 
-    /** Decomposition into simplices: in two dimensions the line itself, in
-     *  three dimensions triangles that share the first corner of the convex
-     *  polygon. */
+    /** Decomposes the boundary part into simplices (lines or triangles). In two
+     *  dimensions the simplex is the line itself; in three dimensions triangles
+     *  share the first corner of the convex polygon. */
     std::vector<Outline>
     simplices() const
     {
@@ -79,13 +80,13 @@ namespace geocone::GEOCONE_DIM
     std::vector<dealii::Point<n>> corners;
   };
 
-  /** A part of a boundary segment of the body: in two dimensions the body is on
-   *  the left of the line, in three dimensions the corners are counterclockwise
-   *  as seen from outside. */
+  /** Part of a boundary segment of the body, with oriented corners. In two
+   *  dimensions the body is on the left of the line; in three dimensions the
+   *  corners are counterclockwise as seen from outside. */
   using SidePart = Outline<dim>;
 
-  /** Outward normal vector scaled by the length (m) or the area (m^2) of the
-   *  part. */
+  /** Returns the outward normal vector of a boundary part, scaled by the length
+   *  (m) or area (m^2). */
   dealii::Tensor<1, dim>
   area_of(const SidePart &part);
 
@@ -99,12 +100,13 @@ namespace geocone::GEOCONE_DIM
   ends_of(const SidePart &part);
   /** @} */
 
-  /** Part of a line or quadrilateral with a given range of unit coordinates. */
+  /** Returns the part of a line or quadrilateral in a given range of unit
+   *  coordinates. */
   SidePart
   part_of(const SidePart &whole, const UnitPart &part);
 
-  /** Subdivision of a line or quadrilateral into n equal parts along each
-   *  edge. */
+  /** Divides a line or quadrilateral into n[k] equal parts along each edge
+   *  k. */
   std::vector<SidePart>
   parts_of(const SidePart &whole, const std::array<unsigned int, dim - 1> &n);
 } // namespace geocone::GEOCONE_DIM

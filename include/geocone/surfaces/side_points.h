@@ -13,8 +13,8 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** A quadrature point on a facet, with the shape functions N of the cell that
-   *  contains it. */
+  /** Quadrature point on a facet, with the shape functions N of the cell that
+   *  contains the point. */
   struct BoundaryPoint
   {
     dealii::Point<dim> position;
@@ -25,12 +25,12 @@ namespace geocone::GEOCONE_DIM
 
   /**
    * Calls f(index, point) for each quadrature point of facets (lines or
-   * triangles) inside cells of this rank: Gauss points on the part of the facet
-   * in each cell, in two dimensions exact for the shape functions. Over all
-   * ranks the weights of a facet sum to its fraction inside the mesh. A facet
-   * along the boundary of cells belongs to the cells on the side of the body; a
-   * facet along the boundary of the mesh belongs to the mesh if the mesh is on
-   * that side.
+   * triangles) inside cells of this rank. These are Gauss points on the part of
+   * the facet in each cell, in two dimensions exact for the shape functions.
+   * Over all ranks the weights of a facet sum to its fraction inside the mesh.
+   * A facet along the boundary of cells belongs to the cells on the side of the
+   * body; a facet along the boundary of the mesh belongs to the mesh if the
+   * mesh is on that side.
    * @return fraction of each facet on this rank
    */
   std::vector<double>
@@ -40,21 +40,21 @@ namespace geocone::GEOCONE_DIM
     const std::vector<SidePart>                                         &facets,
     const std::function<void(const std::size_t, const BoundaryPoint &)> &f);
 
-  /** Quadrature points on a line, a triangle or a parallelogram. */
+  /** Returns quadrature points on a line, a triangle or a parallelogram. */
   std::vector<BoundaryPoint>
   points_on(const BackgroundMesh &mesh,
             const Space          &space,
             const SidePart       &part);
 
-  /** Maximum length of the line from a to b inside a single cell (m).
-   *  Collective. */
+  /** Returns the maximum length of the line from a to b inside a single cell
+   *  (m). Collective. */
   double
   longest_part_in_cell(const BackgroundMesh     &mesh,
                        const dealii::Point<dim> &a,
                        const dealii::Point<dim> &b);
 
-  /** Range [from, to] of t in [0, 1] where c + t d >= 0 for all pairs (c, d);
-   *  empty if to < from. */
+  /** Returns the range [from, to] of t in [0, 1] in which the linear functions
+   *  c + t d are non-negative. The range is empty if to < from. */
   std::pair<double, double>
   part_of_line(const std::vector<std::pair<double, double>> &conditions);
 } // namespace geocone::GEOCONE_DIM

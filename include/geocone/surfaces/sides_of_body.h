@@ -12,15 +12,16 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Boundary segments of the body selected by a condition, clipped to the box
-   * of the condition: lines, in three dimensions rectangles.
+   * Returns the boundary segments of the body selected by a boundary condition.
+   * The segments (lines, in three dimensions rectangles) are clipped to the box
+   * of the condition.
    * @throws InputError if the body lacks such a segment, or the segment is
    * outside of the box
    */
   std::vector<SidePart>
   panels_of_body(const BoundaryCondition &condition, const Geometry &geometry);
 
-  /** Side of a box normal to an axis, or a part of this side.
+  /** Returns a side of a box normal to an axis, or a part of this side.
    *  @param low,high opposite corners of the side or part */
   SidePart
   side_across(const unsigned int        axis,
@@ -28,8 +29,9 @@ namespace geocone::GEOCONE_DIM
               const dealii::Point<dim> &low,
               const dealii::Point<dim> &high);
 
-  /** Cell size along an edge of a panel: maximum length of the panel's centre
-   *  line inside a single cell (m). Collective. */
+  /** Returns the cell size (m) along an edge of a boundary segment. It is the
+   *  maximum length of the centre line of the segment inside a single cell.
+   *  Collective. */
   double
   cell_size_along(const BackgroundMesh &mesh,
                   const SidePart       &panel,
