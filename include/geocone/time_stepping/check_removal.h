@@ -11,8 +11,8 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Checks before the run that a stage removes some but not all material, by
-   *  Stage::removal_text(). @throws InputError */
+  /** Checks before the run that a stage removes some material, but not all.
+   *  @throws InputError */
   inline void
   check_removal(const Stage        &stage,
                 const unsigned long n_removed,

@@ -8,17 +8,18 @@
 
 namespace geocone
 {
-  /** Energies of the body (J/m). */
+  /** Kinetic, elastic and potential energy of the body (J/m). */
   struct Energies
   {
     double kinetic = 0.; ///< v'Mv/2 of nodes (FEM) or particles (MPM)
-    /** Elastic energy sum V s'Ss/2, with pore fluid also sum V p^2/(2 K_w/n).
-     *  Not available in explicit steps, in which laws provide only the stress
-     *  work. */
+    /** Elastic strain energy sum V s'Ss/2, with elastic compliance S. For
+     *  undrained soil, the energy of the pore fluid sum V p^2/(2 K_w/n) is
+     *  included. Not available in explicit steps, in which constitutive laws
+     *  provide only the stress work. */
     double elastic = 0.;
-    /** Potential energy in MPM: -sum m g.(x - x0), x0 the lower left corner of
-     *  the mesh. In FEM the work done by the weight is part of the external
-     *  work. */
+    /** Potential energy of gravity in MPM, -sum m g.(x - x0). The reference
+     *  point x0 is the lower left corner of the mesh. In FEM the work done by
+     *  the weight is part of the external work. */
     double potential = 0.;
 
     double
@@ -42,17 +43,17 @@ namespace geocone
     }
   };
 
-  /** Work done on the body and energy dissipated, in one or more steps
+  /** Work done on the body and energy dissipated during one or more steps
    *  (J/m). */
   struct Works
   {
     double external    = 0.; ///< work done by loads and supports
     double dissipation = 0.; ///< plastic, sum V s'(-z) >= 0
-    /** Plastic work due to the difference between the exact strength and the
-     *  strength of lagged friction or friction with memory: sum V |z_t| ||s_t|
-     *  - a s_n - k|. */
+    /** Excess plastic work due to friction with memory or lagged friction. It
+     *  is caused by the difference between the exact and the regularised
+     *  strength: sum V |z_t| ||s_t| - a s_n - k|. */
     double of_excess = 0.;
-    /** Energy dissipated by friction and impact at contacts: -sum h r.u. */
+    /** Energy dissipated by friction and impact at contacts, -sum h r.u. */
     double contact_dissipation = 0.;
     double of_ghosts           = 0.; ///< work of GhostStiffness
 
@@ -67,7 +68,7 @@ namespace geocone
       return *this;
     }
 
-    /** Total dissipated energy, in the soil and at contacts. */
+    /** Returns the total dissipated energy in the soil and at contacts. */
     double
     dissipated() const
     {

@@ -13,16 +13,18 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Global data at the end of a step, common to all methods. */
+  /** Results for the entire body at the end of a step, common to all
+   *  methods. */
   struct StepEnd
   {
     Energies energies;
 
-    /** Maximum accumulated plastic strain of all points. */
+    /** Maximum accumulated plastic strain over all points. */
     double largest_plastic_strain = 0.;
 
-    /** Reactions of each of Scene::supports(): forces on the body (N/m) and
-     *  moments (N m/m); in explicit steps, means over the step. */
+    /** Reactions of all supports in the order of Scene::supports(). They are
+     *  forces on the body (N/m) and moments (N m/m). In explicit steps they are
+     *  averaged over the step. */
     std::vector<Reaction> reactions;
 
     void

@@ -14,19 +14,19 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Kinematic state advanced in time, in addition to the state of the
-   *  points. */
+  /** Velocities and displacements advanced in time, in addition to the state of
+   *  the points. */
   struct Kinematics
   {
     Vector velocity;     ///< nodal velocity at t_n (m/s)
     Vector displacement; ///< nodal (FEM), since the last reset (m)
 
-    /** Mean displacement of the support of each boundary condition since the
-     *  last reset (m). */
+    /** Mean displacement (m) of the support of each boundary condition since
+     *  the last reset. */
     std::vector<dealii::Tensor<1, dim>> supports;
   };
 
-  /** Diagnostics of moving material points; unused with fixed quadrature
+  /** Diagnostics of moving material points. Not used with fixed quadrature
    *  points. */
   struct Motion
   {
@@ -76,24 +76,25 @@ namespace geocone::GEOCONE_DIM
     unsigned int multipliers = 0; ///< independent rows of H
     unsigned int rows        = 0; ///< all rows of H
 
-    /** Diagnostics of material points. */
+    /** Diagnostics of the material points in the step. */
     Motion motion;
 
-    /** Report on contact with obstacles. */
+    /** Report on contact with obstacles in the step. */
     ContactReport contact;
 
-    /** States of the bars of all structures, and of the plates, in the order of
-     *  the scene. */
+    /** States of the bars and plates of all structures, in the order of the
+     *  scene. */
     std::vector<BarState>   bars;
     std::vector<PlateState> plates;
 
-    /** Load factor at the end of the step; 1 without load stepping. */
+    /** Load factor at the end of the step. Without load stepping it is 1. */
     double load_factor = 1.;
 
     /**
-     * Defect of the discrete energy identity of the step on the grid,
-     *   dE_kin + dE_el + sum V s'(-z) + |v - vL|_M^2/2 + sum V ds'S ds/2 = work,
-     * relative to the largest term.
+     * Relative error of the discrete energy identity of the step on the grid.
+     * The identity is
+     *   dE_kin + dE_el + sum V s'(-z) + |v - vL|_M^2/2 + sum V ds'S ds/2 = work
+     * The residual is divided by the largest term.
      */
     double identity_error = 0.;
 
@@ -118,21 +119,22 @@ namespace geocone::GEOCONE_DIM
     }
   };
 
-  /** Result of removing and adding material at the beginning of a stage. */
+  /** Result of the removal and addition of material at the beginning of a
+   *  stage. */
   struct BodyChange
   {
     std::vector<std::string> remarks;
     Energies                 before, after; ///< energies of the body (J/m)
   };
 
-  /** Maps each material index to the material index after the changes of a
-   *  stage. */
+  /** Returns, for each material, the index of the material that replaces it in
+   *  a stage. Other materials retain their index. */
   std::vector<unsigned int>
   materials_after(const Stage &stage, const Materials &materials);
 
-  /** Replaces the materials of points as specified by a stage. History
-   *  variables are initialised from the stresses, masses computed from the
-   *  volumes. Collective.
+  /** Replaces the materials of points as specified by a stage of the loading
+   *  programme. History variables are initialised from the stresses, masses
+   *  computed from the volumes. Collective.
    *  @return remarks @throws StepFailure if a material to be replaced has no
    *  points */
   std::vector<std::string>
@@ -142,12 +144,13 @@ namespace geocone::GEOCONE_DIM
                    const MPI_Comm  comm,
                    MaterialPoints &points);
 
-  /** @throws InputError for features not available in axisymmetric scenes */
+  /** Checks that the scene has only features that are available in axisymmetry.
+   *  @throws InputError */
   void
   check_axisymmetric_body(const Scene &scene);
 
-  /** Elastic energy of the points of all ranks, Energies::elastic (J/m).
-   *  Collective. */
+  /** Returns the elastic energy summed over the points of all ranks (J/m), for
+   *  Energies::elastic. Collective. */
   double
   elastic_energy(const MaterialPoints &points,
                  const Materials      &materials,
@@ -169,13 +172,13 @@ namespace geocone::GEOCONE_DIM
              Vector               &values);
   /** @} */
 
-  /** Maximum accumulated plastic strain of the points of all ranks.
-   *  Collective. */
+  /** Returns the maximum accumulated plastic strain over the points of all
+   *  ranks. Collective. */
   double
   largest_plastic_strain(const MaterialPoints &points, const MPI_Comm comm);
 
-  /** Relative defect of the energy identity (StepReport::identity_error) in the
-   *  last step solved with a problem. Collective. */
+  /** Returns the relative error of the energy identity
+   *  (StepReport::identity_error) in the last step. Collective. */
   double
   energy_identity_error(const IncrementalProblem &problem,
                         const MaterialPoints     &points,
@@ -185,10 +188,10 @@ namespace geocone::GEOCONE_DIM
                         const double              work);
 
   /**
-   * Ratio of kinetic energy gain to plastic work in the last step solved with a
-   * problem, v'M(v - vL)/sum V s:de^p, including free obstacles. The ratio
-   * almost vanishes in creep towards a new equilibrium; for a failing slope it
-   * equals the deficit 1 - F of the factor of safety F. Collective.
+   * Returns the ratio of kinetic energy gain to plastic work in the last step,
+   * v'M(v - vL)/sum V s:de^p. Free obstacles are included. The ratio almost
+   * vanishes in creep towards a new equilibrium; for a failing slope it equals
+   * the deficit 1 - F of the factor of safety F. Collective.
    */
   double
   accelerating_share(const IncrementalProblem &problem,
@@ -198,20 +201,21 @@ namespace geocone::GEOCONE_DIM
                      const Vector             &v);
 
   /**
-   * Interface of implicit time stepping, for FEM and MPM. Only a time stepper
-   * changes the state, and only if a step is accepted.
+   * Abstract interface of implicit time stepping, for FEM and MPM. Only a time
+   * stepper changes the state, and only if a step is accepted.
    */
   class TimeStepper
   {
   public:
     virtual ~TimeStepper() = default;
 
-    /** Whether inertia is included; otherwise no mass matrix is assembled. */
+    /** Returns true if the equations of motion include inertia. Otherwise no
+     *  mass matrix is assembled. */
     virtual bool
     has_inertia() const = 0;
 
     /**
-     * Allocates the data of the steps and initialises the points and the
+     * Allocates data for time steps and initialises the points and the
      * kinematics at t = 0.
      * @return a warning, or an empty string
      * @throws InputError
@@ -225,15 +229,15 @@ namespace geocone::GEOCONE_DIM
             Kinematics            &kinematics,
             MaterialPoints        &points) = 0;
 
-    /** Kinetic, elastic and potential energy of the body at time t.
+    /** Returns the kinetic, elastic and potential energy of the body at time t.
      *  Collective. */
     virtual Energies
     state_energies(const Kinematics     &kinematics,
                    const MaterialPoints &points,
                    const double          t) const = 0;
 
-    /** Attempts a step from t to t + h; the state is updated if the step
-     *  converges.
+    /** Attempts a step from time t to time t + h. The state is updated if the
+     *  step converges.
      *  @param accepted_excess see NonsmoothNewton::Hints */
     virtual StepReport
     advance(Kinematics            &kinematics,
@@ -254,7 +258,7 @@ namespace geocone::GEOCONE_DIM
                 Kinematics          &kinematics,
                 MaterialPoints      &points) = 0;
 
-    /** Sets displacements and plastic strains to zero. */
+    /** Sets displacements and accumulated plastic strains to zero. */
     void
     reset(Kinematics &kinematics, MaterialPoints &points) const;
 
@@ -264,16 +268,17 @@ namespace geocone::GEOCONE_DIM
     virtual void
     save(Archive &archive, const MaterialPoints &points) = 0;
 
-    /** Replaces the state initialised by prepare() by the state of a
+    /** Replaces the state initialised by prepare() by the state in a
      *  checkpoint.
      *  @throws RunError if the checkpoint does not match the scene */
     virtual void
     load(const Archive &archive, MaterialPoints &points) = 0;
     /** @} */
 
-    /** Replaces the points initialised by prepare() by the points of a
-     *  checkpoint of another run, at rest and without displacements and plastic
-     *  strains; moving boundaries and obstacles are not read. Collective.
+    /** Replaces the points initialised by prepare() by the points in a
+     *  checkpoint of another run. The points are at rest, without displacements
+     *  and plastic strains; moving boundaries and obstacles are not read.
+     *  Collective.
      *  @throws RunError if the checkpoint does not match the scene */
     void
     begin_from(const Archive  &archive,
@@ -286,36 +291,38 @@ namespace geocone::GEOCONE_DIM
     virtual std::string
     linear_solver_name() const = 0;
 
-    /** Number of matrix entries of the Jacobian on this rank. */
+    /** Returns the number of matrix entries of the Jacobian on this rank. */
     virtual std::size_t
     n_nonzeros() const = 0;
 
-    /** Whether the points move relative to the mesh. */
+    /** Returns true if the points move relative to the mesh. */
     virtual bool
     has_moving_points() const
     {
       return false;
     }
 
-    /** Whether points may leave the mesh; n_lost() counts these points. */
+    /** Returns true if points may leave the mesh. The function n_lost() counts
+     *  these points. */
     virtual bool
     points_may_leave() const
     {
       return false;
     }
 
-    /** Rigid motion of each obstacle of the scene. */
+    /** Returns the rigid-body motion of each obstacle of the scene. */
     virtual const std::vector<RigidMotion> &
     moved_obstacles() const = 0;
 
-    /** Number of points that have left the mesh since the start. */
+    /** Returns the number of points that have left the mesh since the start of
+     *  the run. */
     virtual unsigned int
     n_lost() const
     {
       return 0;
     }
 
-    /** Number of times that the cells were redistributed over the ranks. */
+    /** Returns how many times the cells were redistributed over the ranks. */
     virtual unsigned int
     n_repartitions() const
     {
@@ -323,7 +330,7 @@ namespace geocone::GEOCONE_DIM
     }
 
   private:
-    /** Replaces the points by the points of a checkpoint of any run.
+    /** Replaces the points by the points in a checkpoint of any run.
      *  Collective. */
     virtual void
     take_points(const Archive &archive, MaterialPoints &points) = 0;
