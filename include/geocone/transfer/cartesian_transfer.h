@@ -11,18 +11,19 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Transfer between points and nodes on a uniform grid; cell indices are
-   * computed directly from positions. Each rank owns a slab of columns (slices
-   * in three dimensions). Each sort() selects slabs with about equal numbers of
-   * points. A column of nodes is contiguous in memory, and so are the nodes
-   * shared by two ranks. Only the nodes around the points are stored.
+   * Transfer between material points and nodes on a uniform grid. Cell indices
+   * are computed directly from positions. Each rank owns a slab of columns
+   * (slices in three dimensions). Each sort() selects slabs with about equal
+   * numbers of points. A column of nodes is contiguous in memory, and so are
+   * the nodes shared by two ranks. Only the nodes around the points are stored.
    */
   class CartesianTransfer : public GridTransfer
   {
   public:
     /**
+     * Stores the grid and the prescribed velocities on its sides.
      * @param conditions prescribed velocities on sides of the grid
-     * @param first_stage stage whose boundary conditions act first
+     * @param first_stage first stage, whose boundary conditions are active
      * @throws InputError if a condition is not on a side of the grid
      */
     CartesianTransfer(const MPI_Comm            comm,
@@ -93,7 +94,8 @@ namespace geocone::GEOCONE_DIM
     description() const override;
 
   private:
-    /** Half-open range [begin, end) of cells or functions in one direction. */
+    /** Half-open range [begin, end) of cells or basis functions in one
+     *  direction. */
     struct Range
     {
       int begin = 0, end = 0;
@@ -104,46 +106,44 @@ namespace geocone::GEOCONE_DIM
       }
     };
 
-    /** Divides the columns of cells into slabs with about equal numbers of
-     *  points. */
+    /** Divides the cell columns into slabs, one per rank, with about equal
+     *  numbers of points. */
     void
     cut_slabs(const std::vector<PointArrays> &groups);
 
-    /** Sends points outside the slab of this rank to the ranks that own their
-     *  positions. */
+    /** Sends each point outside the slab of this rank to the rank that owns its
+     *  position. */
     void
     migrate(std::vector<PointArrays> &groups) const;
 
     void
     sort_by_cell(std::vector<PointArrays> &groups);
 
-    /** Selects the stored nodes and finds the stored nodes with prescribed
-     *  velocities. */
+    /** Selects the stored nodes and lists those with prescribed velocities. */
     void
     store_nodes();
 
-    /** Number of stored nodes per column. */
+    /** Returns the number of stored nodes per grid column. */
     std::size_t
     column_size() const;
 
-    /** Array of nodal values, per_node values for each stored node. */
+    /** Array of nodal data, with per_node values for each stored node. */
     struct Shared
     {
       double      *values;
       unsigned int per_node;
     };
 
-    /** Sums nodal arrays over the ranks that share columns of nodes.
-     *  Collective. */
+    /** Sums nodal arrays over the ranks that share node columns. Collective. */
     void
     sum_over_ranks(const std::vector<Shared> &arrays);
 
-    /** Number of basis functions along each axis. */
+    /** Returns the number of basis functions along each axis. */
     GridIndex
     n_functions() const;
 
-    /** Index of a basis function among the stored functions. @pre the function
-     *  is stored */
+    /** Returns the index of a basis function among the stored basis functions.
+     *  @pre the function is stored */
     std::size_t
     stored_index_of(const std::array<unsigned int, dim> &function) const;
 
@@ -158,8 +158,9 @@ namespace geocone::GEOCONE_DIM
     const BoundaryConditions &conditions;
     std::vector<bool>         acts; ///< whether the condition acts
 
-    /** Prescribed velocity components and their conditions for each basis
-     *  function of the whole grid, indexed by number_in_grid(). */
+    /** Prescribed velocity components of each basis function, with the index of
+     *  the boundary condition. Basis functions of the whole grid are indexed by
+     *  number_in_grid(). */
     std::vector<std::vector<PrescribedNode>> prescribed_functions;
 
     std::vector<int>   slab_begin;     ///< first cell column of each rank

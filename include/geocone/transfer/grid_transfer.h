@@ -21,9 +21,9 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Nodes of an explicit step and transfer between material points and nodes.
-   * Each node has the same index in three arrays: node_size doubles to read,
-   * node_size doubles to write, and a mass.
+   * Nodes of an explicit step, with the transfer of data between material
+   * points and nodes. Each node has the same index in three arrays: node_size
+   * doubles to read, node_size doubles to write, and a mass.
    *   read:  velocity and velocity increment of the step, read by the points;
    *   write: momentum and force, written by the points;
    *   mass.
@@ -37,20 +37,21 @@ namespace geocone::GEOCONE_DIM
     virtual ~GridTransfer() = default;
 
     /**
-     * Sends points to their ranks, sorts them by cell and stores the nodes
-     * around them, with `write` and `mass` set to zero. Collective.
+     * Sends points to the ranks that own their positions and sorts the points
+     * by cell. The nodes around the points are stored, with `write` and `mass`
+     * set to zero. Collective.
      */
     virtual void
     sort(std::vector<PointArrays> &groups) = 0;
 
-    /** Activates the prescribed velocities of a stage from the next sort() on.
-     *  Collective. @return whether the active conditions differ from the
-     *  previous stage */
+    /** Activates the prescribed velocities of a stage, starting with the next
+     *  call of sort(). Collective. @return whether the active conditions differ
+     *  from the previous stage */
     virtual bool
     begin_stage(const std::string &stage) = 0;
 
-    /** Whether the next step requires a sort(), given the bounding box of the
-     *  points of this rank in sums. Not collective. */
+    /** Returns true if the next step requires a call of sort(). Not collective.
+     *  @param sums contains the bounding box of the points of this rank */
     virtual bool
     must_sort(const PassSums &sums) const = 0;
 
@@ -72,7 +73,8 @@ namespace geocone::GEOCONE_DIM
                    const bool           with_mass) = 0;
     virtual void
     scatter_affine(const TransferBlock &points, BlockScratch &scratch) = 0;
-    /** Computes the cell index of each point, less than n_stored_cells(). */
+    /** Computes the cell index of each point of a block. Indices are less than
+     *  n_stored_cells(). */
     virtual void
     find_cells(const TransferBlock &points, unsigned int *cells) const = 0;
     /** @} */
@@ -83,13 +85,13 @@ namespace geocone::GEOCONE_DIM
     clear_cells();
     void
     add_to_cells(const TransferBlock &points, const double *values);
-    /** Sums cell values over the ranks if a cell can have points on several
-     *  ranks. Collective. */
+    /** Sums cell values over the ranks, if the points of a cell can be on
+     *  several ranks. Collective. */
     virtual void
     exchange_cells()
     {}
-    /** Volume averages of the cells that contain the points; 0 if the volume in
-     *  the cell is zero. */
+    /** Computes for each point the volume average over the points of the same
+     *  cell. The average is 0 if the volume in the cell is zero. */
     void
     average(const TransferBlock &points, double *means) const;
     virtual std::size_t
@@ -97,49 +99,51 @@ namespace geocone::GEOCONE_DIM
     /** @} */
 
     /**
-     * Sums the nodal values written by the points over all ranks, with the
-     * masses if @p with_mass. Collective.
+     * Sums the nodal values written by the points over all ranks. Nodal masses
+     * are included if @p with_mass. Collective.
      */
     virtual void
     exchange(const bool with_mass) = 0;
 
-    /** Whether x is in the region covered by stored nodes. */
+    /** Returns true if the position x is in the region covered by stored
+     *  nodes. */
     virtual bool
     reaches(const dealii::Point<dim> &x) const = 0;
 
-    /** Any position in the region covered by stored nodes. */
+    /** Returns an arbitrary position in the region covered by stored nodes. */
     virtual dealii::Point<dim>
     stored_place() const = 0;
 
-    /** Whether sort() must be called before every step. */
+    /** Returns true if sort() must be called before every step. */
     virtual bool
     moves_each_step() const
     {
       return false;
     }
 
-    /** Number of calls of sort() that redistributed cells between ranks and
-     *  renumbered nodes. */
+    /** Returns the number of calls of sort() that redistributed cells between
+     *  ranks and renumbered nodes. */
     virtual unsigned int
     n_repartitions() const
     {
       return 0;
     }
 
-    /** Whether points store the cell that contains them, as found by sort()
-     *  (PointState::cell and unit). */
+    /** Returns true if each point stores the cell that contains the point. The
+     *  cell, found by sort(), is stored in PointState::cell and unit. */
     virtual bool
     keeps_cells() const
     {
       return false;
     }
 
-    /** Position in the domain nearest to x. */
+    /** Returns the position in the domain that is nearest to x. */
     virtual dealii::Point<dim>
     nearest_in_domain(const dealii::Point<dim> &x) const = 0;
 
-    /** Whether any rank accepts points at any position before sort(); otherwise
-     *  points must be created on the rank that owns() their position. */
+    /** Returns true if any rank may create points at any position before
+     *  sort(). Otherwise points must be created on the rank that owns() their
+     *  position. */
     virtual bool
     takes_any_point() const
     {
@@ -151,37 +155,40 @@ namespace geocone::GEOCONE_DIM
       return true;
     }
 
-    /** Smallest edge length of all cells (m). */
+    /** Returns the smallest edge length of all cells (m). */
     virtual double
     cell_size() const = 0;
 
-    /** Numbers of nodes and of cells of the whole grid. */
+    /** Returns the number of nodes (cells) of the whole grid. */
     virtual unsigned long
     n_all_nodes() const = 0;
     virtual unsigned long
     n_cells() const = 0;
 
-    /** Memory used by the nodes of this rank (bytes). */
+    /** Returns the memory used by the nodes of this rank (bytes). */
     virtual std::size_t
     memory() const = 0;
 
-    /** Description of the transfer kernels, for the log. */
+    /** Returns a description of the transfer kernels, for the log. */
     virtual std::string
     description() const = 0;
 
-    /** Nodal arrays, aligned so that no node spans two cache lines. */
+    /** Nodal arrays in explicit steps, aligned so that no node spans two cache
+     *  lines. */
     dealii::AlignedVector<double> read, write, mass;
 
-    /** Index ranges [begin, end) of the nodes owned by this rank, for global
-     *  sums. */
+    /** Index ranges [begin, end) of the nodes owned by this rank, for sums over
+     *  all ranks. */
     std::vector<std::array<unsigned int, 2>> mine;
 
     std::vector<PrescribedNode> prescribed;
 
-    /** Centre of the bounding box of the nodes of each boundary condition. */
+    /** For each boundary condition, the centre of the bounding box of the nodes
+     *  with prescribed velocity. */
     std::vector<dealii::Point<dim>> centres;
 
-    /** Points (group, index) located outside the mesh by sort(). */
+    /** Points that sort() found outside of the mesh, as pairs of group and
+     *  index in the group. */
     std::vector<std::array<unsigned int, 2>> lost;
 
     unsigned int
@@ -191,7 +198,8 @@ namespace geocone::GEOCONE_DIM
     }
 
   protected:
-    /** Sums over the points of each cell: volume, and volume times value. */
+    /** Sums over the points of each cell: point volumes, and products of point
+     *  volume and value. */
     std::vector<double> sums_of_cells;
   };
 } // namespace geocone::GEOCONE_DIM

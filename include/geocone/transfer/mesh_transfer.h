@@ -15,15 +15,17 @@ namespace geocone::GEOCONE_DIM
   class Constraints;
 
   /**
-   * Transfer between points and nodes on an arbitrary mesh. In each step, the
-   * cell of each point is searched among its previous cell, the vertex
-   * neighbours, then all cells, and the basis functions are evaluated once.
-   * Load imbalance (points per rank) causes a redistribution of the cells.
+   * Transfer between material points and nodes on an arbitrary mesh. In each
+   * step, the cell of each point is searched among its previous cell, the
+   * vertex neighbours, then all cells, and the basis functions are evaluated
+   * once. Load imbalance (points per rank) causes a redistribution of the
+   * cells.
    */
   class MeshTransfer : public GridTransfer
   {
   public:
-    /** @throws InputError for sides that do not exist in the mesh */
+    /** Constructs the transfer on a mesh with the shape functions of a space.
+     *  @throws InputError for sides that do not exist in the mesh */
     MeshTransfer(const Scene    &scene,
                  BackgroundMesh &mesh,
                  Space          &space,
@@ -88,8 +90,8 @@ namespace geocone::GEOCONE_DIM
     void
     exchange(const bool with_mass) override;
 
-    /** Always true: any position is acceptable until the next sort() locates
-     *  the points. */
+    /** Returns true for any position, because the next sort() locates the
+     *  points. */
     bool
     reaches(const dealii::Point<dim> &) const override
     {
@@ -129,31 +131,34 @@ namespace geocone::GEOCONE_DIM
   private:
     using Cell = BackgroundMesh::Cell;
 
-    /** Basis functions at points: local node numbers, values and gradients. */
+    /** Basis functions at the points of a group: local node numbers, values and
+     *  gradients. */
     struct Functions
     {
       std::vector<unsigned int> nodes;
       std::vector<double>       N;
-      /** Gradients dN/dx, dN/dy, ... of the basis functions (1/m). */
+      /** Gradients of the basis functions at the points (1/m): dN/dx, dN/dy,
+       *  ... */
       std::array<std::vector<double>, dim> slopes;
     };
 
-    /** Allocates the nodes of this rank and finds the nodes with prescribed
+    /** Allocates the nodes of this rank and lists the nodes with prescribed
      *  velocities. */
     void
     store_nodes(const Constraints &constraints);
 
-    /** Redistributes cells between ranks. @param groups of points with stored
-     *  cells, or without any cell. Collective. */
+    /** Redistributes the cells of the mesh, with the points, between ranks.
+     *  @param groups of points with stored cells, or without any cell.
+     *  Collective. */
     void
     hand_over(const std::vector<PointArrays> &groups);
 
-    /** Evaluates the basis functions at all points of a group, including the
-     *  padding. */
+    /** Evaluates the basis functions at all points of a group, including
+     *  padding points. */
     void
     evaluate(const PointArrays &group, Functions &functions) const;
 
-    /** Basis functions at a point of a block. */
+    /** Returns the basis functions at point @p k of a block. */
     PointFunctions
     functions_at(const TransferBlock &points, const unsigned int k) const;
 

@@ -14,24 +14,26 @@
  */
 namespace geocone::GEOCONE_DIM
 {
-  /** Values of the one-dimensional basis functions per direction at four
-   *  points. */
+  /** Values of the one-dimensional basis functions at four points, for each
+   *  direction. */
   template <int p>
   using ValuesAtFour = double[dim][p + 1][4];
 
-  /** Data of one grid direction, the same in all lanes of a vector. */
+  /** Data of one grid direction, replicated in all lanes of a vector. */
   template <typename P, int p>
   struct PackedAxis
   {
     P origin, inverse_size, last, first, stride;
 
-    /** Polynomial coefficients of the inner intervals, p - 1 ... n_intervals -
-     *  p, on which the basis functions are translates of each other. */
+    /** Polynomial coefficients of the basis functions on the inner intervals, p
+     *  - 1 ... n_intervals - p. There the basis functions are translates of
+     *  each other. */
     P inner_first, inner_last, inner[2 * p + 1][p + 1];
   };
 
-  /** Grid data for the evaluation of basis functions of degree p; copied, so
-   *  that stores to points and nodes do not alias the data. */
+  /** Copy of the grid data required to evaluate basis functions of degree p.
+   *  With a copy, the compiler can assume that stores to points and nodes do
+   *  not alias the data. */
   template <typename P, int p>
   struct PackedGrid : GridView
   {
@@ -66,8 +68,8 @@ namespace geocone::GEOCONE_DIM
     }
   };
 
-  /** The (p + 1)^dim basis functions with support at each of four points k,
-   *  ..., k + 3 of a block. */
+  /** Basis functions that are non-zero at the four points k, ..., k + 3 of a
+   *  block. There are (p + 1)^dim of them per point. */
   template <typename P, int p>
   struct NodesOfFour
   {
@@ -102,7 +104,8 @@ namespace geocone::GEOCONE_DIM
           find_each(grid.axes[d], lowest[d], xi[d], N[d], dN[d]);
     }
 
-    /** Address of the nodal values of the lowest node of a point. */
+    /** Returns the address of the nodal values of the lowest node of point @p
+     *  m. */
     const double *
     read(const GridView &grid, const int m) const
     {
@@ -115,8 +118,9 @@ namespace geocone::GEOCONE_DIM
     }
 
   private:
-    /** Evaluates a basis function and its derivative at xi; c(0), c(1), ... are
-     *  the coefficients of the two polynomials in sequence. */
+    /** Evaluates a basis function and its derivative at the local coordinate
+     *  xi. The coefficients of the two polynomials are c(0), c(1), ... in
+     *  sequence. */
     template <typename Coefficients>
     static void
     evaluate(const Coefficients &c, const P &xi, P &value, P &slope)
@@ -129,8 +133,8 @@ namespace geocone::GEOCONE_DIM
         slope = slope * xi + c(power);
     }
 
-    /** Evaluates the functions one by one, for four points on intervals with
-     *  the same coefficients. */
+    /** Evaluates the basis functions one by one, for four points on intervals
+     *  with the same coefficients. */
     static void
     find(const P (&c)[2 * p + 1][p + 1],
          const P &xi,
@@ -146,8 +150,8 @@ namespace geocone::GEOCONE_DIM
         }
     }
 
-    /** Evaluates the functions point by point, if some points are near the
-     *  boundary of the grid. */
+    /** Evaluates the basis functions point by point, if some points are near
+     *  the boundary of the grid. */
     static void
     find_each(const GridAxis &axis,
               const int (&interval)[4],

@@ -10,11 +10,11 @@ namespace geocone::GEOCONE_DIM
 {
   /**
    * One direction of a uniform grid with B-splines (or hat functions) of degree
-   * p, in the memory layout of the kernels. On the interval i, with xi in [0,
-   * 1],
+   * p, in the memory layout of the transfer kernels. On the interval i, with xi
+   * in [0, 1],
    *   N_f = sum_k coefficients[type[i]][k][f] xi^k,   k = 0 ... p,
    *   dN_f/dx = sum_k coefficients[type[i]][p + 1 + k][f] xi^k,  k = 0 ... p - 1,
-   * f = 0 ... p (padded by zeros to 4) for the functions i, ..., i + p.
+   * f = 0 ... p (padded by zeros to 4) for the basis functions i, ..., i + p.
    */
   struct GridAxis
   {
@@ -28,7 +28,7 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Number of doubles stored per node, a multiple of the vector length four. In
+   * Number of doubles stored per node: a multiple of the vector length four. In
    * two dimensions: (v_x, v_y, dv_x, dv_y) to read, (m v, force) to write; in
    * three: (v, 0, dv, 0) and (m v, 0, force, 0). The second quantity begins at
    * change_of_node.
@@ -37,9 +37,9 @@ namespace geocone::GEOCONE_DIM
   constexpr unsigned int change_of_node = node_size / 2;
 
   /**
-   * Stored part of a grid: nodes from axes[d].first on in each direction d,
-   * contiguous in memory in the last direction. A node has node_size doubles
-   * and a mass.
+   * Part of a grid that is stored on this rank. The stored nodes begin at
+   * axes[d].first in each direction d and are contiguous in memory in the last
+   * direction. A node has node_size doubles and a mass.
    */
   struct GridView
   {
@@ -50,39 +50,42 @@ namespace geocone::GEOCONE_DIM
     double               *mass   = nullptr;
   };
 
-  /** Temporary data of a block of points during a pass over the points; fits
-   *  into the cache. */
+  /** Temporary data of a block of points during a loop over the points. The
+   *  data fit into the cache. */
   struct BlockScratch
   {
     static constexpr unsigned int size = PointBlock::capacity;
 
-    /** Values gathered at each point: the node_size interpolated nodal values,
-     *  then for each direction the derivatives of the first four nodal values
-     *  (the first dim are the derivatives of v). */
+    /** Values interpolated from the nodes to each point. First the node_size
+     *  interpolated nodal values are stored, then for each direction the
+     *  derivatives of the first four nodal values (the first dim are the
+     *  derivatives of v). */
     static constexpr unsigned int n_gathered = node_size + 4 * dim;
     alignas(32) double gathered[n_gathered * size];
 
-    /** Values scattered from each point to nodes: (m v, 0, ...), multiplied by
-     *  N; then for each direction d four values, multiplied by dN/dx_d, with -V
-     *  s_d at the position of the force. */
+    /** Values that each point scatters to the nodes. The first four, (m v, 0,
+     *  ...), are multiplied by N. For each direction d four values follow,
+     *  multiplied by dN/dx_d, with -V s_d at the position of the force. */
     static constexpr unsigned int n_given = 4 + 4 * dim;
     alignas(32) double given[n_given * size];
 
     alignas(32) double l[dim * dim][size];
 
-    /** Axisymmetry: hoop strain increment and radial force of the hoop stress,
-     *  -V s_zz/r (N). */
+    /** Hoop strain increment and radial force of the hoop stress, -V s_zz/r
+     *  (N), in axisymmetry. */
     alignas(32) double l_zz[size];
     alignas(32) double hoop_force[size];
 
-    /** B-bar method: divergence of v (1/s) and mean stress tr s/dim (Pa) of
-     *  each point, before or after averaging over the points of a cell. */
+    /** Divergence of v (1/s) and mean stress tr s/dim (Pa) of each point, for
+     *  the B-bar method. The values are replaced by their averages over the
+     *  points of a cell. */
     alignas(32) double divergence[size];
     alignas(32) double mean_stress[size];
     alignas(32) double work[size], wave_modulus[size];
   };
 
-  /** Arrays of a block of material points, with affine velocities (APIC). */
+  /** Arrays of a block of material points, including affine velocities
+   *  (APIC). */
   struct TransferBlock
   {
     unsigned int              n;     ///< multiple of PointBlock::lanes
@@ -95,8 +98,8 @@ namespace geocone::GEOCONE_DIM
     const unsigned int             *cell; ///< null if points do not store cells
   };
 
-  /** Sums and extrema of a pass over the points, for the explicit time
-   *  stepper. */
+  /** Sums and extrema over the points, accumulated in a loop for the explicit
+   *  time stepper. */
   struct PassSums
   {
     double work         = 0.; ///< stress work (J/m)
@@ -104,15 +107,16 @@ namespace geocone::GEOCONE_DIM
     double speed2       = 0.; ///< largest v^2 ((m/s)^2)
     double strain       = 0.; ///< largest |dt dv_i/dx_j|
     double least_volume = 1.; ///< least det(I + dt grad v)
-    /** Bounding box of the positions; the first dim entries are used (m). */
+    /** Bounding box of the point positions (m). The first dim entries are
+     *  used. */
     double lower[3] = {1e300, 1e300, 1e300};
     double upper[3] = {-1e300, -1e300, -1e300};
 
-    /** Checksum of positions and velocities; not finite if the data of a point
-     *  are not finite. */
+    /** Checksum of positions and velocities. It is not finite if the data of
+     *  any point are not finite. */
     double check = 0.;
 
-    /** Reads or writes the sums of a checkpoint. @tparam Row StateRow */
+    /** Reads or writes the sums in a checkpoint. @tparam Row StateRow */
     template <typename Row>
     void
     state(Row &row)
@@ -126,14 +130,15 @@ namespace geocone::GEOCONE_DIM
     add(const PassSums &other);
   };
 
-  /** Quantities updated by TransferKernels::update_points(). */
+  /** Selection of the quantities updated by
+   *  TransferKernels::update_points(). */
   struct Update
   {
     bool strain, velocity, position;
   };
 
   /**
-   * Innermost loops of the explicit material point method, compiled for several
+   * Inner loops of the explicit material point method, compiled for several
    * instruction sets. All kernels process blocks of at most
    * PointBlock::capacity points, without allocations and without a function
    * call per point.
@@ -146,7 +151,7 @@ namespace geocone::GEOCONE_DIM
     /** @{ */
 
     /** Interpolates nodal values q_i and their gradients at the points: sum_i
-     *  q_i (N_i, dN_i/dx, ...). */
+     *  q_i N_i and sum_i q_i dN_i/dx. */
     void (*gather[4])(const GridView &, const TransferBlock &, BlockScratch &);
 
     /** Interpolates nodal values at the points, without gradients. */
@@ -155,9 +160,9 @@ namespace geocone::GEOCONE_DIM
                              BlockScratch &);
 
     /**
-     * Computes the affine velocity of APIC: per direction d the column
+     * Computes the affine velocity matrix C of APIC. Column d is
      *   C_d = sum_i v_i N_i (x_i - x)_d / sum_i N_i (x_i - x)_d^2,
-     * equal to the usual B D^{-1} for tensor-product functions. If the
+     * so that C equals the usual B D^{-1} for tensor-product functions. If the
      * denominator vanishes, as at the ends of the grid, C_d is the velocity
      * gradient. Not for degree 1, where C is the gradient and noise of low-mass
      * nodes grows from step to step.
@@ -167,29 +172,30 @@ namespace geocone::GEOCONE_DIM
                              BlockScratch &);
 
     /**
-     * Scatters the point values (a | b_x | b_y ...) of BlockScratch::given to
-     * the nodes:
-     *   node += N a + sum_d dN/dx_d b_d,
-     * and N m to the masses unless they are null.
+     * Scatters the point values (a | b_x | b_y ...) in BlockScratch::given to
+     * the nodes. Each node is incremented by
+     *   N a + sum_d dN/dx_d b_d,
+     * and the nodal mass by N m, unless the pointer to the masses is null.
      */
     void (*scatter[4])(const GridView &, const TransferBlock &, BlockScratch &);
 
-    /** Scatters the values a and the masses to the nodes, without the values
-     *  b_d. */
+    /** Scatters the point values a and the masses to the nodes, without the
+     *  values b_d for gradients. */
     void (*scatter_values[4])(const GridView &,
                               const TransferBlock &,
                               BlockScratch &);
 
-    /** Adds the affine momentum m N C (x_i - x) of APIC to the nodes, after
-     *  scatter(). */
+    /** Adds the affine momentum of APIC, m N_i C (x_i - x), to the nodes. To be
+     *  called after scatter(). */
     void (*scatter_affine[4])(const GridView &,
                               const TransferBlock &,
                               BlockScratch &);
     /** @} */
 
     /**
-     * Updates points from the gathered velocity v and velocity increment dv;
-     * v_p is the velocity of the point, f the FLIP fraction:
+     * Updates points from the interpolated velocity v and velocity increment
+     * dv. With the velocity v_p of the point and the FLIP fraction f, the
+     * updates are:
      *   strain:   l = dt grad v
      *   velocity: v_p <- f (v_p + dv) + (1 - f) v
      *   position: x <- x + dt v.
@@ -200,38 +206,42 @@ namespace geocone::GEOCONE_DIM
                           const TransferBlock &,
                           BlockScratch &);
 
-    /** Computes BlockScratch::divergence from the gathered velocity
-     *  gradients. */
+    /** Computes the divergence of the velocity at each point,
+     *  BlockScratch::divergence. */
     void (*find_divergence)(const TransferBlock &, BlockScratch &);
 
-    /** Replaces the volumetric part of l by the cell mean (B-bar method):
+    /** Replaces the volumetric strain increment by the cell mean (B-bar
+     *  method). The update is
      *    l <- l + (dt BlockScratch::divergence - tr l)/dim I. */
     void (*replace_divergence)(const double dt,
                                const TransferBlock &,
                                BlockScratch &);
 
-    /** Updates volumes, V <- det(I + l) V (times 1 + l_zz in axisymmetry),
-     *  stress work and extrema. */
+    /** Updates the volumes of the points, the stress work and the extrema in
+     *  PassSums. The volume is V <- det(I + l) V (times 1 + l_zz in
+     *  axisymmetry). */
     void (*finish)(const TransferBlock &, BlockScratch &, PassSums &);
 
-    /** Updates the bounds of positions and velocities. */
+    /** Updates the bounding box of the positions, the maximum speed and the
+     *  checksum. */
     void (*bound)(const TransferBlock &, PassSums &);
 
-    /** Computes the values that scatter() transfers to the nodes: momentum m v,
-     *  force terms -V s and the hoop force, or only momentum or force. */
+    /** Computes the point values that scatter() transfers to the nodes. These
+     *  are the momentum m v, the force terms -V s and the hoop force, or only
+     *  momentum or force. */
     void (*prepare_scatter)(const bool momentum,
                             const bool force,
                             const TransferBlock &,
                             BlockScratch &);
 
-    /** Replaces the mean stress in the prepared values by the cell mean (B-bar
-     *  method):
+    /** Replaces the mean stress in the point values for scatter() by the cell
+     *  mean (B-bar method). The update is
      *    s <- s + (BlockScratch::mean_stress - tr s/dim) I. */
     void (*replace_mean_stress)(const TransferBlock &, BlockScratch &);
   };
 
-  /** Fastest version of the kernels supported by the processor; see
-   *  machine_has_avx2(). */
+  /** Returns the fastest version of the transfer kernels supported by the
+   *  processor, see machine_has_avx2(). */
   const TransferKernels &
   transfer_kernels();
 } // namespace geocone::GEOCONE_DIM

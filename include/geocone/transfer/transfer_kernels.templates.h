@@ -29,8 +29,8 @@ namespace geocone::GEOCONE_DIM
     template <int p>
     using Nodes = NodesOfFour<P, p>;
 
-    /** Interpolated value and gradient: sum over the basis functions of the
-     *  directions 0 ... d. */
+    /** Interpolated nodal values and gradients, as partial sums over the basis
+     *  functions in the directions 0 ... d. */
     template <int d>
     struct Sum
     {
@@ -44,9 +44,10 @@ namespace geocone::GEOCONE_DIM
     };
 
     /**
-     * Interpolates nodal values at the mth of four points: the sum of q N over
-     * the functions of the directions 0 ... d, with q four doubles of a node,
-     * and for the derivative in each direction the sum with dN instead of N.
+     * Interpolates nodal values at the mth of four points. The value is the sum
+     * of q N over the basis functions of the directions 0 ... d, with q four
+     * doubles of a node; for the derivative in each direction N is replaced by
+     * dN.
      */
     template <int p, int d, bool with_slopes>
     static Sum<d>
@@ -135,8 +136,9 @@ namespace geocone::GEOCONE_DIM
         }
     }
 
-    /** Computes the weights of the affine velocity (APIC), N_i (x_i - x)/sum_i
-     *  N_i (x_i - x)^2, or dN_i/dx if the denominator vanishes. */
+    /** Computes the weights of the nodal velocities in the affine velocity
+     *  (APIC). The weights are N_i (x_i - x)/sum_i N_i (x_i - x)^2, or dN_i/dx
+     *  if the denominator vanishes. */
     template <int p>
     static void
     find_moments(const GridView    &grid,
@@ -162,9 +164,10 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * Scatters values of n of four points, from the mth on, to the nodes of the
-     * directions 0 ... d: a N (if has_a) plus b_e dN for each direction e (if
-     * has_b). Nodes common to the points are read and written once.
+     * Scatters the values of n consecutive points to the nodes in the
+     * directions 0 ... d. The first of these points is the mth of four points.
+     * Nodes are incremented by a N (if has_a) plus b_e dN for each direction e
+     * (if has_b). Nodes common to the points are read and written once.
      */
     template <int p, int d, int n, bool has_a, bool has_b>
     static void
@@ -247,7 +250,7 @@ namespace geocone::GEOCONE_DIM
         }
     }
 
-    /** Scatters the values and masses of n points with the same nodes. */
+    /** Scatters the values and masses of n points that share the same nodes. */
     template <int p, bool with_slopes, int n>
     static void
     give(const GridView &grid,
@@ -282,8 +285,8 @@ namespace geocone::GEOCONE_DIM
         }
     }
 
-    /** Adds masses to the nodes, in vectors of four nodes along the last
-     *  direction, padded with zeros after p + 1 nodes. */
+    /** Adds point masses to the nodes, in vectors of four nodes along the last
+     *  direction. The vectors are padded with zeros after p + 1 nodes. */
     template <int p, int d, int n>
     static void
     add_masses(const GridView &grid,
@@ -440,7 +443,7 @@ namespace geocone::GEOCONE_DIM
         }
     }
 
-    /** Volume ratio det(I + l) at four points. */
+    /** Returns the volume ratio det(I + l) at four points. */
     static P
     volume_ratio(const P (&l)[dim * dim])
     {
