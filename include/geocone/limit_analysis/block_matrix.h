@@ -14,27 +14,29 @@
 
 namespace geocone
 {
-  /** Sparse symmetric matrix of the free dofs, a sum of small dense blocks, with its
-   *  Cholesky factors. */
+  /** Sparse symmetric matrix of the free degrees of freedom (dofs), assembled from small
+   *  dense blocks, with its Cholesky factors. */
   class BlockMatrix
   {
   public:
-    /** Blocks of one size: n_columns dofs each. */
+    /** Set of blocks of the same size, n_columns dofs each. */
     struct Set
     {
       unsigned int        n_columns, n_blocks;
       const unsigned int *dofs;
     };
 
-    /** @param is_prescribed by dof */
+    /** Sets up the sparsity pattern of the free dofs.
+     *  @param is_prescribed true for each prescribed dof
+     *  @param sets sets of blocks */
     BlockMatrix(const std::vector<bool> &is_prescribed,
                 const std::vector<Set>  &sets);
 
-    /** Sets all entries to zero. */
+    /** Sets all matrix entries to zero. */
     void
     clear();
 
-    /** Adds a block, the symmetric part of which is given by its upper triangle. */
+    /** Adds a symmetric block to the matrix, given by its upper triangle. */
     template <int n>
     void
     add(const unsigned int                 set,
@@ -51,14 +53,14 @@ namespace geocone
     }
 
     /**
-     * Factorises. A relative shift of the diagonal of 1e-15 regularises redundant
-     * equations.
-     * @return whether the matrix is positive definite
+     * Computes the Cholesky factorisation. A relative shift of the diagonal by 1e-15
+     * regularises redundant equations.
+     * @return true if the matrix is positive definite
      */
     bool
     factorise();
 
-    /** Solves for the free dofs; all others are zero. */
+    /** Solves the linear system for the free dofs. All other dofs are set to zero. */
     Eigen::VectorXd
     solve(const Eigen::VectorXd &rhs) const;
 
@@ -70,12 +72,12 @@ namespace geocone
     std::vector<std::size_t>    first_place; ///< of each set
     Eigen::SparseMatrix<double> matrix;      ///< lower triangle
 
-    /** Sets the sparsity pattern for rows in their present order. */
+    /** Sets the sparsity pattern for the current order of the rows. */
     void
     set_pattern(const std::vector<Set> &sets, const unsigned int n_rows);
 
-    /** Calls f(row, column) for each entry on or below the diagonal of a block, in the
-     *  order of `place`; negative where a dof is prescribed. */
+    /** Calls f(row, column) for each entry on or below the diagonal of a block. The order
+     *  is that of `place`; for a prescribed dof the row or column is negative. */
     template <typename Function>
     void
     for_entries(const Set &set, const Function &f) const;
@@ -84,11 +86,11 @@ namespace geocone
       : public Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<double>>
     {
     public:
-      /** Position of each row in an elimination order with little fill. */
+      /** Returns the position of each row in an elimination order with little fill-in. */
       std::vector<int>
       fill_reducing_order(const Eigen::SparseMatrix<double> &matrix);
 
-      /** Analyses a matrix that is already in such an order. */
+      /** Performs the symbolic factorisation without reordering the rows. */
       void
       analyse_as_it_is(const Eigen::SparseMatrix<double> &matrix);
     };

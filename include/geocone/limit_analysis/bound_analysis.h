@@ -19,8 +19,9 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Run of strict bounds of a rigid-plastic scene with associated flow, in the plane or in
-   * three dimensions: parameters, checks and reports. Each mesh is a step of the run.
+   * Base class of limit analyses in two and three dimensions, with parameters, checks and
+   * reports. Strict bounds are computed for a rigid-plastic scene with associated flow.
+   * Each mesh is a step of the run.
    */
   class BoundAnalysis : public Simulation, public dealii::ParameterAcceptor
   {
@@ -34,43 +35,47 @@ namespace geocone::GEOCONE_DIM
   protected:
     BoundAnalysis(const MPI_Comm comm, const ParameterFile &file, Log &log);
 
-    /** Declares the parameters of loads, meshes and accuracy. */
+    /** Declares the parameters of the loads, the meshes and the accuracy. */
     void
     declare_parameters(LoadChoice &load);
 
-    /** Checks the parameters. @throws InputError for parameters out of range, several
-     *  ranks, and particles */
+    /** Checks the parameters of the analysis. @throws InputError for parameters out of
+     *  range, several ranks, and particles */
     void
     check_parameters() const;
 
-    /** Prepares the scene and checks that it admits strict bounds.
+    /** Prepares the scene and checks that strict bounds can be computed.
      *  @throws InputError if it does not */
     void
     prepare_scene(const RunOptions &options);
 
-    /** Prints the dry run's size of the meshes, and magnitudes of the scene.
-     *  @param n_cells of the first mesh @param more appended to the size */
+    /** Prints characteristic magnitudes of the scene and, in a dry run, the numbers of
+     *  cells.
+     *  @param n_cells of the first mesh @param more text appended to the numbers of
+     *  cells */
     void
     print_start(const RunOptions               &options,
                 const std::size_t               n_cells,
                 const std::string              &more,
                 const dealii::BoundingBox<dim> &body) const;
 
-    /** Tolerance of the interior-point method, relative to the load. */
+    /** Returns the tolerance of the interior-point method, relative to the load. */
     double
     inner_tolerance() const
     {
       return std::min(tolerance, gap_tolerance / 10.);
     }
 
-    /** Text of the analysis in messages, "'Analysis/Kind' = limit load". */
+    /** Returns the parameter and value that select the analysis, for messages:
+     *  "'Analysis/Kind' = limit load". */
     std::string
     where() const
     {
       return "'Analysis/Kind' = " + kind_word();
     }
 
-    /** One of the two bounds on a mesh. */
+    /** Upper or lower bound on a mesh, with its certificate and the computational
+     *  cost. */
     struct Side
     {
       double             load; ///< in units of a problem
@@ -82,30 +87,36 @@ namespace geocone::GEOCONE_DIM
       double             violation, error;
     };
 
-    /** Prints why a bound may be sharper or is not certified. */
+    /** Prints the reasons why a bound is not certified or has not converged. */
     void
     print_reasons(const Side &upper, const Side &lower) const;
 
-    /** Collects both bounds on a mesh. @param unit load that a problem's 1 corresponds to */
+    /** Converts both bounds on a mesh to the results of a level.
+     *  @param unit load that corresponds to the load factor 1 of a problem */
     static BoundLevel
     level_of(const Side        &upper,
              const Side        &lower,
              const unsigned int n_cells,
              const double       unit);
 
-    /** @param bounds a sum of bounds of a load. @throws StepFailure if it is not finite */
+    /** Checks that the sum of both bounds is finite.
+     *  @param bounds sum of both bounds of the load @throws StepFailure if the sum is not
+     *  finite */
     static void
     check_finite(const double bounds);
 
-    /** Adds a mesh to the results. @param[in,out] now its time is the number of meshes */
+    /** Appends the results of a mesh.
+     *  @param[in,out] now the time is set to the number of meshes */
     void
     add_level(BoundLevel level, TimePoint &now);
 
-    /** Whether the last mesh is the final one. @param gap certified so far */
+    /** Returns true if the last mesh was the final mesh of the run. @param gap certified
+     *  so far */
     bool
     is_complete(const std::optional<double> &gap) const;
 
-    /** Warns of bounds that are not certified or too far apart, and prints the bracket. */
+    /** Prints the bracket of the load, and warns if the bounds are not certified or too
+     *  far apart. */
     void
     conclude(const LoadBracket &best,
              const std::string &rejection_upper,
@@ -117,19 +128,20 @@ namespace geocone::GEOCONE_DIM
     kind_word() const = 0;
     virtual const LoadChoice &
     load_choice() const = 0;
-    /** Checks or computes water pressures, after the materials and before the loads. */
+    /** Checks or computes water pressures. Called after the materials and before the
+     *  loads are prepared. */
     virtual void
     prepare_water(const RunOptions &options) = 0;
-    /** Whether meshes other than the first can be generated. */
+    /** Returns true if meshes other than the first mesh can be generated. */
     virtual bool
     refines() const = 0;
-    /** Bracket certified so far. */
+    /** Returns the bracket of the load that is certified so far. */
     virtual LoadBracket
     bracket() const = 0;
-    /** Topics of the summary between the size and the cost. */
+    /** Returns the topics of summary.json that are placed between size and cost. */
     virtual Json
     results() const;
-    /** Name of the bounded quantity in messages. */
+    /** Returns the name of the bounded quantity, for messages. */
     virtual std::string
     bounded() const
     {

@@ -11,8 +11,8 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Field file of the triangles with both mechanisms and their contributions to the
-   *  gap. The arguments must outlive it. */
+  /** Creates the field file of a mesh with both failure mechanisms and the contribution
+   *  of each triangle to the gap. The arguments must outlive the table. */
   TriangleTable
   table_of_bounds(const Triangles           &triangles,
                   const BoundUnits          &units,

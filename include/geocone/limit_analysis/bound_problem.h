@@ -17,8 +17,8 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** The cone of a point, in units: |s_t| <= a s_n + k, and where there is a tensile
-   *  strength |s_t| <= s_n + opening (FlowCone::opening). */
+  /** Yield cone |s_t| <= a s_n + k of a point, in scaled units. With tensile strength
+   *  there is a second cone |s_t| <= s_n + opening (FlowCone::opening). */
   struct PointCone
   {
     double a = 0., k = 0., opening = infinite_tension;
@@ -29,16 +29,15 @@ namespace geocone::GEOCONE_DIM
       return opening < infinite_tension;
     }
 
-    /** Whether the cone is Tresca's cylinder, with zero volumetric strain
-     *  rate. */
+    /** Returns true if the yield cone is a cylinder (Tresca). */
     bool
     is_cylinder() const
     {
       return a == 0.;
     }
 
-    /** Whether the volumetric strain rate is zero: the cone is a cylinder, without a
-     *  cut-off at which the soil can open. */
+    /** Returns true if the flow is incompressible. The yield surface is then a cylinder,
+     *  without a tension cut-off. */
     bool
     is_incompressible() const
     {
@@ -46,12 +45,14 @@ namespace geocone::GEOCONE_DIM
     }
   };
 
-  /** Placeholder cone of an excluded point, without dofs and with B = 0. */
+  /** Placeholder yield cone of a point excluded from the problem, without dofs and with a
+   *  zero strain matrix. */
   constexpr PointCone inactive_cone = {0., 1.};
 
   /**
-   * Discrete rigid-plastic problem with associated flow for velocities q. The points
-   * are the vertices of the triangles, with one third of the area each:
+   * Discrete problem of limit analysis for a rigid-plastic body with associated flow. The
+   * unknowns are velocities q. The points are the vertices of the triangles, with one
+   * third of the area each:
    *   equilibrium  sum_p V_p B_p' s_p = lambda f + F0  in free dofs,
    *   strength     |s_t| <= a s_n + k,
    *   flow         -B_p q in K* = {a |e_t| <= -e_n}.
@@ -59,16 +60,16 @@ namespace geocone::GEOCONE_DIM
    * scaled units. Either f q = 1 and lambda is the load, or some velocities are
    * prescribed and the load is the power of the reactions.
    *
-   * After the triangles come the faces of the interfaces, as cells of the same form:
-   * V is a part of an edge's length, B q the velocity of the body relative to the
-   * obstacle, whose own velocity has the last dofs, before how far interfaces open
-   * (Interface::opens()).
+   * After the triangles come the faces of the interfaces, as cells of the same form: V is
+   * a part of the length of an edge, B q the velocity of the body relative to the
+   * obstacle. The velocities of the obstacles and then the opening rates of the
+   * interfaces (Interface::opens()) follow the other dofs.
    *
-   * The last cells are the cut-offs of triangles: their points have the stress of the
-   * triangle's, in the cone |s_t| <= s_n + opening, and the rate w with which it opens,
-   * which the triangle's points have less, B q - w. Equilibrium of the w is that both
-   * stresses are the same, and the dissipation of both the infimal convolution of those
-   * of the cone and of the cut-off.
+   * The last cells are the tension cut-offs of triangles. Their points have the stress of
+   * the triangle, in the cone |s_t| <= s_n + opening, and a strain rate w; the strain
+   * rate of the triangle's points is then B q - w. Equilibrium for w states that both
+   * stresses are the same, and the total dissipation is the infimal convolution of the
+   * dissipation functions of cone and cut-off.
    */
   struct BoundProblem
   {
@@ -77,8 +78,8 @@ namespace geocone::GEOCONE_DIM
     std::vector<PointCone> cone;   ///< yield cone of each point
 
     unsigned int n_triangles = 0;
-    /** Triangle to which each interface cell and cut-off cell belongs, in the order of
-     *  these cells. */
+    /** Index of the triangle that owns each interface cell and cut-off cell. The order is
+     *  that of these cells. */
     std::vector<unsigned int> owner;
     std::vector<unsigned int> cut;               ///< triangles with a cut-off
     unsigned int              first_cut_dof = 0; ///< nine dofs per cut-off
@@ -106,30 +107,30 @@ namespace geocone::GEOCONE_DIM
     bool
     has_incompressible() const;
 
-    /** Number of interface cells. */
+    /** Returns the number of interface cells. */
     unsigned int
     n_interfaces() const
     {
       return owner.size() - cut.size();
     }
 
-    /** Number of the first point of the cut-off cells. */
+    /** Returns the index of the first point of the tension cut-off cells. */
     unsigned int
     first_cut_point() const
     {
       return 3 * (n_triangles + n_interfaces());
     }
 
-    /** Point of a triangle to which a point of the triangle's cut-off cell
-     *  corresponds. */
+    /** Returns the point of a triangle that coincides with a given point of a cut-off
+     *  cell. */
     unsigned int
     point_of_triangle(const unsigned int cut_point) const
     {
       return 3 * owner[cut_point / 3 - n_triangles] + cut_point % 3;
     }
 
-    /** Whether stresses can be scaled down to an admissible state for a smaller load: if
-     *  there is no dead load and cohesion is positive everywhere. */
+    /** Returns true if stresses can always be scaled down to an admissible state for a
+     *  smaller load. There is then no dead load, and cohesion is positive everywhere. */
     bool
     can_be_scaled() const;
     unsigned int
@@ -137,8 +138,8 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Input of a limit analysis on a mesh: scene, triangles, load factor and strength of
-   * the materials.
+   * Input of a plane limit analysis on a mesh: scene, triangles, load factor and strength
+   * of the materials.
    */
   struct BoundScene
   {
@@ -149,7 +150,8 @@ namespace geocone::GEOCONE_DIM
     std::vector<PointCone> cones; ///< by material, in scaled units
     std::vector<Interface> interfaces;
 
-    /** Increase of each material's k with depth (scaled units of stress, per m). */
+    /** Increase of the strength k with depth, for each material (scaled units of stress,
+     *  per m). */
     std::vector<Material::Growth> growth;
 
     PointCone
@@ -160,11 +162,13 @@ namespace geocone::GEOCONE_DIM
       return cone;
     }
 
-    /** Selects the load vector, live or dead, of tractions or self-weight. */
+    /** Returns the load vector, live or dead, to which loads of a given type contribute.
+     *  It is the live load vector if the load factor multiplies these loads, otherwise
+     *  the dead load vector. */
     Eigen::VectorXd &
     loads(BoundProblem &problem, const LoadFactor kind) const;
 
-    /** Modifies the strength of a material: sets tan(phi), multiplies the cohesion
+    /** Modifies the strength of a material. Sets tan(phi), multiplies the cohesion
      *  k/cos(phi) by a factor, and the tensile strength by another factor. */
     void
     change(const unsigned int material,
@@ -173,19 +177,19 @@ namespace geocone::GEOCONE_DIM
            const double       tension_factor);
   };
 
-  /** Kind of problem: upper bound (kinematic) or lower bound (static). */
+  /** Type of the bound: upper bound (kinematic) or lower bound (static). */
   enum class BoundSide
   {
     upper,
     lower
   };
 
-  /** Self-weight of a cell per area, in scaled units. */
+  /** Returns the self-weight of a cell per unit area, in scaled units. */
   dealii::Tensor<1, dim>
   weight_of_cell(const BoundScene &scene, const unsigned int cell);
 
-  /** Adds a constant body force in a cell (per area) to the load vector F of a problem,
-   *  in scaled units. */
+  /** Adds a body force to the load vector F of a problem, in scaled units. The force per
+   *  unit area is constant in the cell. */
   void
   add_force_of_cell(const BoundScene             &scene,
                     const BoundSide               side,
@@ -193,42 +197,43 @@ namespace geocone::GEOCONE_DIM
                     const dealii::Tensor<1, dim> &force,
                     Eigen::VectorXd              &F);
 
-  /** Adds a traction condition to the load vector F of a problem, in scaled units. */
+  /** Adds a traction boundary condition to the load vector F of a problem, in scaled
+   *  units. */
   void
   add_tractions(const BoundScene        &scene,
                 const BoundSide          side,
                 const BoundaryCondition &load,
                 Eigen::VectorXd         &F);
 
-  /** Largest traction of a traction condition over the loaded vertices (Pa). */
+  /** Returns the maximum magnitude of a traction boundary condition over the loaded
+   *  vertices (Pa). */
   double
   largest_traction(const BoundScene &scene, const BoundaryCondition &load);
 
   /**
-   * Upper-bound problem with quadratic velocities and points at the vertices. Strain
-   * rates are linear in a cell, so flow that is admissible at the vertices is admissible
-   * everywhere, and the dissipation at the vertices is an upper estimate (exact for a >
-   * 0): the result is an upper bound (Makrodimopoulos and Martin 2007). Dofs: x and y
-   * of the vertices, then of the edges, then of the obstacles. Points of an interface
-   * are coefficients in Bernstein's basis, whose convex hull contains the relative
-   * velocity.
+   * Assembles the upper-bound problem with quadratic velocities and points at the
+   * vertices. Strain rates are linear in a cell, so flow that is admissible at the
+   * vertices is admissible everywhere, and the dissipation at the vertices is an upper
+   * estimate (exact for a > 0): the result is an upper bound (Makrodimopoulos and Martin
+   * 2007). Dofs: x and y of the vertices, then of the edges, then of the obstacles.
+   * Points of an interface are coefficients in Bernstein's basis, whose convex hull
+   * contains the relative velocity.
    */
   BoundProblem
   upper_problem(const BoundScene &scene);
 
   /**
-   * Lower-bound problem with linear stresses, discontinuous between triangles, in its
-   * dual form. The dual velocities are a translation u of each triangle, and w at both
-   * ends of each edge,
+   * Assembles the lower-bound problem with linear stresses, discontinuous between
+   * triangles, in dual form. The dual velocities are a translation u of each triangle,
+   * and w at both ends of each edge,
    *   B_i q = -3 sym(u x grad lambda_i) + 3/(2A) sum_{e at i} L_e sym(w_ei x n_e).
    * Equilibrium of these rows is that of the continuum, so each admissible state is a
    * lower bound (dual of Makrodimopoulos and Martin 2006). Dofs: x and y of the
    * triangles, then of the two ends of the edges, then of the obstacles. Points of an
-   * interface are the ends of its edge, half of its length each, and one that is
-   * unused.
+   * interface are the ends of its edge, half of its length each, and one that is unused.
    *
-   * Cohesionless soil is free of stress at a free surface: tractions vanish there, so
-   * the stress is at the apex and tractions vanish on all edges from that vertex. An
+   * Cohesionless soil is free of stress at a free surface: tractions vanish there, so the
+   * stress is at the apex and tractions vanish on all edges from that vertex. An
    * interior-point method needs stresses inside their cones, so points and ends at such
    * vertices are excluded.
    */

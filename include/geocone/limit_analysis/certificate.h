@@ -11,21 +11,22 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Tolerance for violations of the yield cones, relative to the largest stress, if
-   *  stresses cannot be scaled back. */
+  /** Tolerance for violations of the yield cones, relative to the largest stress. It
+   *  applies if stresses cannot be scaled back. */
   constexpr double rounding_strength = 1e-8;
 
-  /** A bound of the load with its certificate, in scaled units. All values are recomputed
-   *  from the stress or velocity field, independently of the solver. */
+  /** Upper or lower bound of the load with its certificate, in scaled units. All values
+   *  are recomputed from the stress or velocity field, independently of the solver. */
   struct Bound
   {
     double      load      = 0.;
     bool        certified = false;
     std::string rejection; ///< reason for rejection, if not certified
 
-    /** Largest violation before fields are repaired: of the yield cones, relative to the
-     *  largest stress (lower bound), or of the flow rule, relative to the largest strain
-     *  rate (upper bound). */
+    /** Largest violation of the yield condition or the flow rule before the fields are
+     *  repaired. For a lower bound it is the violation of the yield cones, relative to
+     *  the largest stress; for an upper bound it is the violation of the flow rule,
+     *  relative to the largest strain rate. */
     double violation = 0.;
 
     /** Remaining error of the certified field. Lower bound: largest residual of
@@ -34,19 +35,20 @@ namespace geocone::GEOCONE_DIM
      *  largest volumetric strain rate of cylinders, relative to the largest rate. */
     double error = 0.;
 
-    /** Certified field: scaled stresses at the points in cone axes (lower bound), or
-     *  repaired velocities of all dofs (upper bound). The velocities of a lower bound are
-     *  dual variables, which show the failure mechanism but are not certified. */
+    /** Certified stresses or velocities. For a lower bound: scaled stresses at the points
+     *  in cone axes. For an upper bound: repaired velocities of all dofs. The velocities
+     *  of a lower bound are dual variables, which show the failure mechanism but are not
+     *  certified. */
     std::vector<Eigen::Vector3d> s;
     Eigen::VectorXd              q;
   };
 
   /**
-   * Certifies a lower bound: the stresses are inside the yield cones at the points, hence
-   * everywhere since they are linear, and in equilibrium with the loads to rounding. If
-   * the strength is exceeded, all stresses are scaled by theta = min k/(k + excess). This
-   * requires cohesion and no dead load; otherwise the tolerance for rounding is 1e-8 of
-   * the largest stress.
+   * Certifies a lower bound by checking its stresses. The stresses must lie inside the
+   * yield cones at the points, hence everywhere since they are linear, and be in
+   * equilibrium with the loads to rounding. If the strength is exceeded, all stresses are
+   * scaled by theta = min k/(k + excess). This requires cohesion and no dead load;
+   * otherwise the tolerance for rounding is 1e-8 of the largest stress.
    */
   Bound
   certify_lower(const BoundScene    &scene,
@@ -54,10 +56,11 @@ namespace geocone::GEOCONE_DIM
                 const BoundSolution &solution);
 
   /**
-   * Certifies an upper bound: the velocities satisfy -B q in K* at the points, hence
-   * everywhere since strain rates are linear. For cylinders, a projection removes
-   * volumetric strain rates. For other cones, violations are removed by adding the
-   * uniaxial extension (0, y - y_bottom), if it satisfies the boundary conditions.
+   * Certifies an upper bound by checking its velocities. They must satisfy the flow rule,
+   * -B q in K*, at the points, hence everywhere since strain rates are linear. For
+   * cylinders, a projection removes volumetric strain rates. For other cones, violations
+   * are removed by adding the uniaxial extension (0, y - y_bottom), if it satisfies the
+   * boundary conditions.
    */
   Bound
   certify_upper(const BoundScene    &scene,
@@ -65,7 +68,8 @@ namespace geocone::GEOCONE_DIM
                 const BoundSolution &solution);
 
   /**
-   * Non-negative contributions eta_T of the triangles to the gap (upper - lower) f.v:
+   * Computes the contribution of each triangle to the gap between upper and lower bound.
+   * The contributions eta_T are non-negative and sum to (upper - lower) f.v:
    *   eta_T = sum_i A/3 D(e_i) - sum_ij A/12 (1 + delta_ij) s_i . e_j
    * with e of the upper and s of the lower bound (Ciria, Peraire and Bonet 2008).
    */
@@ -75,8 +79,9 @@ namespace geocone::GEOCONE_DIM
                const Bound        &lower);
 
   /**
-   * Dissipation per volume at a point for a strain rate in cone axes. With a cut-off it
-   * is the infimal convolution of the dissipation functions of cone and cut-off,
+   * Returns the dissipation per unit volume at a point for a strain rate in cone axes.
+   * With a cut-off it is the infimal convolution of the dissipation functions of cone and
+   * cut-off,
    *   opening (-e_n) + (k - a opening) (|e_t| + e_n)^+/(1 - a).
    */
   double

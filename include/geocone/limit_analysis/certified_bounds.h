@@ -22,8 +22,8 @@ namespace geocone::GEOCONE_DIM
       Bound         bound;
       unsigned int  n_unknowns = 0;
 
-      /** Internal power |V s.e| of each triangle, with the strain rates e of the dual
-       *  velocities; lower bound only. */
+      /** Internal power |V s.e| of each triangle, for a lower bound only. The strain
+       *  rates e are those of the dual velocities. */
       std::vector<double> power;
     };
     Side upper, lower;
@@ -33,15 +33,15 @@ namespace geocone::GEOCONE_DIM
     std::vector<double> gap;
 
     /**
-     * Refinement indicator, equal for all triangles of an optimal mesh: contribution to
-     * the gap, plus a multiple of the internal power of the lower bound times the size of
-     * the triangle. The power marks stresses at yield away from the upper bound's
-     * mechanism.
+     * Refinement indicator of each triangle, equal for all triangles of an optimal mesh.
+     * It is the contribution to the gap, plus a multiple of the internal power of the
+     * lower bound times the size of the triangle. The power marks stresses at yield away
+     * from the upper bound's mechanism.
      */
     std::vector<double> uneven;
 
-    /** Sum of the triangles' contributions divided by the gap; 1 if both fields are
-     *  exact. */
+    /** Sum of the contributions of all triangles divided by the gap. It is 1 if both
+     *  fields are exact. */
     double gap_share = 0.;
   };
 
@@ -59,8 +59,8 @@ namespace geocone::GEOCONE_DIM
   CertifiedBounds
   certified_bounds(const BoundScene &bound, const double tolerance);
 
-  /** Davis's estimate of the load for non-associated flow: both bounds for Davis's
-   *  equivalent material on a mesh, in the unit of the load
+  /** Computes Davis's estimate of the load for non-associated flow, in the unit of the
+   *  load. It consists of both bounds for Davis's equivalent material on a mesh
    *  (doc/theory/limit_analysis.md). */
   std::array<double, 2>
   davis_estimate(const BoundedLoad &load,

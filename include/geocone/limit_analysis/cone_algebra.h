@@ -9,8 +9,8 @@
 #include <algorithm>
 #include <cmath>
 
-/** Jordan algebra of the second-order cone {|x_t| <= x_0} with N components, and
- *  operations of interior-point methods on vectors of this cone. */
+/** Jordan algebra of the second-order cone {|x_t| <= x_0} in N dimensions, for
+ *  interior-point methods. */
 namespace geocone::cone_algebra
 {
   template <int N>
@@ -24,7 +24,7 @@ namespace geocone::cone_algebra
     return std::sqrt(std::max((x[0] - t) * (x[0] + t), 0.));
   }
 
-  /** Jordan product of u and v: (u.v, u_0 v_t + v_0 u_t). */
+  /** Returns the Jordan product of u and v: (u.v, u_0 v_t + v_0 u_t). */
   template <int N>
   ConeVector<N>
   product(const ConeVector<N> &u, const ConeVector<N> &v)
@@ -36,7 +36,7 @@ namespace geocone::cone_algebra
     return p;
   }
 
-  /** Inverse of the Jordan product: solution y of product(l, y) = d. */
+  /** Returns the solution y of product(l, y) = d, the inverse of the Jordan product. */
   template <int N>
   ConeVector<N>
   divide(const ConeVector<N> &l, const ConeVector<N> &d)
@@ -51,7 +51,7 @@ namespace geocone::cone_algebra
     return y;
   }
 
-  /** Largest step, at most 1/0.99, for which l + step d is in the cone. */
+  /** Returns the largest step, at most 1/0.99, for which l + step d is in the cone. */
   template <int N>
   double
   step_in_cone(const ConeVector<N> &l, const ConeVector<N> &d)
@@ -77,9 +77,10 @@ namespace geocone::cone_algebra
     return step;
   }
 
-  /** Nesterov-Todd scaling of a point: W z = W^-1 x, with W = eta (w_0, w_t'; w_t, I +
-   *  w_t w_t'/(1 + w_0)), w_0^2 = 1 + |w_t|^2. The matrices are applied instead of
-   *  stored, since loops over the points are limited by memory bandwidth. */
+  /** Nesterov-Todd scaling W of a pair of cone vectors x and z, with W z = W^-1 x. The
+   *  matrix is W = eta (w_0, w_t'; w_t, I + w_t w_t'/(1 + w_0)) with w_0^2 = 1 + |w_t|^2.
+   *  Matrices are applied instead of stored, since loops over the points are limited by
+   *  memory bandwidth. */
   template <int N>
   struct Scaling
   {
@@ -99,21 +100,22 @@ namespace geocone::cone_algebra
       eta  = std::sqrt(dx / dz);
     }
 
-    /** Product W v. */
+    /** Returns the product W v. */
     ConeVector<N>
     times(const ConeVector<N> &v) const
     {
       return eta * turned(w.template tail<N - 1>(), v);
     }
 
-    /** Product W^-1 v. */
+    /** Returns the product W^-1 v. */
     ConeVector<N>
     inverse_times(const ConeVector<N> &v) const
     {
       return turned(-w.template tail<N - 1>(), v) / eta;
     }
 
-    /** Product W^2 v = eta^2 (2 w w' - J) v, with J = diag(1, -1, ..., -1). */
+    /** Returns the product W^2 v = eta^2 (2 w w' - J) v, with J = diag(1, -1, ...,
+     *  -1). */
     ConeVector<N>
     square_times(const ConeVector<N> &v) const
     {
@@ -123,7 +125,7 @@ namespace geocone::cone_algebra
       return eta * eta * r;
     }
 
-    /** Matrix W^2. */
+    /** Returns the matrix W^2. */
     Eigen::Matrix<double, N, N>
     square() const
     {
@@ -153,7 +155,7 @@ namespace geocone::cone_algebra
                (1. + 2. * w.template tail<N - 1>().squaredNorm()) *
                w.template tail<N - 1>();
     }
-    /** Component dz_0 that satisfies (W^2 dz)_0 = r_0 for a given dz_t. */
+    /** Returns the component dz_0 that satisfies (W^2 dz)_0 = r_0 for a given dz_t. */
     double
     first_rate(const double r_0, const ConeVector<N - 1> &dz_t) const
     {
@@ -164,7 +166,7 @@ namespace geocone::cone_algebra
     /** @} */
 
   private:
-    /** Product W v/eta, or (W/eta)^-1 v if w_t has the opposite sign. */
+    /** Returns the product W v/eta, or (W/eta)^-1 v if w_t has the opposite sign. */
     ConeVector<N>
     turned(const ConeVector<N - 1> &w_t, const ConeVector<N> &v) const
     {

@@ -13,10 +13,11 @@
 namespace geocone
 {
   /**
-   * The pair of programmes of limit analysis over groups of points with symmetric cones,
+   * Pair of dual conic programmes of limit analysis, for groups of points with symmetric
+   * cones. The static and the kinematic programme are
    *   static    max lambda: sum V B's = lambda f + F0 in free dofs, X = k o - A y in K,
-   *   kinematic min sum V/w k o.Z - F0.q: A'Z = (w B q, 0), Z in K, f.q = 1,
-   * or, for f = 0, with prescribed velocities and the power of their reactions as load.
+   *   kinematic min sum V/w k o.Z - F0.q: A'Z = (w B q, 0), Z in K, f.q = 1.
+   * If f = 0, velocities are prescribed, and the load is the power of their reactions.
    */
   struct ConicProblem
   {
@@ -62,18 +63,19 @@ namespace geocone
   };
 
   /**
-   * Primal-dual interior-point method with Nesterov-Todd scaling and Mehrotra's corrector,
-   * for any symmetric cones: the cones stay in their points, so that a sparse Cholesky
-   * factorisation with the pattern of the elastic stiffness is all that an iteration needs.
-   * Constrained rates (e.g. the volume for phi = 0) are found by the method of
-   * multipliers. The groups hold the stresses of the result.
+   * Solves a conic problem by a primal-dual interior-point method. The method uses
+   * Nesterov-Todd scaling and Mehrotra's corrector, for any symmetric cones. Cone
+   * variables are eliminated at each point, so that an iteration requires only one sparse
+   * Cholesky factorisation with the sparsity pattern of the elastic stiffness.
+   * Constrained rates (e.g. the volumetric strain rate for phi = 0) are found by the
+   * method of multipliers. The stresses of the solution are stored in the groups.
    */
   ConicSolution
   solve(ConicProblem &problem, const ConicOptions &options);
 
-  /** Projects velocities onto those whose constrained rates vanish, in the metric of B'B:
-   *  no volume change and no normal jump for phi = 0.
-   *  @return whether it was possible */
+  /** Projects velocities onto the subspace in which all constrained rates vanish, in the
+   *  metric of B'B. For phi = 0 these are volumetric strain rates and normal jumps.
+   *  @return true if the projection succeeded */
   bool
   constrain_rates(ConicProblem &problem, Eigen::VectorXd &q);
 } // namespace geocone

@@ -13,7 +13,8 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Sensitivity of both bounds to a parameter p, with all other parameters constant. */
+  /** Sensitivity of the lower and the upper bound to a parameter p, with all other
+   *  parameters constant. */
   struct Gradient
   {
     std::array<std::string, 3> place; ///< keys in the topic, see below
@@ -21,9 +22,9 @@ namespace geocone::GEOCONE_DIM
     double                     value =
       0.; ///< p; for a load, the mean unit weight or largest traction
 
-    /** Derivatives of the lower and upper bound with respect to p, and elasticities
-     *  d ln bound/d ln p; for a friction angle, derivatives per degree and
-     *  d ln bound/d ln tan(phi). NaN if the bound is not certified. */
+    /** Derivatives of the lower and the upper bound with respect to p, and elasticities d
+     *  ln bound/d ln p. For a friction angle they are derivatives per degree and d ln
+     *  bound/d ln tan(phi). NaN if the bound is not certified. */
     std::array<double, 2> derivative, elasticity;
   };
 
@@ -36,18 +37,18 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Gradients of both bounds of a load with respect to all parameters, computed from the
-   * fields of the bounds without another solution. At the optimum the derivative of the
-   * load is the derivative of the Lagrangian,
+   * Computes the gradients of both bounds of a load with respect to all parameters. No
+   * further solution is required, only the fields of the bounds. At the optimum the
+   * derivative of the load is the derivative of the Lagrangian,
    *   lambda + q.(F0 + lambda f - sum V B's) + sum V y (a s_n + k - |s_t|),
    * with the rates y of the cones: sum V y per k, sum V y s_n per a, and -q.dF per dead
    * load. For the upper bound's strengths k and loads this is the derivative of a
    * certified bound, since its mechanism is admissible whatever they are.
    *
-   * Places are those of the topic: materials (cohesion, cohesion_gradient,
-   * friction_angle if it is not zero, tensile_strength, unit_weight), tractions
-   * (traction), obstacles (friction_coefficient, adhesion, tensile_strength), and others
-   * (load: the forces of water and of free obstacles).
+   * Places are those of the topic: materials (cohesion, cohesion_gradient, friction_angle
+   * if it is not zero, tensile_strength, unit_weight), tractions (traction), obstacles
+   * (friction_coefficient, adhesion, tensile_strength), and others (load: the forces of
+   * water and of free obstacles).
    *
    * @param given input with unreduced strength
    * @param load_unit load that corresponds to the load factor 1 of a problem
@@ -59,8 +60,9 @@ namespace geocone::GEOCONE_DIM
                     const double       load_unit);
 
   /**
-   * Gradients of the factor of safety, computed from the gradients of the factor lambda
-   * of all loads for strength divided by F: dF/dp = -(d lambda/dp)/(d lambda/dF).
+   * Computes the gradients of both bounds of the factor of safety F. They follow from the
+   * gradients of the factor lambda of all loads for strength divided by F: dF/dp = -(d
+   * lambda/dp)/(d lambda/dF).
    * @param lower,upper solved near the roots lambda(F) = 1
    */
   std::vector<Gradient>
@@ -68,11 +70,11 @@ namespace geocone::GEOCONE_DIM
                       const SolvedBound &lower,
                       const SolvedBound &upper);
 
-  /** Converts gradients to the topic bounds/gradients of the summary. */
+  /** Converts gradients to the topic bounds/gradients of summary.json. */
   Json
   topic_of(const std::vector<Gradient> &gradients);
 
-  /** Formats the elasticities of both bounds as lines of text, in descending order. */
+  /** Returns the elasticities of both bounds as lines of text, in descending order. */
   std::string
   text_of(const std::vector<Gradient> &gradients, const std::string &bounded);
 } // namespace geocone::GEOCONE_DIM

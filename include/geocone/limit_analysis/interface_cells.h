@@ -13,31 +13,31 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Point of an interface cell. */
+  /** Point on an edge at which the relative velocity of an interface is evaluated. */
   struct InterfacePoint
   {
     double part = 0.; ///< share of the edge's length
 
-    /** Dofs (x component) of the edge's nodes, with the weights of the nodes in the
-     *  velocity at the point. */
+    /** Dofs of the x components at the nodes of the edge, with the weight of each node in
+     *  the velocity at the point. */
     std::vector<std::pair<unsigned int, double>> nodes;
 
-    /** Position at which the rigid velocity of the obstacle is evaluated. */
+    /** Position at which the rigid-body velocity of the obstacle is evaluated. */
     dealii::Point<dim> place;
   };
 
-  /** Number of dofs added by interfaces: motions of the obstacles, and three openings per
-   *  interface. */
+  /** Returns the number of dofs added by interfaces. These are the motions of the
+   *  obstacles, and three opening rates for each interface that can open. */
   unsigned int
   n_dofs_of_interfaces(const BoundScene &bound);
 
-  /** Returns the three interface points of an edge in a velocity space. */
+  /** Function that returns the three interface points of an edge. */
   using PointsOfEdge =
     std::function<std::array<InterfacePoint, 3>(const unsigned int edge)>;
 
   /**
-   * Appends the interfaces as cells of a problem, prescribes the velocities of driven
-   * obstacles, and applies the loads of free obstacles.
+   * Appends the interfaces as cells of a problem. Also prescribes the velocities of
+   * driven obstacles and applies the loads of free obstacles.
    * @param first_dof first of the n_dofs_of_interfaces() dofs
    */
   void

@@ -12,11 +12,11 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Boundary edge along which the body can slide: in contact with an obstacle, or on a
-   * side that is fixed in its normal direction and not parallel to x or y. The traction r
-   * from outside and the velocity u of the body relative to the outside correspond to
-   * stress and strain rate of a point: r = (s_n, s_t) is in a cone |s_t| <= a s_n + k,
-   * with the associated rate e = -(u_N, u_T).
+   * Boundary edge along which the body can slide. The edge is in contact with an
+   * obstacle, or on a side that is fixed in its normal direction and not parallel to x or
+   * y. The traction r from outside and the velocity u of the body relative to the outside
+   * correspond to stress and strain rate of a point: r = (s_n, s_t) is in a cone |s_t| <=
+   * a s_n + k, with the associated rate e = -(u_N, u_T).
    */
   struct Interface
   {
@@ -25,9 +25,9 @@ namespace geocone::GEOCONE_DIM
     int                    obstacle = -1; ///< index; -1: oblique side
 
     /**
-     * Admissible set of r; r is in the intersection of all faces: Coulomb's cone, and
-     * r_N >= -t with the tensile strength t if the cone extends beyond it; or
-     * |r_T| <= k alone, with free r_N.
+     * Face of the yield surface of the interface. The traction r is inside all faces.
+     * These are Coulomb's cone, and r_N >= -t with the tensile strength t if the cone
+     * extends beyond it; or |r_T| <= k alone, with free r_N.
      */
     struct Face
     {
@@ -36,8 +36,9 @@ namespace geocone::GEOCONE_DIM
     };
     std::vector<Face> faces;
 
-    /** Whether both faces bound r_N. The interface then opens at a rate w associated with
-     *  the second face, and the rate (u_N - w, u_T) is associated with the first. */
+    /** Returns true if both faces of the yield surface bound the normal traction r_N. The
+     *  interface then opens at a rate w associated with the second face, and the rate
+     *  (u_N - w, u_T) is associated with the first. */
     bool
     opens() const
     {
@@ -51,8 +52,8 @@ namespace geocone::GEOCONE_DIM
   std::vector<Interface>
   interfaces(const Scene &scene, const Triangles &triangles);
 
-  /** Whether a normal is parallel to x or y; nodes on such sides are fixed without an
-   *  interface. */
+  /** Returns true if a normal is parallel to x or y. Nodes on sides with such a normal
+   *  are fixed without an interface. */
   bool
   is_along_axis(const dealii::Tensor<1, dim> &normal);
 } // namespace geocone::GEOCONE_DIM

@@ -11,7 +11,7 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Result of the interior-point method for a BoundProblem. */
+  /** Result of the interior-point method for a plane problem of limit analysis. */
   struct BoundSolution
   {
     Eigen::VectorXd              q; ///< velocities of all dofs
@@ -24,20 +24,20 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Interior-point solver of the static and the kinematic programme of a BoundProblem, a
-   * primal-dual pair:
+   * Interior-point solver for the static and the kinematic programme of plane limit
+   * analysis. They are a primal-dual pair:
    *   static max lambda: sum V Bs' (x - o) = lambda f + F0, x in K,
    *   kinematic min sum V o.z - F0.q: z = -Bs q in K, f.q = 1,
-   * with x = (a s_n + k, s_t), Bs = diag(1/a, 1, 1) B, o = (k, 0, 0), K = {x_0 >=
-   * |x_t|}. A primal-dual interior-point method from an infeasible start, with
-   * Nesterov-Todd scaling, Mehrotra's corrector, and a unit weight of each cone in the
-   * barrier (rates times V/mean V). For Tresca's cylinder x_0 = k is eliminated at the
-   * point, and s_n is found by the method of multipliers. One sparse Cholesky
-   * factorisation per iteration.
+   * with x = (a s_n + k, s_t), Bs = diag(1/a, 1, 1) B, o = (k, 0, 0), K = {x_0 >= |x_t|}.
+   * The primal-dual method starts from an infeasible point, with Nesterov-Todd scaling,
+   * Mehrotra's corrector, and a unit weight of each cone in the barrier (rates times
+   * V/mean V). For Tresca's cylinder x_0 = k is eliminated at the point, and s_n is found
+   * by the method of multipliers. Each iteration requires one sparse Cholesky
+   * factorisation.
    *
-   * Stresses must be in equilibrium to rounding. The residual of an iterate is removed
-   * in the metric of its cones, which violates them less the farther the iterate is
-   * from their boundaries: the last iterate is not always the best one. If stresses are
+   * Stresses must be in equilibrium to rounding. The residual of an iterate is removed in
+   * the metric of its cones, which violates them less the farther the iterate is from
+   * their boundaries: the last iterate is not always the best one. If stresses are
    * wanted, the result is those of the iterate with the highest load after all stresses
    * are scaled back into their cones.
    */
@@ -52,12 +52,12 @@ namespace geocone::GEOCONE_DIM
       double       equilibrium_tolerance = 1e-4; ///< residual / forces
       unsigned int max_iterations        = 60;
 
-      /** Whether the stresses (lower bound) are returned instead of the velocities (upper
-       *  bound). */
+      /** If true, the stresses of the lower bound are returned instead of the velocities
+       *  of the upper bound. */
       bool stresses = false;
 
-      /** Safety margin of the stresses in the yield cones, as a reduction of k:
-       *  stresses that cannot be scaled back then become admissible after fewer
+      /** Reduction of k that provides a safety margin of the stresses in the yield cones.
+       *  Stresses that cannot be scaled back then become admissible after fewer
        *  iterations. */
       double strength_margin = 0.;
 

@@ -20,7 +20,7 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Kind of analysis performed for a scene. */
+  /** Type of the analysis performed for a scene. */
   enum class AnalysisKind
   {
     steps,              ///< incremental analysis
@@ -30,9 +30,9 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Limit analysis of a rigid-plastic scene with associated flow: strict bounds of the
-   * limit load, or of the factor of safety, on meshes refined adaptively where the
-   * bounds differ. Each level is a step of the run.
+   * Plane limit analysis of a rigid-plastic scene with associated flow. Strict bounds of
+   * the limit load, or of the factor of safety, are computed on meshes that are
+   * adaptively refined where the bounds differ. Each level is a step of the run.
    */
   class LimitAnalysis : public BoundAnalysis
   {
@@ -46,17 +46,17 @@ namespace geocone::GEOCONE_DIM
     }
 
   private:
-    /** Returns warnings about the magnitudes of the scene's parameters, a fixed mesh and
+    /** Returns warnings about the magnitudes of parameters, a fixed mesh and
      *  time-dependent loads. */
     std::vector<std::string>
     warnings_of(const dealii::BoundingBox<dim> &body) const;
 
-    /** Checks that the water table follows cell sides.
+    /** Checks that the water table coincides with sides of the cells.
      *  @throws InputError if the water table cuts cells of the first mesh */
     void
     check_water() const;
 
-    /** Whether the factor of safety, and not a load, is bounded. */
+    /** Returns true if the factor of safety is bounded instead of a load. */
     bool
     reduces_strength() const
     {
@@ -66,7 +66,8 @@ namespace geocone::GEOCONE_DIM
     static Side
     figures_of(const CertifiedBounds::Side &side);
 
-    /** Collects `bounds`. @param unit load that a problem's 1 corresponds to */
+    /** Converts both bounds on the current mesh to the results of a level.
+     *  @param unit load that corresponds to the load factor 1 of a problem */
     BoundLevel
     level_of(const double unit) const;
 
@@ -87,29 +88,30 @@ namespace geocone::GEOCONE_DIM
              file_domain->obstacle().empty();
     }
 
-    /** Mesh with the sizes of the next one. */
+    /** Generates the next mesh from the cell sizes of the refinement. */
     CoarseMesh
     next_mesh() const;
 
-    /** Number of cells requested of the next mesh. */
+    /** Returns the number of cells requested for the next mesh. */
     double
     next_cells(const BoundLevel &level);
 
-    /** Davis's estimates for non-associated flow on the finest mesh: both bounds of the
-     *  load or factor of safety for each variant (LoadBracket::davis). */
+    /** Computes Davis's estimates for non-associated flow on the finest mesh. They are
+     *  both bounds of the load or factor of safety for each variant
+     *  (LoadBracket::davis). */
     std::vector<std::array<double, 2>>
     estimates_by_davis() const;
 
-    /** Returns the bracket certified by all meshes, or, if water pressures differ between
-     *  meshes, by the last mesh with both bounds. */
+    /** Returns the bracket of the load certified by all meshes. If water pressures differ
+     *  between meshes, it is the bracket of the last mesh with both bounds. */
     LoadBracket
     certified_by(const std::vector<BoundLevel> &levels) const;
 
-    /** Gradients of both bounds on the current mesh. */
+    /** Computes the gradients of both bounds on the current mesh. */
     std::vector<Gradient>
     gradients_of_last() const;
 
-    /** Returns the bracket certified so far, with Davis's estimate. */
+    /** Returns the bracket of the load certified so far, with Davis's estimate. */
     LoadBracket
     bracket() const override;
 
@@ -161,7 +163,7 @@ namespace geocone::GEOCONE_DIM
 
     std::optional<CellSizes> sizes; ///< of the next mesh
 
-    /** Of the mesh of a file, if others can be made of it. */
+    /** Domain of a mesh from a file, if other meshes of this domain can be generated. */
     std::optional<DomainOfTriangles> file_domain;
 
     double asked_cells = 0.;        ///< requested of it, or 0 for the first one

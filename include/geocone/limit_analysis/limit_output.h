@@ -15,8 +15,8 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Results of one level (mesh) of a limit analysis: both bounds, in the unit of the
-   *  load, and the computational cost. */
+  /** Results of one level of a limit analysis, with both bounds in the unit of the load.
+   *  A level is a mesh; the results include the computational cost. */
   struct BoundLevel
   {
     unsigned int number = 0; ///< level number, from 1
@@ -39,38 +39,39 @@ namespace geocone::GEOCONE_DIM
     state(StateRow &row);
   };
 
-  /** Best certified bounds over several levels, with the total cost of all levels: the
-   *  bounds of every mesh are valid for the body. */
+  /** Returns the best certified bounds over several levels, with the total cost of all
+   *  levels. This is possible because the bounds of every mesh are valid for the body. */
   LoadBracket
   best_of(const std::vector<BoundLevel> &levels);
 
   /**
-   * Order of convergence of the gap in the number of cells: minus the slope of
-   * log(gap) over log(cells) of the last three meshes with both bounds, by least
-   * squares. Empty if fewer than two meshes have both bounds.
+   * Returns the order of convergence of the gap between the bounds, with respect to the
+   * number of cells. It is minus the slope of log(gap) over log(cells) of the last three
+   * meshes with both bounds, by least squares. Empty if fewer than two meshes have both
+   * bounds.
    */
   std::optional<double>
   order_of_gap(const std::vector<BoundLevel> &levels);
 
-  /** Output of a limit analysis: the table bounds.csv with a line per level, the fields
-   *  of each level, and the summary. */
+  /** Output of a limit analysis: table of levels, fields of each level, and summary. The
+   *  table bounds.csv has a line for each level. */
   class LimitOutput : public TableOutput<BoundLevel>
   {
   public:
     using TableOutput::TableOutput;
 
-    /** Opens the output files. @param unit of the load, e.g. "N/m"
+    /** Opens the output files of a limit analysis. @param unit of the load, e.g. "N/m"
      *  @param reference value of the load or factor of safety, if known */
     void
     prepare(const RunOptions           &options,
             const std::string          &unit,
             const std::optional<double> reference);
 
-    /** Writes the fields of a mesh, if they are wanted. */
+    /** Writes the fields of a mesh, if field output is enabled. */
     void
     write_fields(const double number, const FieldTable &table);
 
-    /** Returns the topic "bounds" of the summary; requires at least one level. */
+    /** Returns the topic "bounds" of summary.json. At least one level is required. */
     Json
     bounds(const LoadBracket &bracket) const;
 

@@ -14,23 +14,24 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Choice of the loads multiplied by the load factor of a limit analysis, in the plane
-   *  and in three dimensions. */
+  /** Loads that are multiplied by the load factor of a limit analysis, in two and three
+   *  dimensions. */
   class LoadChoice
   {
   public:
-    /** Declares the parameter "Load factor of" in a section. */
+    /** Declares the parameter "Load factor of" in a section of the parameter file. */
     void
     declare(dealii::ParameterAcceptor &section);
 
-    /** Loads that the load factor multiplies; LoadFactor::automatic before a choice. */
+    /** Returns the type of loads that are multiplied by the load factor. Before they are
+     *  selected, LoadFactor::automatic is returned. */
     LoadFactor
     factor() const
     {
       return chosen;
     }
 
-    /** Whether the bounded load is the reaction to prescribed velocities. */
+    /** Returns true if the bounded load is the reaction to prescribed velocities. */
     bool
     is_reaction() const
     {
@@ -40,21 +41,21 @@ namespace geocone::GEOCONE_DIM
     std::string
     word() const;
 
-    /** Unit of the bounded load: of a force (per metre in the plane) for a reaction,
-     *  otherwise "-". */
+    /** Returns the unit of the bounded load as text. It is the unit of a force (per metre
+     *  of thickness in the plane) for a reaction, otherwise "-". */
     std::string
     unit() const;
 
-    /** Load that corresponds to the load factor 1 of a problem: in unit() for a reaction,
-     *  otherwise 1. */
+    /** Returns the load that corresponds to the load factor 1 of a problem. It is in
+     *  unit() for a reaction, otherwise 1. */
     double
     value_of_unit() const
     {
       return load_unit;
     }
 
-    /** Whether some material has non-associated flow, i.e. a dilatancy angle smaller than
-     *  the friction angle. */
+    /** Returns true if any material has non-associated flow. Its dilatancy angle is then
+     *  smaller than its friction angle. */
     bool
     non_associated() const
     {
@@ -65,7 +66,7 @@ namespace geocone::GEOCONE_DIM
 
   protected:
     /**
-     * Selects the loads, and the unit of velocity.
+     * Selects the loads multiplied by the load factor, and the unit of velocity.
      * @param velocity prescribed non-zero velocity (m/s), if any
      * @param has_weight whether gravity acts
      * @throws InputError if the loads asked for do not suit the prescribed velocity
@@ -74,14 +75,15 @@ namespace geocone::GEOCONE_DIM
     choose(const std::optional<dealii::Tensor<1, dim>> &velocity,
            const bool                                   has_weight);
 
-    /** Selects weight and tractions, for strength reduction. */
+    /** Selects self-weight and tractions as the loads multiplied by the load factor, for
+     *  strength reduction. */
     void
     choose_all()
     {
       chosen = LoadFactor::all;
     }
 
-    /** @throws InputError because the chosen loads are zero */
+    /** Throws the error for selected loads that are zero. @throws InputError */
     [[noreturn]] void
     refuse_zero_load() const;
 

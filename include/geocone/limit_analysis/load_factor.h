@@ -18,7 +18,7 @@ namespace geocone::GEOCONE_DIM
     all        ///< weight and tractions
   };
 
-  /** Units of a limit analysis, chosen so that all numbers are of order one. */
+  /** Units of a limit analysis, chosen so that all variables are of order one. */
   struct BoundUnits
   {
     double length   = 1.; ///< (m)

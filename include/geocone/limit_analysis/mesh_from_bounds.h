@@ -13,11 +13,11 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Computes cell sizes for a mesh of about MeshParameters::number triangles, for
-   * incremental analyses of the limit load: the sizes equalise the triangles'
-   * contributions to the gap between strict bounds. Starting from the mesh of the other
-   * parameters, the number of triangles is doubled until it is reached; three more meshes
-   * of this number refine singularities further. Flow is assumed to be associated.
+   * Computes cell sizes that equalise the contributions of the triangles to the gap
+   * between strict bounds. The sizes are for a mesh of about MeshParameters::number
+   * triangles, for incremental analyses of the limit load. Starting from the mesh of the
+   * other parameters, the number of triangles is doubled until it is reached; three more
+   * meshes of this number refine singularities further. Flow is assumed to be associated.
    * Collective; the first rank computes and also returns the bracket of the load, with
    * Davis's estimate for non-associated flow.
    * @throws InputError for scenes without finite bounds of the load

@@ -18,9 +18,9 @@
 namespace geocone
 {
   /**
-   * Points of one kind in a conic problem, as the interior-point method sees them: with
-   * stresses s_p, strain rates B_p q, weights V_p, and a strength that is a symmetric cone
-   * (strength_law.h). Calls are virtual for a group, never for a point.
+   * Group of points of the same type in a conic problem, with stresses s_p, strain rates
+   * B_p q and weights V_p. The strength is described by a symmetric cone
+   * (strength_law.h). Virtual functions are called for a group, never for a point.
    */
   class PointGroup
   {
@@ -39,20 +39,23 @@ namespace geocone
     virtual BlockMatrix::Set
     set() const = 0;
 
-    /** Number of eigenvalues. */
+    /** Returns the number of eigenvalues of the cones of all points. */
     virtual double
     degree() const = 0;
 
-    /** Some rate that the law cannot dissipate is constrained to zero, e.g. the volume for
-     *  phi = 0. */
+    /** Returns true if any strain rate component is constrained to zero because the
+     *  conjugate stress is unbounded. An example is the volumetric strain rate for phi =
+     *  0. */
     virtual bool
     has_free_direction() const = 0;
 
-    /** Sets the weights V/mean of the barrier. */
+    /** Sets the weight of each point in the barrier function: the volume V over the mean
+     *  volume. */
     virtual void
     begin(const double mean_volume) = 0;
 
-    /** Adds V B'(1 + stiffness E) B, E along what is constrained. */
+    /** Adds the elastic stiffness V B'(1 + stiffness E) B of each point to a matrix. E is
+     *  the projection onto the constrained rates. */
     virtual void
     add_elastic_blocks(BlockMatrix       &matrix,
                        const unsigned int set,
@@ -62,7 +65,8 @@ namespace geocone
                        const double           stiffness,
                        Eigen::VectorXd       &F) const = 0;
 
-    /** Adds to the multipliers of the constrained rates; their forces, and those of the
+    /** Updates the multipliers of the constrained rates. The function
+     *  add_constraint_forces() adds the forces of the multipliers and of the
      *  stiffness. */
     virtual void
     add_multipliers(const Eigen::VectorXd &q, const double stiffness) = 0;
@@ -71,15 +75,16 @@ namespace geocone
                           const double           stiffness,
                           Eigen::VectorXd       &F) const = 0;
 
-    /** Sum of V |B q|^2, and of V. */
+    /** Returns the sum of V |B q|^2 and the sum of V over the points. */
     virtual std::array<double, 2>
     rate_square(const Eigen::VectorXd &q) const = 0;
 
-    /** Sets y and Z, the eigenvalues of which are at least the mean rate. */
+    /** Sets the initial stress variables y and dual variables Z. The eigenvalues of Z are
+     *  at least the mean rate. */
     virtual void
     start(const Eigen::VectorXd &q, const double mean_rate) = 0;
 
-    /** Sums over the points at the present iterate. */
+    /** Sums over the points of the group for the current iterate. */
     struct Sums
     {
       double product = 0.; ///< X.Z
@@ -89,15 +94,16 @@ namespace geocone
       double most    = 0.; ///< largest X over k
     };
 
-    /** Residuals at the velocities q. @param margin of the rates in their cone */
+    /** Computes the residuals and their sums for the velocities q. @param margin of the
+     *  rates in their cone */
     virtual Sums
     evaluate(const Eigen::VectorXd &q, const double margin) = 0;
 
-    /** Adds V B's. */
+    /** Adds the internal forces V B's of all points. */
     virtual void
     add_forces(Eigen::VectorXd &F) const = 0;
 
-    /** Scales the points and factorises their compliance. */
+    /** Computes the Nesterov-Todd scaling of each point and factorises its compliance. */
     virtual void
     scale() = 0;
     virtual void
@@ -105,41 +111,47 @@ namespace geocone
 
     /** @name Newton's direction for lambda-scaled right-hand sides d */
     /** @{ */
-    /** d = -lambda. */
+    /** Sets the right-hand side of the predictor, d = -lambda. */
     virtual void
     predict() = 0;
-    /** d = -lambda + lambda \ (target e - x_hat o z_hat). */
+    /** Sets the right-hand side of the corrector, d = -lambda + lambda \ (target e -
+     *  x_hat o z_hat). */
     virtual void
     correct(const double target) = 0;
-    /** Adds V B's of the part of the direction that does not depend on dq. */
+    /** Adds the internal forces of the part of the search direction that does not depend
+     *  on the velocity increments dq. */
     virtual void
     add_given_forces(Eigen::VectorXd &F) const = 0;
-    /** Completes the direction. @return the largest steps of X and Z */
+    /** Completes the search direction for given velocity increments dq.
+     *  @return the largest steps of X and Z */
     virtual std::array<double, 2>
     complete(const Eigen::VectorXd &dq) = 0;
-    /** Sum of (X + a_x dX).(Z + a_z dZ). */
+    /** Returns the complementarity product after a step: the sum of (X + a_x dX).(Z + a_z
+     *  dZ). */
     virtual double
     product_after(const double a_x, const double a_z) const = 0;
     virtual void
     advance(const double b_x, const double b_z) = 0;
     /** @} */
 
-    /** Adds the stresses of the last scaling for the velocities x. */
+    /** Adds stress increments due to the velocities x, computed with the last scaling. */
     virtual void
     polish(const Eigen::VectorXd &x) = 0;
 
-    /** Copies the iterate, and returns to the copy. */
+    /** Stores a copy of the current iterate. The function restore() returns to this
+     *  copy. */
     virtual void
     keep() = 0;
     virtual void
     restore() = 0;
 
-    /** Stress of a point, a vector of its rows. */
+    /** Returns the stress of a point, with Law::rows components. */
     virtual Eigen::VectorXd
     stress(const unsigned int point) const = 0;
   };
 
-  /** @tparam columns dofs of a point */
+  /** Group of points with a given strength law and number of dofs per point.
+   *  @tparam Law strength law @tparam n_columns number of dofs per point */
   template <typename Law, int n_columns>
   class PointGroupOf : public PointGroup
   {
@@ -152,7 +164,7 @@ namespace geocone
     using X       = typename Law::X;
     using Strains = Eigen::Matrix<double, rows, columns>;
 
-    /** @param laws that the points refer to */
+    /** Creates a group without points. @param laws strength laws of the points */
     explicit PointGroupOf(const std::vector<Law> &laws)
       : laws(laws)
     {}
@@ -461,12 +473,12 @@ namespace geocone
     }
 
   private:
-    /** Stiffness of the method of multipliers for what is constrained; strength, lengths
-     *  and velocities are of order one. */
+    /** Penalty stiffness of the constrained rates in the method of multipliers. Strength,
+     *  lengths and velocities are of order one. */
     static constexpr double bulk = 1e6;
 
-    /** QR factors of the scaled A, whose products are far more accurate than the inverse
-     *  of A'W^-1W^-T A. */
+    /** QR factors of the scaled matrix A of a point. Products of the factors are far more
+     *  accurate than the inverse of A'W^-1W^-T A. */
     struct Local
     {
       Eigen::Matrix<double, size + 1, n_y>  Q;
@@ -506,7 +518,8 @@ namespace geocone
         F[own[j]] += volume[p] * B[p].col(j).dot(s);
     }
 
-    /** (e, 0) for the strain rate and own variables. */
+    /** Returns the strain rate e, extended by zeros for the internal variables of the
+     *  strength law. */
     static Y
     extended(const S &e)
     {

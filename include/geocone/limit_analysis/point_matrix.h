@@ -11,20 +11,20 @@
 
 namespace geocone
 {
-  /** Matrix sum_p B_p' C_p B_p of the free dofs of some points, C_p symmetric 3 x 3,
-   *  with its Cholesky factors. */
+  /** Sparse symmetric matrix sum_p B_p' C_p B_p of the free dofs, with its Cholesky
+   *  factors. The matrices C_p of the points are symmetric 3 x 3 matrices. */
   class PointMatrix : public BlockMatrix
   {
   public:
-    /** Creates the sparsity pattern. @param is_prescribed by dof */
+    /** Creates the sparsity pattern of the matrix. @param is_prescribed by dof */
     PointMatrix(const std::vector<bool> &is_prescribed,
                 const PointStrains      &strains);
 
-    /** Blocks C_p of all points. */
+    /** Symmetric 3 x 3 matrices C_p of all points. */
     using Blocks = std::vector<Eigen::Matrix3d>;
 
-    /** Assembles and factorises.
-     *  @return whether the matrix is positive definite */
+    /** Assembles the matrix and computes the Cholesky factorisation.
+     *  @return true if the matrix is positive definite */
     bool
     factorise(const Blocks &blocks);
 

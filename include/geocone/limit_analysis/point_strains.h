@@ -11,21 +11,21 @@
 
 namespace geocone
 {
-  /** Strain matrix B of a point, with a column for each dof of the point. */
+  /** Strain-displacement matrix B of a point, with a column for each dof of the point. */
   using StrainMatrix = Eigen::Matrix<double, 3, Eigen::Dynamic>;
 
   /**
-   * Strain matrices B_p of all points, with strain rates B_p q, restricted to the dofs
-   * with nonzero columns: 6 of 14 dofs of a cell for the dual of linear stresses, 10 of
-   * 12 for quadratic velocities. The matrices are stored contiguously, since loops over
-   * points are limited by memory bandwidth.
+   * Strain-displacement matrices B_p of all points, which yield the strain rates B_p q.
+   * Only dofs with nonzero columns are stored: 6 of 14 dofs of a cell for the dual of
+   * linear stresses, 10 of 12 for quadratic velocities. The matrices are stored
+   * contiguously, since loops over points are limited by memory bandwidth.
    */
   class PointStrains
   {
   public:
     PointStrains() = default;
 
-    /** Creates an empty list.
+    /** Creates an empty list of points.
      *  @param n_columns maximum number of dofs of a point: 6 or 10, or with a cut-off 9
      *  or 13 */
     explicit PointStrains(const unsigned int n_columns);
@@ -36,15 +36,15 @@ namespace geocone
     void
     add(const StrainMatrix &B, const std::vector<unsigned int> &dofs);
 
-    /** Excludes a point from all sums over points. */
+    /** Excludes a point from all sums over the points. */
     void
     remove(const unsigned int point);
 
-    /** Whether a point is excluded. */
+    /** Returns true if a point is excluded from the sums over the points. */
     bool
     is_removed(const unsigned int point) const;
 
-    /** Divides the row of the normal strain in B of a point by a number. */
+    /** Divides the row of the normal strain in the matrix B of a point by a number. */
     void
     divide_normal(const unsigned int point, const double by);
 
@@ -54,12 +54,12 @@ namespace geocone
       return n_columns == 0 ? 0 : dofs.size() / n_columns;
     }
 
-    /** Strain rates B_p q of all points. */
+    /** Computes the strain rates B_p q of all points. */
     std::vector<Eigen::Vector3d>
     rates(const Eigen::VectorXd &q) const;
 
-    /** Internal forces sum_p V_p B_p' s_p, by dof, of the points from @p first_point
-     *  on. */
+    /** Computes the internal forces sum_p V_p B_p' s_p at all dofs. The sum begins with
+     *  the point @p first_point. */
     Eigen::VectorXd
     forces(const std::vector<double>          &volume,
            const std::vector<Eigen::Vector3d> &s,
@@ -81,7 +81,7 @@ namespace geocone
         f(std::integral_constant<int, 13>());
     }
 
-    /** Strain matrix B of a point. */
+    /** Returns the strain-displacement matrix B of a point. */
     template <int n>
     Eigen::Map<const Eigen::Matrix<double, 3, n, Eigen::RowMajor>>
     matrix(const unsigned int point) const
@@ -90,8 +90,8 @@ namespace geocone
         &values[3 * n * point]);
     }
 
-    /** Array of the n_columns dofs of a point; for points with fewer dofs, some dofs are
-     *  repeated with zero columns of B. */
+    /** Returns an array of the n_columns dofs of a point. For a point with fewer dofs,
+     *  some dofs are repeated with zero columns of B. */
     const unsigned int *
     dofs_of(const unsigned int point) const
     {

@@ -4,19 +4,20 @@
 #ifndef geocone_limit_analysis_small_matrices_h
 #define geocone_limit_analysis_small_matrices_h
 
-/** Algebra of matrices of a point, column by column in memory, whose sizes are known at run
- *  time: compiled once for all laws. */
+/** Algebra of small matrices with sizes known at run time, stored by columns. The
+ *  functions are compiled once for all strength laws. */
 namespace geocone::small_matrices
 {
   constexpr int most = 16; ///< rows and columns
 
-  /** Householder's A = Q R, m >= n.
+  /** Computes the QR factorisation A = Q R of an m x n matrix, m >= n, by Householder
+   *  reflections.
    *  @param[out] Q m x n @param[out] R_inverse n x n, upper triangle, zero below */
   void
   factorise(
     const int m, const int n, const double *A, double *Q, double *R_inverse);
 
-  /** out = factor A B', A m x k, B n x k. */
+  /** Computes out = factor A B' for matrices A (m x k) and B (n x k). */
   void
   multiply_transpose(const int     m,
                      const int     n,
@@ -26,7 +27,8 @@ namespace geocone::small_matrices
                      const double  factor,
                      double       *out);
 
-  /** out = factor B' C B, C m x m, symmetric, B m x n. */
+  /** Computes out = factor B' C B for a symmetric matrix C (m x m) and a matrix B (m x
+   *  n). */
   void
   congruence(const int     m,
              const int     n,
@@ -36,8 +38,9 @@ namespace geocone::small_matrices
              double       *out);
 
   /**
-   * Pseudo-inverse of A', m x n as A, and an orthonormal basis of the null space of A'.
-   * @param[out] null m x m, of which the columns are used that are returned
+   * Computes the pseudo-inverse of A' and an orthonormal basis of the null space of A'.
+   * The pseudo-inverse is m x n, like A.
+   * @param[out] null m x m matrix, whose first columns are the basis
    * @return number of columns of the basis
    */
   int

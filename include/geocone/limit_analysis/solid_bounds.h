@@ -13,9 +13,9 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Nodes of polynomials on tetrahedra in Bernstein's basis, whose coefficients span a hull
-   * of the polynomial: the vertices for the order 1; for the order 2 after them the six
-   * edges ij, with the functions l_i^2 and 2 l_i l_j.
+   * Nodes of polynomials in the Bernstein basis on tetrahedra. The coefficients span a
+   * convex hull of the polynomial. The nodes are the vertices for order 1; for order 2
+   * they are followed by the six edges ij, with the basis functions l_i^2 and 2 l_i l_j.
    */
   namespace simplex_nodes
   {
@@ -34,12 +34,13 @@ namespace geocone::GEOCONE_DIM
       return order == 1 ? 3 : 6;
     }
 
-    /** Node of the edge between two vertices of a cell, or of the vertex i = j. */
+    /** Returns the node of the edge between the vertices i and j of a cell. For i = j it
+     *  is the node of the vertex. */
     unsigned int
     node(const unsigned int i, const unsigned int j);
   } // namespace simplex_nodes
 
-  /** Nodes in a cell of the nodes of one of its facets.
+  /** Returns, for each node of a facet, the index of the same node in an adjacent cell.
    *  @param side 0 or 1: the facet's first or second cell */
   std::vector<unsigned int>
   nodes_in_cell(const Tetrahedra  &tetrahedra,
@@ -47,17 +48,20 @@ namespace geocone::GEOCONE_DIM
                 const unsigned int facet,
                 const unsigned int side);
 
-  /** Unit normal out of the first cell and two tangents of a facet. */
+  /** Returns the unit normal of a facet, outward from the first cell, and two unit
+   *  tangents. */
   std::array<dealii::Tensor<1, dim>, 3>
   axes_of_facet(const Tetrahedra &tetrahedra, const unsigned int facet);
 
-  /** The cell whose strength a jump on a facet has: of two materials that with the smaller
-   *  cohesion of the face, since the crack may be in either. */
+  /** Returns the cell whose strength limits a velocity jump on a facet. Between two
+   *  materials it is the cell with the smaller face cohesion, since the crack may be in
+   *  either. */
   unsigned int
   cell_of_jump(const SolidScene &bound, const unsigned int facet);
 
-  /** k at the points of a cell, or of a facet for its jumps, for which the sum over the
-   *  points bounds the dissipation of linear strength from above. */
+  /** Returns the strength at the points of a cell (or, for velocity jumps, of a facet).
+   *  With these values, the sum over the points bounds the dissipation of linearly
+   *  varying strength from above. */
   /** @{ */
   std::vector<double>
   strength_of_rates(const SolidScene  &bound,
@@ -69,37 +73,41 @@ namespace geocone::GEOCONE_DIM
                     const unsigned int facet);
   /** @} */
 
-  /** Integral of a traction, linear with these values at the vertices, times the function
-   *  of each node of a facet over its area. */
+  /** Returns the nodal forces per unit area due to a traction on a facet. For each node
+   *  of the facet, the force is the integral of the traction times the basis function,
+   *  divided by the area. The traction is linear, with the given values at the
+   *  vertices. */
   std::vector<dealii::Tensor<1, dim>>
   forces_of_traction(const unsigned int                           order,
                      const std::array<dealii::Tensor<1, dim>, 3> &traction);
 
   /**
-   * Upper bound: velocities of the order 1 or 2 that jump at all faces. Strain rates are
-   * linear in a cell and jumps are in the hull of their coefficients, so flow that is
-   * admissible at the points is so everywhere. The order 2 in cells that share their
-   * velocities would lock for phi = 0. Fixed boundaries are faces against a body that does
-   * not deform, and planes of symmetry may open where phi > 0: cracks in the soil just
-   * beside what holds it, without which no velocity would be inside the cones.
+   * Assembles the upper-bound problem with velocities of order 1 or 2 on tetrahedra,
+   * discontinuous at all faces. Strain rates are linear in a cell and jumps are in the
+   * hull of their coefficients, so flow that is admissible at the points is admissible
+   * everywhere. Continuous velocities of order 2 would lock for phi = 0. Fixed boundaries
+   * are treated as faces against a rigid body, and planes of symmetry may open where phi
+   * > 0: cracks in the soil directly beside the support, without which no velocity would
+   * be inside the cones.
    *
-   * Dofs: three of each node of each cell, then three of each fixed velocity.
+   * Dofs: three for each node of each cell, then three for each fixed velocity.
    */
   ConicProblem
   upper_problem(const SolidScene &bound, const unsigned int order);
 
   /**
-   * Lower bound: stresses of the order 1 or 2 that are discontinuous at all faces, in
-   * equilibrium in the cells and across faces; all coefficients are in the cone, and hence
-   * the stress. Velocities are their dual: u of the cell (of its vertices for the order 2)
-   * and w of the nodes of the facets.
+   * Assembles the lower-bound problem with stresses of order 1 or 2 on tetrahedra,
+   * discontinuous at all faces. Stresses are in equilibrium in the cells and across
+   * faces; all coefficients are in the cone, and hence the stress. Velocities are the
+   * dual variables: u of the cell (of its vertices for order 2) and w of the nodes of the
+   * facets.
    *
-   * Dofs: the u, then the w.
+   * Dofs: first u, then w.
    */
   ConicProblem
   lower_problem(const SolidScene &bound, const unsigned int order);
 
-  /** The points of a lower problem: coefficients of the stress of each cell. */
+  /** Location of the stress coefficients of a cell in the lower-bound problem. */
   struct StressPlace
   {
     unsigned int group, point; ///< of the coefficient 0; others follow

@@ -11,22 +11,24 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** A three-dimensional bound with its certificate: all values are recomputed from the
-   *  fields and the geometry, without the matrices of the solver. In units. */
+  /** Upper or lower bound in three dimensions with its certificate, in scaled units. All
+   *  values are recomputed from the fields and the geometry, without the matrices of the
+   *  solver. */
   struct SolidBound
   {
     double      load      = 0.;
     bool        certified = false;
     std::string rejection; ///< reason for rejection, if not certified
 
-    /** Largest violation of the strength, relative to the largest stress, or of admissible
-     *  flow, relative to the largest strain rate or jump. */
+    /** Largest violation of the yield condition or the flow rule. For a lower bound it is
+     *  the violation of the strength, relative to the largest stress; for an upper bound,
+     *  of admissible flow, relative to the largest strain rate or jump. */
     double violation = 0.;
 
-    /** Lower bound: largest error of div s + body force (times the size of the cell) and of
-     *  tractions across faces and on the boundary, relative to the largest stress. Upper
-     *  bound: largest change of volume and normal jump where phi = 0, relative to the
-     *  largest rate and jump. */
+    /** Remaining error of the certified field. Lower bound: largest error of div s + body
+     *  force (times the cell size) and of tractions across faces and on the boundary,
+     *  relative to the largest stress. Upper bound: largest volumetric strain rate and
+     *  normal jump where phi = 0, relative to the largest rate and jump. */
     double error = 0.;
 
     unsigned int factorisations = 0, n_unknowns = 0;
@@ -34,16 +36,17 @@ namespace geocone::GEOCONE_DIM
     std::string  reason; ///< why the method did not converge
     bool         grows = false;
 
-    /** Lower bound: stresses of the nodes of all cells. Upper bound: velocities of the
-     *  nodes of all cells. */
+    /** Certified stresses (lower bound) or velocities (upper bound) at the nodes of all
+     *  cells. */
     std::vector<Mandel>                 stress;
     std::vector<dealii::Tensor<1, dim>> velocity;
   };
 
   /**
-   * Certifies stresses: coefficients in the cone, with the rounding of eigenvalues on the
-   * safe side, and equilibrium to 1e-8. Where the strength is exceeded, all stresses are
-   * scaled if there is no dead load; otherwise the bound is rejected.
+   * Certifies a lower bound by checking its stresses. Coefficients must be in the cone,
+   * with the rounding of eigenvalues on the safe side, and equilibrium must hold to 1e-8.
+   * If the strength is exceeded, all stresses are scaled if there is no dead load;
+   * otherwise the bound is rejected.
    * @param stress of the nodes of all cells (simplex_nodes)
    */
   SolidBound
@@ -53,8 +56,9 @@ namespace geocone::GEOCONE_DIM
                 const double               lambda);
 
   /**
-   * Certifies velocities: rates and jumps at all points in the cones of flow, with rounding
-   * on the safe side; for phi = 0 volume and normal jumps vanish to 1e-8.
+   * Certifies an upper bound by checking its velocities. Strain rates and jumps at all
+   * points must be admissible for the flow rule, with rounding on the safe side. For phi
+   * = 0 volumetric strain rates and normal jumps must vanish to 1e-8.
    * @param velocity of the nodes of all cells
    */
   SolidBound
@@ -62,7 +66,7 @@ namespace geocone::GEOCONE_DIM
                 const unsigned int                         order,
                 const std::vector<dealii::Tensor<1, dim>> &velocity);
 
-  /** Solves the problem of one side on a mesh and certifies the result.
+  /** Solves the upper-bound (lower-bound) problem on a mesh and certifies the result.
    *  @param order of velocities or stresses
    *  @param tolerance of the interior-point method, relative to the load */
   /** @{ */

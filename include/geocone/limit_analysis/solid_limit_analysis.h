@@ -14,9 +14,9 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Limit analysis of a three-dimensional rigid-plastic scene with associated flow: strict
-   * bounds of the limit load on tetrahedra. Each mesh is a step of the run; the cells of
-   * the next one are smaller everywhere.
+   * Limit analysis of a three-dimensional rigid-plastic scene with associated flow.
+   * Strict bounds of the limit load are computed on tetrahedral meshes. Each mesh is a
+   * step of the run; the cells of the next one are smaller everywhere.
    */
   class SolidLimitAnalysis : public BoundAnalysis
   {
@@ -25,7 +25,7 @@ namespace geocone::GEOCONE_DIM
                        const ParameterFile &file,
                        Log                 &log);
 
-    /** Whether loads are bounded instead of steps taken. */
+    /** Returns true if the scene is analysed by strict bounds instead of time steps. */
     bool
     is_chosen() const
     {

@@ -15,15 +15,15 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Strength of a material of three-dimensional bounds, in units. */
+  /** Strength of a material in three-dimensional limit analysis, in scaled units. */
   struct SolidStrength
   {
-    /** Whether it is the circular cone |s_t| <= a s_n + k, instead of Mohr-Coulomb's
-     *  (1 + a) s_1 - (1 - a) s_3 <= k. */
+    /** True for the circular cone |s_t| <= a s_n + k, false for Mohr-Coulomb's yield
+     *  condition (1 + a) s_1 - (1 - a) s_3 <= k. */
     bool   is_circular = false;
     double a = 0., k = 0.;
 
-    /** Growth of k with depth (in units, per m). */
+    /** Increase of the strength k with depth (in scaled units, per m). */
     Material::Growth growth;
 
     double
@@ -32,15 +32,16 @@ namespace geocone::GEOCONE_DIM
       return k + growth.at(x[1]);
     }
 
-    /** Coulomb's |s_t| <= c - mu s_n of a face on which velocities jump, whose
-     *  dissipation is that of the material (doc/theory/limit_analysis.md). */
+    /** Returns the friction coefficient mu (ratio of cohesion c to k) of a face with a
+     *  velocity jump. The strength |s_t| <= c - mu s_n of the face has the dissipation of
+     *  the material (doc/theory/limit_analysis.md). */
     double
     face_friction() const;
     double
     face_cohesion_per_k() const;
   };
 
-  /** Velocity prescribed on a boundary facet, in units. */
+  /** Velocity prescribed on a boundary facet, in scaled units. */
   struct HeldFacet
   {
     enum class Kind
@@ -54,7 +55,7 @@ namespace geocone::GEOCONE_DIM
     unsigned int           axis = 0; ///< of the normal, for a plane
   };
 
-  /** Input of three-dimensional bounds: the scene, its tetrahedra, the load and the
+  /** Input of a three-dimensional limit analysis on a mesh: scene, tetrahedra, loads and
    *  strengths. */
   class SolidScene
   {
@@ -66,8 +67,8 @@ namespace geocone::GEOCONE_DIM
     std::vector<SolidStrength> strengths; ///< of the materials
     std::vector<HeldFacet>     held;      ///< of the facets
 
-    /** Body force of a cell, and traction at the vertices of a facet, in units: those that
-     *  are constant and those multiplied by the load factor. */
+    /** Body force of a cell or traction at a vertex of a facet, in scaled units. The dead
+     *  part is constant; the live part is multiplied by the load factor. */
     struct Load
     {
       dealii::Tensor<1, dim> dead, live;
@@ -80,25 +81,29 @@ namespace geocone::GEOCONE_DIM
       return traction_of_facet[facet];
     }
 
-    /** k at the vertices of a cell. */
+    /** Returns the strength k at the vertices of a cell. */
     std::array<double, 4>
     strength_at_vertices(const unsigned int cell) const;
 
     std::vector<std::array<Load, 3>> traction_of_facet;
   };
 
-  /** The load that three-dimensional bounds are of: its choice, and the units. */
+  /** Load bounded by a three-dimensional limit analysis, with the strengths and the
+   *  scaled units. */
   class SolidLoad : public LoadChoice
   {
   public:
     /**
-     * @param scene prepared
-     * @throws InputError where strict bounds are not possible
+     * Selects the loads multiplied by the load factor, and the scaled units of the
+     * analysis.
+     * @param scene prepared scene
+     * @param tetrahedra of the first mesh
+     * @throws InputError if strict bounds cannot be computed
      */
     void
     prepare(const Scene &scene, const Tetrahedra &tetrahedra);
 
-    /** Input of the bounds on a mesh. */
+    /** Returns the input of a limit analysis on a mesh. */
     SolidScene
     on(const Scene &scene, const Tetrahedra &tetrahedra) const;
 
@@ -107,7 +112,7 @@ namespace geocone::GEOCONE_DIM
     take_strengths(const Scene &scene);
     std::vector<HeldFacet>
     held_facets(const Scene &scene, const Tetrahedra &tetrahedra) const;
-    /** Prescribed non-zero velocity of the body, if any.
+    /** Returns the prescribed non-zero velocity of the body, or no value.
      *  @throws InputError for several different velocities */
     static std::optional<dealii::Tensor<1, dim>>
     prescribed_velocity(const std::vector<HeldFacet> &held);

@@ -14,11 +14,11 @@
 namespace geocone
 {
   /**
-   * Strength of a point as a symmetric cone: a stress s is admissible if some y = (s, own
-   * variables) has
+   * Strength of a point, expressed by a symmetric cone. A stress s is admissible if there
+   * are variables y = (s, internal variables) for which
    *   X = k o - A y in the cone.
-   * Flow is A'Z = (e, 0) with Z in the cone and dissipates k o.Z. All matrices are those of
-   * k = 1, which scales with o alone.
+   * The flow rule is A'Z = (e, 0) with Z in the cone; the dissipation is k o.Z. All
+   * matrices are given for k = 1; k multiplies o only.
    */
   template <typename ConeOfLaw, int n_rows, int n_own>
   struct StrengthLaw
@@ -34,7 +34,8 @@ namespace geocone
     Eigen::Matrix<double, size, columns> A;
     X                                    o = X::Zero();
 
-    /** Unit vector of y that X does not depend on, or zero. */
+    /** Unit vector in the null space of A; zero if A has full column rank. X does not
+     *  depend on this component of y. */
     Y free = Y::Zero();
 
     Y start  = Y::Zero(); ///< y with X inside the cone
@@ -44,7 +45,7 @@ namespace geocone
     /** @{ */
     Eigen::Matrix<double, size, columns> pseudo_inverse; ///< of A'
 
-    /** Orthonormal basis of the null space of A', of n_null columns. */
+    /** Orthonormal basis of the null space of A', with n_null columns. */
     Eigen::Matrix<double, size, size> null;
     int                               n_null = 0;
     /** @} */
@@ -57,16 +58,18 @@ namespace geocone
     }
   };
 
-  /** Ratio of X at the start to k: the more friction, the farther from the apex. */
+  /** Returns the ratio of the cone variable X to the strength k at the initial guess.
+   *  With increasing friction, the initial guess is farther from the apex. */
   inline double
   start_of_friction(const double a)
   {
     return std::pow((1. + a) / (1. - a), 2);
   }
 
-  /** Mohr-Coulomb's law (1 + S) s_1 - (1 - S) s_3 <= k, k = 2 c cos(phi), S = sin(phi), as
-   *  two semidefinite matrices, (k + t) I - (1 + S) s and (1 - S) s - t I; Tresca's for S =
-   *  0. Stresses are Mandel vectors, tension positive. */
+  /** Mohr-Coulomb strength (1 + S) s_1 - (1 - S) s_3 <= k, expressed by two semidefinite
+   *  matrices. The matrices are (k + t) I - (1 + S) s and (1 - S) s - t I, with k = 2 c
+   *  cos(phi) and S = sin(phi); for S = 0 the strength is Tresca's. Stresses are Mandel
+   *  vectors, tension positive. */
   using MohrCoulombCones =
     StrengthLaw<ProductCone<SemidefiniteCone, SemidefiniteCone>, 6, 1>;
 
@@ -99,8 +102,8 @@ namespace geocone
     return law;
   }
 
-  /** The circular cone |s_t| <= a s_n + k about n = -(1, 1, 0, 1, 0, 0)/sqrt3; von Mises'
-   *  law for a = 0. */
+  /** Circular yield cone |s_t| <= a s_n + k (Drucker-Prager; von Mises for a = 0). The
+   *  axis is n = -(1, 1, 0, 1, 0, 0)/sqrt3. */
   using CircularCone = StrengthLaw<SecondOrderCone<6>, 6, 0>;
 
   inline CircularCone
@@ -131,7 +134,8 @@ namespace geocone
     return law;
   }
 
-  /** A face on which velocities jump: |s_t| <= k - mu s_n, s = (s_n, s_t1, s_t2). */
+  /** Strength |s_t| <= k - mu s_n of a face with a velocity jump, with the traction s =
+   *  (s_n, s_t1, s_t2). */
   using FaceCone = StrengthLaw<SecondOrderCone<3>, 3, 0>;
 
   inline FaceCone
@@ -154,7 +158,7 @@ namespace geocone
     return law;
   }
 
-  /** A plane of symmetry beside which soil may open: s_n <= k. */
+  /** Tensile strength s_n <= k of a plane of symmetry at which the soil may separate. */
   using OpeningCone = StrengthLaw<SecondOrderCone<1>, 1, 0>;
 
   inline OpeningCone

@@ -13,36 +13,38 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Strict bounds of the factor of safety F of a body, by which c and tan(phi) of all
-   * materials must be divided to reach the limit state. Let lambda^-(F) and lambda^+(F)
+   * Strict bounds of the factor of safety F of a body. F is the divisor of c and tan(phi)
+   * of all materials at which the limit state is reached. Let lambda^-(F) and lambda^+(F)
    * be the bounds of the factor of all loads. F is safe if lambda^- >= 1: the zero stress
    * and the stresses in equilibrium with lambda^- times the loads are both admissible,
    * and so are their convex combinations, one of which carries the loads. The body fails
-   * for F if lambda^+ <= 1. Both are certificates that need no convergence.
+   * for F if lambda^+ <= 1. Both are certificates that do not require convergence.
    *
-   * On each mesh the roots of both bounds are found by secants of log lambda over log
-   * F, and each is confirmed by one more solution a thousandth on the safe side.
+   * On each mesh the roots of both bounds are found by the secant method for log lambda
+   * over log F, and each is confirmed by one more solution a thousandth on the safe side.
    */
   class StrengthReduction
   {
   public:
-    /** Returns the input of the limit analysis on the current mesh, with the strength
-     *  divided by F. */
+    /** Function that returns the input of the limit analysis on the current mesh for
+     *  strength divided by F. */
     using Reduced = std::function<BoundScene(const double F)>;
 
     struct Level
     {
-      /** Last factor F solved for, and both bounds of the load factor for this F. */
+      /** Last strength reduction factor F for which problems were solved, with the bounds
+       *  of the load factor. */
       double          factor = 1.;
       CertifiedBounds bounds;
 
-      /** Bounds of the factor of safety certified on this mesh, if any. */
+      /** Certified bounds of the factor of safety on the mesh. No value if a bound is not
+       *  certified. */
       std::optional<double> lower, upper;
 
-      /** Solutions that certify the bounds of the factor of safety. */
+      /** Solutions by which the bounds of the factor of safety are certified. */
       CertifiedBounds::Side lower_proof, upper_proof;
 
-      /** Number of factorisations on the mesh, for the lower-bound and the upper-bound
+      /** Number of matrix factorisations on the mesh for the lower-bound (upper-bound)
        *  problems. */
       unsigned int iterations_lower = 0, iterations_upper = 0;
     };
@@ -60,8 +62,8 @@ namespace geocone::GEOCONE_DIM
     }
 
   private:
-    /** Certifies bounds of the factor of safety near the root of each certified positive
-     *  bound of the load factor. */
+    /** Certifies the bounds of the factor of safety. Problems are solved near the root of
+     *  each certified positive bound of the load factor. */
     void
     prove_root(const Reduced &reduced,
                const double   tolerance,

@@ -12,12 +12,12 @@
 #include <cmath>
 
 /**
- * Symmetric cones for interior-point methods; all classes have the same members:
- *   size, degree  numbers of components and of eigenvalues that the product sums up,
- *   unit()        identity of the Jordan product, unit.unit = degree
+ * Symmetric cones for interior-point methods. All classes have the same members:
+ *   size, degree  number of components, and of eigenvalues summed by the scalar product,
+ *   unit()        identity of the Jordan product, unit.unit = degree,
  *   raised(x, e)  x with eigenvalues of at least e,
- *   product(u, v) Jordan product; unit.product(u, v) = u.v
- *   Scaling(x, z) Nesterov-Todd's, of x and z inside the cone: lambda = W z = W^-T x,
+ *   product(u, v) Jordan product; unit.product(u, v) = u.v,
+ *   Scaling(x, z) Nesterov-Todd scaling of x and z inside the cone: lambda = W z = W^-T x,
  *                 x_hat(d) = W^-T d, z_hat(d) = W d, z_of(d) = W^-1 d,
  *                 divide(d): the y with product(lambda, y) = d,
  *                 step(d): the largest step with lambda + step d in the cone, at most
@@ -25,7 +25,7 @@
  */
 namespace geocone
 {
-  /** Second-order cone {|x_t| <= x_0} with N components; the half-line for N = 1. */
+  /** Second-order cone {|x_t| <= x_0} in N dimensions. For N = 1 it is the half-line. */
   template <int N>
   struct SecondOrderCone
   {
@@ -92,8 +92,8 @@ namespace geocone
     };
   };
 
-  /** Cone of positive semidefinite 3 x 3 matrices, stored as Mandel vectors in the
-   *  order of base/types.h. */
+  /** Cone of positive semidefinite 3 x 3 matrices. Matrices are stored as Mandel vectors
+   *  in the order of base/types.h. */
   struct SemidefiniteCone
   {
     static constexpr int size = 6, degree = 3;
@@ -110,7 +110,7 @@ namespace geocone
       return m;
     }
 
-    /** Mandel vector of the symmetric part of a matrix. */
+    /** Returns the Mandel vector of the symmetric part of a matrix. */
     static V
     vector(const M &m)
     {
@@ -138,10 +138,10 @@ namespace geocone
     }
 
     /**
-     * Nesterov-Todd scaling by a matrix R with R^-1 X R^-T = R' Z R = diag(l). For
-     * X = L_1 L_1', Z = L_2 L_2' and the singular value decomposition
-     * L_2' L_1 = U diag(l) V', R = L_1 V diag(l)^-1/2, and R^-1 = diag(l)^-1/2 U' L_2'
-     * requires no inversion.
+     * Nesterov-Todd scaling of two positive definite matrices X and Z by a matrix R. It
+     * satisfies R^-1 X R^-T = R' Z R = diag(l). For X = L_1 L_1', Z = L_2 L_2' and the
+     * singular value decomposition L_2' L_1 = U diag(l) V', R = L_1 V diag(l)^-1/2, and
+     * R^-1 = diag(l)^-1/2 U' L_2' requires no inversion.
      */
     struct Scaling
     {
