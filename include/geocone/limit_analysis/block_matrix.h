@@ -67,9 +67,9 @@ namespace geocone
     unsigned int n_factorisations = 0;
 
   private:
-    std::vector<int>            row_of_dof;  ///< or -1
-    std::vector<int>            place;       ///< of each entry, or -1
-    std::vector<std::size_t>    first_place; ///< of each set
+    std::vector<int>            row_of_dof;  ///< -1 for a prescribed dof
+    std::vector<int>            place;       ///< of matrix entries; or -1
+    std::vector<std::size_t>    first_place; ///< first place of each set
     Eigen::SparseMatrix<double> matrix;      ///< lower triangle
 
     /** Sets the sparsity pattern for the current order of the rows. */

@@ -78,11 +78,11 @@ namespace geocone::GEOCONE_DIM
      *  cost. */
     struct Side
     {
-      double             load; ///< in units of a problem
+      double             load; ///< bound of the load, in scaled units
       bool               certified;
       const std::string &rejection; ///< reason for rejection, if not certified
       bool               converged;
-      const std::string &reason; ///< why it did not converge
+      const std::string &reason; ///< cause of non-convergence
       unsigned int       factorisations, n_unknowns;
       double             violation, error;
     };

@@ -84,7 +84,7 @@ namespace geocone::GEOCONE_DIM
     std::vector<unsigned int> cut;               ///< triangles with a cut-off
     unsigned int              first_cut_dof = 0; ///< nine dofs per cut-off
 
-    std::vector<bool> is_prescribed; ///< prescribed dofs
+    std::vector<bool> is_prescribed; ///< true for prescribed dofs
     std::vector<bool> has_no_force;  ///< prescribed dofs without stresses
     Eigen::VectorXd   prescribed;    ///< prescribed velocities; 0 elsewhere
     Eigen::VectorXd   dead, live;    ///< F0 and f; f = 0: no load factor

@@ -23,8 +23,8 @@ namespace geocone
   {
     std::vector<std::unique_ptr<PointGroup>> groups;
 
-    std::vector<bool> is_prescribed; ///< by dof
-    Eigen::VectorXd   prescribed;    ///< prescribed values, else 0
+    std::vector<bool> is_prescribed; ///< true for prescribed dofs
+    Eigen::VectorXd   prescribed;    ///< prescribed velocities; 0 elsewhere
     Eigen::VectorXd   dead, live;    ///< F0 and f by dof
 
     unsigned int
@@ -45,9 +45,9 @@ namespace geocone
 
   struct ConicOptions
   {
-    double       tolerance      = 1e-3; ///< inner gap, relative to the load
+    double       tolerance      = 1e-3; ///< duality gap, relative to the load
     double       flow_tolerance = 1e-8; ///< relative to |B q|
-    double       equilibrium_tolerance = 1e-7; ///< relative to the forces
+    double       equilibrium_tolerance = 1e-7; ///< residual / forces
     double       flow_margin    = 0.; ///< of rates in their cones, likewise
     unsigned int max_iterations = 80;
   };
@@ -55,11 +55,11 @@ namespace geocone
   struct ConicSolution
   {
     Eigen::VectorXd q;                   ///< velocities of all dofs
-    double          load           = 0.; ///< from the stresses
+    double          load           = 0.; ///< lambda, by stresses
     unsigned int    factorisations = 0;
     bool            converged      = false;
-    std::string     reason;        ///< why it did not converge
-    bool            grows = false; ///< stresses are unbounded: no limit load
+    std::string     reason;        ///< cause of non-convergence
+    bool            grows = false; ///< unbounded stresses: no limit load
   };
 
   /**

@@ -16,7 +16,7 @@ namespace geocone::GEOCONE_DIM
   /** Point on an edge at which the relative velocity of an interface is evaluated. */
   struct InterfacePoint
   {
-    double part = 0.; ///< share of the edge's length
+    double part = 0.; ///< fraction of the edge length
 
     /** Dofs of the x components at the nodes of the edge, with the weight of each node in
      *  the velocity at the point. */

@@ -161,12 +161,12 @@ namespace geocone::GEOCONE_DIM
        {"strength reduction", AnalysisKind::strength_reduction},
        {"seepage", AnalysisKind::seepage}}};
 
-    std::optional<CellSizes> sizes; ///< of the next mesh
+    std::optional<CellSizes> sizes; ///< cell sizes of the next mesh
 
     /** Domain of a mesh from a file, if other meshes of this domain can be generated. */
     std::optional<DomainOfTriangles> file_domain;
 
-    double asked_cells = 0.;        ///< requested of it, or 0 for the first one
+    double asked_cells = 0.; ///< requested; 0 for the first mesh
 
     std::vector<std::array<double, 2>> davis; ///< estimates_by_davis()
 

@@ -21,9 +21,9 @@ namespace geocone::GEOCONE_DIM
   /** Units of a limit analysis, chosen so that all variables are of order one. */
   struct BoundUnits
   {
-    double length   = 1.; ///< (m)
-    double stress   = 1.; ///< (Pa)
-    double velocity = 1.; ///< (m/s)
+    double length   = 1.; ///< unit of length (m)
+    double stress   = 1.; ///< unit of stress (Pa)
+    double velocity = 1.; ///< unit of velocity (m/s)
   };
 } // namespace geocone::GEOCONE_DIM
 

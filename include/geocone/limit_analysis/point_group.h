@@ -27,7 +27,7 @@ namespace geocone
   public:
     virtual ~PointGroup() = default;
 
-    std::vector<double>       volume; ///< V of each point
+    std::vector<double>       volume; ///< weight V of each point
     std::vector<unsigned int> dofs;   ///< order: points, columns
 
     unsigned int

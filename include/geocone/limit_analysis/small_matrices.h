@@ -8,7 +8,7 @@
  *  functions are compiled once for all strength laws. */
 namespace geocone::small_matrices
 {
-  constexpr int most = 16; ///< rows and columns
+  constexpr int most = 16; ///< maximum number of rows or columns
 
   /** Computes the QR factorisation A = Q R of an m x n matrix, m >= n, by Householder
    *  reflections.

@@ -33,7 +33,7 @@ namespace geocone::GEOCONE_DIM
 
     unsigned int factorisations = 0, n_unknowns = 0;
     bool         converged = false;
-    std::string  reason; ///< why the method did not converge
+    std::string  reason; ///< cause of non-convergence
     bool         grows = false;
 
     /** Certified stresses (lower bound) or velocities (upper bound) at the nodes of all

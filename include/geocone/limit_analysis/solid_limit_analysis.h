@@ -87,10 +87,10 @@ namespace geocone::GEOCONE_DIM
     Choice<Order> stresses = {
       {{"linear", Order::linear}, {"quadratic", Order::quadratic}}};
 
-    double refinement = 1.; ///< factor of the cell sizes, of the next mesh
-    double refined    = 1.; ///< of the parameters at present
+    double refinement = 1.; ///< factor of the cell sizes for the next mesh
+    double refined    = 1.; ///< current factor of the cell size parameters
     std::optional<Tetrahedra> tetrahedra;
-    SolidBound                upper, lower; ///< of the last mesh
+    SolidBound                upper, lower; ///< bounds on the last mesh
   };
 } // namespace geocone::GEOCONE_DIM
 

@@ -47,12 +47,12 @@ namespace geocone::GEOCONE_DIM
     enum class Kind
     {
       free,
-      fixed, ///< all components
-      plane  ///< the normal component alone
+      fixed, ///< all velocity components prescribed
+      plane  ///< only the normal component prescribed
     };
     Kind                   kind = Kind::free;
     dealii::Tensor<1, dim> velocity;
-    unsigned int           axis = 0; ///< of the normal, for a plane
+    unsigned int           axis = 0; ///< axis of the normal, for Kind::plane
   };
 
   /** Input of a three-dimensional limit analysis on a mesh: scene, tetrahedra, loads and
@@ -64,8 +64,8 @@ namespace geocone::GEOCONE_DIM
     const Tetrahedra          *tetrahedra = nullptr;
     LoadFactor                 factor     = LoadFactor::automatic;
     BoundUnits                 units;
-    std::vector<SolidStrength> strengths; ///< of the materials
-    std::vector<HeldFacet>     held;      ///< of the facets
+    std::vector<SolidStrength> strengths; ///< strength of each material
+    std::vector<HeldFacet>     held;      ///< prescribed velocity of each facet
 
     /** Body force of a cell or traction at a vertex of a facet, in scaled units. The dead
      *  part is constant; the live part is multiplied by the load factor. */
@@ -119,7 +119,7 @@ namespace geocone::GEOCONE_DIM
     void
     choose_units(const Scene &scene, const Tetrahedra &tetrahedra);
 
-    std::vector<SolidStrength> strengths; ///< (Pa)
+    std::vector<SolidStrength> strengths; ///< strength of each material (Pa)
   };
 } // namespace geocone::GEOCONE_DIM
 

@@ -39,7 +39,7 @@ namespace geocone
     Y free = Y::Zero();
 
     Y start  = Y::Zero(); ///< y with X inside the cone
-    S inside = S::Zero(); ///< rate inside the cone of flow, or zero
+    S inside = S::Zero(); ///< strain rate inside the flow cone, or zero
 
     /** @name Derived by finish() */
     /** @{ */

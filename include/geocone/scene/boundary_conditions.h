@@ -118,7 +118,7 @@ namespace geocone::GEOCONE_DIM
     std::vector<std::string> sides;
 
   private:
-    std::vector<std::string>        sides_given; ///< before groups are replaced
+    std::vector<std::string>        sides_given; ///< before holes are replaced
     std::vector<dealii::Point<dim>> box;
     std::string                     where_text;
     std::optional<Expression>       where;

@@ -135,8 +135,8 @@ namespace geocone::GEOCONE_DIM
     /** Symmetry of a plane problem: plane strain or axisymmetry. */
     enum class Symmetry
     {
-      plane_strain, ///< a body of unit thickness that does not move along z
-      axisymmetric  ///< axisymmetric about x = 0, without torsion
+      plane_strain, ///< unit thickness, no displacement along z
+      axisymmetric  ///< symmetric about x = 0, no torsion
     };
 
     explicit Geometry(const ParameterFile &file);

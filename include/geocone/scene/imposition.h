@@ -22,8 +22,8 @@ namespace geocone
     enum class On
     {
       nodes,     ///< nodes on sides of the background mesh
-      particles, ///< first row of particles below a side of the body
-      side       ///< a side of the body, which moves as prescribed
+      particles, ///< first particle row below a side
+      side       ///< side of the body, moved as prescribed
     };
 
     /** Particle with a prescribed velocity. */
@@ -49,7 +49,7 @@ namespace geocone
     const char *word;
     On          on;
     Share (*share)(const PrescribedParticle &); ///< constraint of a particle
-    bool single;                  ///< each particle has the prescribed velocity
+    bool single; ///< one constraint for each particle
     /** If true, constraints prescribe the particle velocity at the end of the
      *  step instead of the grid velocity N v. With FLIP the particle velocity
      *  is v_p + N (v - v^L), equations (66) to (69) of Guillet et al.

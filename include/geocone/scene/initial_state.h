@@ -142,7 +142,7 @@ namespace geocone::GEOCONE_DIM
 
     std::array<std::string, n_mandel> texts;
     std::array<Expression, n_mandel>  components;
-    std::string                       text_zz; ///< formula of s_zz (plane)
+    std::string                       text_zz; ///< formula of s_zz
     Expression                        component_zz;
     std::string                       k0_text = "0.5";
     std::optional<double>             k0; ///< no value: K0 of each material

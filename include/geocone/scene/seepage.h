@@ -71,9 +71,9 @@ namespace geocone::GEOCONE_DIM
      *  flow. */
     struct Step
     {
-      Levels levels;        ///< at the end of the step
+      Levels levels;        ///< water levels at the end of the step
       double duration = 0.; ///< size of the step (s); 0: steady flow
-      double time     = 0.; ///< at the end of the step (s)
+      double time     = 0.; ///< time at the end of the step (s)
     };
 
     /** Initial water levels. */

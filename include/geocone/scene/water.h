@@ -83,7 +83,7 @@ namespace geocone::GEOCONE_DIM
     struct Flow
     {
       TriangleField                                  pressure; ///< (Pa)
-      std::vector<std::array<dealii::Point<dim>, 2>> surface;  ///< segments
+      std::vector<std::array<dealii::Point<dim>, 2>> surface;  ///< free surface
     };
 
     /** Stores the solutions of the flow problems listed by flow_steps().
@@ -145,7 +145,7 @@ namespace geocone::GEOCONE_DIM
     refuse(const std::string &what, const std::string &remedy) const;
 
   private:
-    using Table = std::vector<dealii::Point<2>>; ///< x, y
+    using Table = std::vector<dealii::Point<2>>; ///< vertices
 
     /** Checks that the x coordinates of a piezometric line increase. @throws
      *  InputError */
@@ -168,13 +168,13 @@ namespace geocone::GEOCONE_DIM
     std::optional<PressureGrid> grid;
     Table                       table;
     std::vector<Flow>           all_flows;
-    std::vector<double>         initial_parts; ///< initial weights
+    std::vector<double>         initial_parts; ///< parts() at the initial time
 
     /** Piezometric line at the end of a stage, or flow problem during the
      *  stage. */
     struct Later
     {
-      double        begin, end; ///< (s)
+      double        begin, end; ///< begin and end of the stage (s)
       Table         table;
       Seepage::Step flow;
     };

@@ -59,11 +59,11 @@ namespace geocone::GEOCONE_DIM
     }
 
     dealii::Tensor<1, dim> normal;   ///< outward unit normal
-    double                 size;     ///< length (m), or area (m^2)
+    double                 size;     ///< length (m) or area (m^2)
     double                 diameter; ///< largest distance between corners (m)
 
   private:
-    dealii::Point<dim>     origin; ///< the first corner
+    dealii::Point<dim>     origin; ///< first corner of the face
     dealii::Tensor<1, dim> axes[dim - 1];
   };
 } // namespace geocone::GEOCONE_DIM

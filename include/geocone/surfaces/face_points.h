@@ -18,7 +18,7 @@ namespace geocone::GEOCONE_DIM
   struct FacePoint
   {
     dealii::Point<dim>        position;
-    dealii::Tensor<1, dim>    normal; ///< outward from the cell
+    dealii::Tensor<1, dim>    normal; ///< outward normal of the cell
     double                    weight; ///< JxW times measure() (m, m^2)
     std::vector<unsigned int> nodes;  ///< local nodes of the cell
     std::vector<double>       values; ///< shape functions N, by node

@@ -58,7 +58,7 @@ namespace geocone::GEOCONE_DIM
     struct Part
     {
       std::array<unsigned int, dim> corners;
-      double                        size; ///< initial size (m, m^2)
+      double                        size; ///< initial length (m) or area (m^2)
     };
     std::vector<Part>               parts;
     std::vector<dealii::Point<dim>> places; ///< positions of the corners

@@ -46,12 +46,12 @@ namespace geocone::GEOCONE_DIM
   private:
     struct Side
     {
-      dealii::Tensor<1, dim> normal; ///< outward
+      dealii::Tensor<1, dim> normal; ///< outward normal
       double                 integral;
     };
 
     const Space                   &space;
-    std::vector<std::vector<Side>> sides; ///< by local node
+    std::vector<std::vector<Side>> sides; ///< faces of each local node
   };
 } // namespace geocone::GEOCONE_DIM
 

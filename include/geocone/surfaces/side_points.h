@@ -18,9 +18,9 @@ namespace geocone::GEOCONE_DIM
   struct BoundaryPoint
   {
     dealii::Point<dim> position;
-    double             weight; ///< fraction of the line or triangle
+    double             weight; ///< fraction of the facet
     std::vector<dealii::types::global_dof_index> nodes;
-    std::vector<double>                          values; ///< N, per node
+    std::vector<double>                          values; ///< N, by node
   };
 
   /**

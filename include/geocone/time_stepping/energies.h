@@ -48,7 +48,7 @@ namespace geocone
   struct Works
   {
     double external    = 0.; ///< work done by loads and supports
-    double dissipation = 0.; ///< plastic, sum V s'(-z) >= 0
+    double dissipation = 0.; ///< plastic work, sum V s'(-z) >= 0
     /** Excess plastic work due to friction with memory or lagged friction. It
      *  is caused by the difference between the exact and the regularised
      *  strength: sum V |z_t| ||s_t| - a s_n - k|. */

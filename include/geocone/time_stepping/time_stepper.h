@@ -34,7 +34,7 @@ namespace geocone::GEOCONE_DIM
     unsigned int points_behind   = 0;  ///< see MovingConditions::n_behind()
     unsigned int points_returned =
       0; ///< see MovingConditions::return_to_boundary()
-    double       returned_by     = 0.; ///< largest distance of a return (m)
+    double       returned_by     = 0.; ///< largest distance (m)
     double       light_share     = 0.; ///< see Multipliers::light_share()
 
     /** Largest coordinates of all points at the end of the step (m). */

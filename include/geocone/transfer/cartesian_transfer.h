@@ -156,7 +156,7 @@ namespace geocone::GEOCONE_DIM
     const TransferKernels &kernels;
 
     const BoundaryConditions &conditions;
-    std::vector<bool>         acts; ///< whether the condition acts
+    std::vector<bool>         acts; ///< true for active conditions
 
     /** Prescribed velocity components of each basis function, with the index of
      *  the boundary condition. Basis functions of the whole grid are indexed by

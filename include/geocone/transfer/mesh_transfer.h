@@ -179,7 +179,7 @@ namespace geocone::GEOCONE_DIM
     const unsigned int n; ///< nodes per cell
     const CellSearch   search;
 
-    std::string stage; ///< stage whose boundary conditions act
+    std::string stage; ///< stage of the active conditions
 
     std::vector<unsigned int> cell_nodes; ///< n nodes per active cell
     std::vector<Functions>    functions;  ///< per group of points

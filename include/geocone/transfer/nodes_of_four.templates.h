@@ -74,7 +74,7 @@ namespace geocone::GEOCONE_DIM
   struct NodesOfFour
   {
     int             first[4];       ///< index of the lowest stored node
-    int             lowest[dim][4]; ///< lowest function, per direction
+    int             lowest[dim][4]; ///< lowest basis function
     ValuesAtFour<p> N, dN;
 
     NodesOfFour(const PackedGrid<P, p> &grid,

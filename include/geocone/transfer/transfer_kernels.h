@@ -18,10 +18,10 @@ namespace geocone::GEOCONE_DIM
    */
   struct GridAxis
   {
-    double               origin       = 0.; ///< (m)
+    double               origin       = 0.; ///< first coordinate (m)
     double               inverse_size = 1.; ///< 1/h (1/m)
     int                  n_intervals  = 0;
-    int                  first        = 0; ///< lowest stored function
+    int                  first        = 0; ///< first stored basis function
     const unsigned char *type         = nullptr;
     const double        *coefficients = nullptr;
     const double        *places = nullptr; ///< Greville abscissae (m), APIC
@@ -106,7 +106,7 @@ namespace geocone::GEOCONE_DIM
     double wave_speed2  = 0.; ///< largest M V/m ((m/s)^2)
     double speed2       = 0.; ///< largest v^2 ((m/s)^2)
     double strain       = 0.; ///< largest |dt dv_i/dx_j|
-    double least_volume = 1.; ///< least det(I + dt grad v)
+    double least_volume = 1.; ///< smallest det(I + dt grad v)
     /** Bounding box of the point positions (m). The first dim entries are
      *  used. */
     double lower[3] = {1e300, 1e300, 1e300};
