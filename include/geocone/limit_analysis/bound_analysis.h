@@ -128,7 +128,7 @@ namespace geocone::GEOCONE_DIM
     kind_word() const = 0;
     virtual const LoadChoice &
     load_choice() const = 0;
-    /** Checks or computes water pressures. Called after the materials and before the
+    /** Checks or computes pore water pressures. Called after the materials and before the
      *  loads are prepared. */
     virtual void
     prepare_water(const RunOptions &options) = 0;
@@ -138,7 +138,7 @@ namespace geocone::GEOCONE_DIM
     /** Returns the bracket of the load that is certified so far. */
     virtual LoadBracket
     bracket() const = 0;
-    /** Returns the topics of summary.json that are placed between size and cost. */
+    /** Returns the topics of summary.json that describe the results. */
     virtual Json
     results() const;
     /** Returns the name of the bounded quantity, for messages. */

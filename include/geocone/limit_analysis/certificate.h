@@ -35,10 +35,10 @@ namespace geocone::GEOCONE_DIM
      *  largest volumetric strain rate of cylinders, relative to the largest rate. */
     double error = 0.;
 
-    /** Certified stresses or velocities. For a lower bound: scaled stresses at the points
-     *  in cone axes. For an upper bound: repaired velocities of all dofs. The velocities
-     *  of a lower bound are dual variables, which show the failure mechanism but are not
-     *  certified. */
+    /** Certified stresses (lower bound) or velocities (upper bound). For a lower bound:
+     *  scaled stresses at the points in cone axes. For an upper bound: repaired
+     *  velocities of all dofs. The velocities of a lower bound are dual variables, which
+     *  show the failure mechanism but are not certified. */
     std::vector<Eigen::Vector3d> s;
     Eigen::VectorXd              q;
   };

@@ -40,8 +40,8 @@ namespace geocone::GEOCONE_DIM
      */
     std::vector<double> uneven;
 
-    /** Sum of the contributions of all triangles divided by the gap. It is 1 if both
-     *  fields are exact. */
+    /** Sum of the contributions of all triangles to the gap, divided by the gap. It is 1
+     *  if both fields are exact. */
     double gap_share = 0.;
   };
 

@@ -73,8 +73,9 @@ namespace geocone
   ConicSolution
   solve(ConicProblem &problem, const ConicOptions &options);
 
-  /** Projects velocities onto the subspace in which all constrained rates vanish, in the
-   *  metric of B'B. For phi = 0 these are volumetric strain rates and normal jumps.
+  /** Projects velocities onto the subspace in which all constrained strain rates vanish.
+   *  The projection is orthogonal in the metric of B'B. For phi = 0 the constrained rates
+   *  are volumetric strain rates and normal jumps.
    *  @return true if the projection succeeded */
   bool
   constrain_rates(ConicProblem &problem, Eigen::VectorXd &q);

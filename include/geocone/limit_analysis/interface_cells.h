@@ -36,8 +36,8 @@ namespace geocone::GEOCONE_DIM
     std::function<std::array<InterfacePoint, 3>(const unsigned int edge)>;
 
   /**
-   * Appends the interfaces as cells of a problem. Also prescribes the velocities of
-   * driven obstacles and applies the loads of free obstacles.
+   * Appends the interfaces to a problem as additional cells. Also prescribes the
+   * velocities of driven obstacles and applies the loads of free obstacles.
    * @param first_dof first of the n_dofs_of_interfaces() dofs
    */
   void

@@ -54,8 +54,8 @@ namespace geocone
     virtual void
     begin(const double mean_volume) = 0;
 
-    /** Adds the elastic stiffness V B'(1 + stiffness E) B of each point to a matrix. E is
-     *  the projection onto the constrained rates. */
+    /** Adds the elastic stiffness matrix of each point to a matrix. It is V B'(1 +
+     *  stiffness E) B, where E is the projection onto the constrained rates. */
     virtual void
     add_elastic_blocks(BlockMatrix       &matrix,
                        const unsigned int set,
@@ -75,7 +75,8 @@ namespace geocone
                           const double           stiffness,
                           Eigen::VectorXd       &F) const = 0;
 
-    /** Returns the sum of V |B q|^2 and the sum of V over the points. */
+    /** Returns two sums over the points: the sum of V |B q|^2 and the sum of the weights
+     *  V. */
     virtual std::array<double, 2>
     rate_square(const Eigen::VectorXd &q) const = 0;
 
@@ -99,7 +100,7 @@ namespace geocone
     virtual Sums
     evaluate(const Eigen::VectorXd &q, const double margin) = 0;
 
-    /** Adds the internal forces V B's of all points. */
+    /** Adds the internal forces sum V B's of all points. */
     virtual void
     add_forces(Eigen::VectorXd &F) const = 0;
 
@@ -111,11 +112,11 @@ namespace geocone
 
     /** @name Newton's direction for lambda-scaled right-hand sides d */
     /** @{ */
-    /** Sets the right-hand side of the predictor, d = -lambda. */
+    /** Sets the right-hand side d of the predictor step: d = -lambda. */
     virtual void
     predict() = 0;
-    /** Sets the right-hand side of the corrector, d = -lambda + lambda \ (target e -
-     *  x_hat o z_hat). */
+    /** Sets the right-hand side d of the corrector step: d = -lambda + lambda \ (target e
+     *  - x_hat o z_hat). */
     virtual void
     correct(const double target) = 0;
     /** Adds the internal forces of the part of the search direction that does not depend
@@ -126,8 +127,8 @@ namespace geocone
      *  @return the largest steps of X and Z */
     virtual std::array<double, 2>
     complete(const Eigen::VectorXd &dq) = 0;
-    /** Returns the complementarity product after a step: the sum of (X + a_x dX).(Z + a_z
-     *  dZ). */
+    /** Returns the complementarity product X.Z after a step, i.e. the sum of (X + a_x
+     *  dX).(Z + a_z dZ) over the points. */
     virtual double
     product_after(const double a_x, const double a_z) const = 0;
     virtual void

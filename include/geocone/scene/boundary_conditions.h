@@ -72,8 +72,9 @@ namespace geocone::GEOCONE_DIM
     bool
     formula_holds(const dealii::Point<dim> &x) const;
 
-    /** Returns two corners of the bounding box of the selected part of the
-     *  boundary. No value is returned for an empty selection.
+    /** Returns the lower and the upper corner of the bounding box of the
+     *  selected part of the boundary. No value is returned for an empty
+     *  selection.
      *  @param faces vertices of each boundary face */
     std::optional<std::array<dealii::Point<dim>, 2>>
     reach(const std::vector<std::vector<dealii::Point<dim>>> &faces) const;

@@ -235,8 +235,8 @@ namespace geocone::GEOCONE_DIM
     moved_place(const dealii::Point<dim> &x, const RigidMotion &moved) const;
     /** @} */
 
-    /** Returns the support function of the displaced obstacle: the maximum of
-     *  n.x over the obstacle (m). */
+    /** Returns the support function of the displaced obstacle for a direction
+     *  n: the maximum of n.x (m). */
     double
     reach(const dealii::Tensor<1, dim> &n, const RigidMotion &moved) const;
 

@@ -120,7 +120,7 @@ namespace geocone::GEOCONE_DIM
       }
 
       std::vector<dealii::Point<dim>> polygon, below;
-      std::string                     group = "-1"; ///< of a physical surface
+      std::string                     group = "-1"; ///< number or name
       Polygon        outline; ///< polygon, or the part below the line
       Choice<Points> points = {
         {{"moving", Points::moving}, {"fixed", Points::fixed}}};

@@ -145,7 +145,7 @@ namespace geocone::GEOCONE_DIM
     refuse(const std::string &what, const std::string &remedy) const;
 
   private:
-    using Table = std::vector<dealii::Point<2>>; ///< vertices
+    using Table = std::vector<dealii::Point<2>>; ///< vertices (x, y)
 
     /** Checks that the x coordinates of a piezometric line increase. @throws
      *  InputError */

@@ -53,7 +53,7 @@ namespace geocone::GEOCONE_DIM
       return (k == 0 ? corners[1] : corners.back()) - corners[0];
     }
 
-    /** Returns the mean position of the corners. */
+    /** Returns the mean of the corners of the boundary part. */
     dealii::Point<n>
     middle() const
     {
@@ -80,9 +80,9 @@ namespace geocone::GEOCONE_DIM
     std::vector<dealii::Point<n>> corners;
   };
 
-  /** Part of a boundary segment of the body, with oriented corners. In two
-   *  dimensions the body is on the left of the line; in three dimensions the
-   *  corners are counterclockwise as seen from outside. */
+  /** Oriented part of a boundary segment of the body. In two dimensions the
+   *  body is on the left of the line; in three dimensions the corners are
+   *  counterclockwise as seen from outside. */
   using SidePart = Outline<dim>;
 
   /** Returns the outward normal vector of a boundary part, scaled by the length

@@ -12,9 +12,9 @@ namespace geocone
   struct Energies
   {
     double kinetic = 0.; ///< v'Mv/2 of nodes (FEM) or particles (MPM)
-    /** Elastic strain energy sum V s'Ss/2, with elastic compliance S. For
-     *  undrained soil, the energy of the pore fluid sum V p^2/(2 K_w/n) is
-     *  included. Not available in explicit steps, in which constitutive laws
+    /** Elastic strain energy sum V s'Ss/2, with stress s and elastic compliance
+     *  S. For undrained soil, the energy of the pore fluid sum V p^2/(2 K_w/n)
+     *  is included. Not available in explicit steps, in which constitutive laws
      *  provide only the stress work. */
     double elastic = 0.;
     /** Potential energy of gravity in MPM, -sum m g.(x - x0). The reference

@@ -188,8 +188,8 @@ namespace geocone::GEOCONE_DIM
                         const double              work);
 
   /**
-   * Returns the ratio of kinetic energy gain to plastic work in the last step,
-   * v'M(v - vL)/sum V s:de^p. Free obstacles are included. The ratio almost
+   * Returns the ratio of kinetic energy gain to plastic work in the last step.
+   * The ratio is v'M(v - vL)/sum V s:de^p, including free obstacles. It almost
    * vanishes in creep towards a new equilibrium; for a failing slope it equals
    * the deficit 1 - F of the factor of safety F. Collective.
    */

@@ -25,9 +25,9 @@ namespace geocone::GEOCONE_DIM
   {
     P origin, inverse_size, last, first, stride;
 
-    /** Polynomial coefficients of the basis functions on the inner intervals, p
-     *  - 1 ... n_intervals - p. There the basis functions are translates of
-     *  each other. */
+    /** Polynomial coefficients of the basis functions on the inner intervals.
+     *  These are the intervals p - 1 ... n_intervals - p, on which the basis
+     *  functions are translates of each other. */
     P inner_first, inner_last, inner[2 * p + 1][p + 1];
   };
 

@@ -164,10 +164,11 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * Scatters the values of n consecutive points to the nodes in the
-     * directions 0 ... d. The first of these points is the mth of four points.
-     * Nodes are incremented by a N (if has_a) plus b_e dN for each direction e
-     * (if has_b). Nodes common to the points are read and written once.
+     * Scatters the values of n consecutive points to the nodes, in nested loops
+     * over the directions 0 ... d. The first of these points is the mth of four
+     * points. Nodes are incremented by a N (if has_a) plus b_e dN for each
+     * direction e (if has_b). Nodes common to the points are read and written
+     * once.
      */
     template <int p, int d, int n, bool has_a, bool has_b>
     static void
@@ -443,7 +444,8 @@ namespace geocone::GEOCONE_DIM
         }
     }
 
-    /** Returns the volume ratio det(I + l) at four points. */
+    /** Returns the volume ratio det(I + l) at four points, with the
+     *  displacement gradient increment l. */
     static P
     volume_ratio(const P (&l)[dim * dim])
     {
