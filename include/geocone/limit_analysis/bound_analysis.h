@@ -91,7 +91,7 @@ namespace geocone::GEOCONE_DIM
     void
     print_reasons(const Side &upper, const Side &lower) const;
 
-    /** Converts both bounds on a mesh to the results of a level.
+    /** Converts both bounds on a mesh to the results of a refinement level.
      *  @param unit load that corresponds to the load factor 1 of a problem */
     static BoundLevel
     level_of(const Side        &upper,
@@ -110,8 +110,7 @@ namespace geocone::GEOCONE_DIM
     void
     add_level(BoundLevel level, TimePoint &now);
 
-    /** Returns true if the last mesh was the final mesh of the run. @param gap certified
-     *  so far */
+    /** Returns true if no further mesh is required. @param gap certified so far */
     bool
     is_complete(const std::optional<double> &gap) const;
 
@@ -138,7 +137,7 @@ namespace geocone::GEOCONE_DIM
     /** Returns the bracket of the load that is certified so far. */
     virtual LoadBracket
     bracket() const = 0;
-    /** Returns the topics of summary.json that describe the results. */
+    /** Returns the JSON objects of summary.json that describe the results. */
     virtual Json
     results() const;
     /** Returns the name of the bounded quantity, for messages. */

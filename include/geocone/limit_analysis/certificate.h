@@ -29,10 +29,11 @@ namespace geocone::GEOCONE_DIM
      *  relative to the largest strain rate. */
     double violation = 0.;
 
-    /** Remaining error of the certified field. Lower bound: largest residual of
-     *  equilibrium, i.e. of div s + body force and of tractions across edges and on the
-     *  boundary, relative to the largest stress (divided by the cell size). Upper bound:
-     *  largest volumetric strain rate of cylinders, relative to the largest rate. */
+    /** Remaining error of the certified stresses or velocities. Lower bound: largest
+     *  residual of equilibrium, i.e. of div s + body force and of tractions across edges
+     *  and on the boundary, relative to the largest stress (divided by the cell size).
+     *  Upper bound: largest volumetric strain rate of cylinders, relative to the largest
+     *  rate. */
     double error = 0.;
 
     /** Certified stresses (lower bound) or velocities (upper bound). For a lower bound:

@@ -70,7 +70,7 @@ namespace geocone::GEOCONE_DIM
                       const SolvedBound &lower,
                       const SolvedBound &upper);
 
-  /** Converts gradients to the topic bounds/gradients of summary.json. */
+  /** Converts gradients to the JSON object bounds/gradients of summary.json. */
   Json
   topic_of(const std::vector<Gradient> &gradients);
 

@@ -66,7 +66,7 @@ namespace geocone::GEOCONE_DIM
     static Side
     figures_of(const CertifiedBounds::Side &side);
 
-    /** Converts both bounds on the current mesh to the results of a level.
+    /** Converts both bounds on the current mesh to the results of a refinement level.
      *  @param unit load that corresponds to the load factor 1 of a problem */
     BoundLevel
     level_of(const double unit) const;

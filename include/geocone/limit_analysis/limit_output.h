@@ -15,8 +15,8 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Results of one level of a limit analysis, with both bounds in the unit of the load.
-   *  A level is a mesh; the results include the computational cost. */
+  /** Results of one refinement level (mesh) of a limit analysis, with both bounds in the
+   *  unit of the load. The computational cost is included. */
   struct BoundLevel
   {
     unsigned int number = 0; ///< level number, from 1
@@ -71,7 +71,8 @@ namespace geocone::GEOCONE_DIM
     void
     write_fields(const double number, const FieldTable &table);
 
-    /** Returns the topic "bounds" of summary.json. At least one level is required. */
+    /** Returns the JSON object "bounds" of summary.json. At least one level is
+     *  required. */
     Json
     bounds(const LoadBracket &bracket) const;
 

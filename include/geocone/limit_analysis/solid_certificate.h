@@ -25,10 +25,11 @@ namespace geocone::GEOCONE_DIM
      *  of admissible flow, relative to the largest strain rate or jump. */
     double violation = 0.;
 
-    /** Remaining error of the certified field. Lower bound: largest error of div s + body
-     *  force (times the cell size) and of tractions across faces and on the boundary,
-     *  relative to the largest stress. Upper bound: largest volumetric strain rate and
-     *  normal jump where phi = 0, relative to the largest rate and jump. */
+    /** Remaining error of the certified stresses or velocities. Lower bound: largest
+     *  error of div s + body force (times the cell size) and of tractions across faces
+     *  and on the boundary, relative to the largest stress. Upper bound: largest
+     *  volumetric strain rate and normal jump where phi = 0, relative to the largest rate
+     *  and jump. */
     double error = 0.;
 
     unsigned int factorisations = 0, n_unknowns = 0;

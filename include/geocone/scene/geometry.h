@@ -174,8 +174,8 @@ namespace geocone::GEOCONE_DIM
       return length_of(volume / measure(symmetry, x));
     }
 
-    /** Returns the unit of a quantity, without "per metre of thickness" in
-     *  axisymmetry.
+    /** Returns the unit of a quantity for the symmetry of the problem. In
+     *  axisymmetry, units are not per metre of thickness.
      *  @param in_plane_strain unit in plane strain, e.g. "N/m" or "load (N/m)"
      *  or "energy_J_per_m" */
     std::string

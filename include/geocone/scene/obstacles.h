@@ -145,9 +145,9 @@ namespace geocone::GEOCONE_DIM
     RigidMotion
     velocity(const double t) const;
 
-    /** Returns true if component k of the rigid-body motion is free, or any
-     *  component (without argument). Components are numbered as in
-     *  RigidMotion. */
+    /** Returns true if component k of the rigid-body motion is free. Without an
+     *  argument, returns true if any component is free. Components are numbered
+     *  as in RigidMotion. */
     bool
     is_free(const unsigned int k) const
     {

@@ -91,8 +91,8 @@ namespace geocone::GEOCONE_DIM
     /** Target number of triangles in the finest mesh of the seepage problem. */
     unsigned int n_cells = 5000;
 
-    /** Time in the loading programme (s) whose pore pressures are used in limit
-     *  analysis. */
+    /** Time (s) in the loading programme at which limit analysis evaluates the
+     *  pore pressures. */
     double time = 0.;
   };
 } // namespace geocone::GEOCONE_DIM

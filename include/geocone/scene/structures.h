@@ -164,8 +164,8 @@ namespace geocone::GEOCONE_DIM
     void
     prepare(const Geometry &geometry, const std::vector<std::string> &stages);
 
-    /** Returns the names of the bars of all structures except plates, in
-     *  order. */
+    /** Returns the names of the bars of all structures except plates, in the
+     *  order of the list. */
     std::vector<std::string>
     names_of_bars() const;
 

@@ -46,8 +46,8 @@ namespace geocone::GEOCONE_DIM
             const Space          &space,
             const SidePart       &part);
 
-  /** Returns the maximum length of the line from a to b inside a single cell
-   *  (m). Collective. */
+  /** Returns the length (m) of the longest part of the line ab that lies in a
+   *  single cell. Collective. */
   double
   longest_part_in_cell(const BackgroundMesh     &mesh,
                        const dealii::Point<dim> &a,
