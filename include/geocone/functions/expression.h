@@ -17,17 +17,19 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * A scalar function of (x, y, t), given as a formula in muParser's language
-   * with the constant pi, or, where files are allowed, as a time history
-   * "record FILE.csv" (Record).
+   * Scalar function of position (m) and time (s), given by a formula or by a
+   * time history. A formula is written in muParser's language with the constant
+   * pi; where files are allowed, a time history is given as "record FILE.csv"
+   * (Record).
    */
   class Expression
   {
   public:
     /**
-     * @param text the formula
+     * Parses a formula, or reads a time history.
+     * @param text formula or time history
      * @param parameter name of the parameter, for messages
-     * @param folder to which file names are relative; null: formulas only
+     * @param folder base folder of file names; null: only formulas are allowed
      * @throws InputError if the formula cannot be parsed or the file cannot be
      * read
      */
@@ -39,15 +41,15 @@ namespace geocone::GEOCONE_DIM
     double
     value(const dealii::Point<dim> &x, const double t) const;
 
-    /** Whether the expression is the constant 0. */
+    /** Returns true if the expression is identically zero. */
     bool
     is_zero() const
     {
       return number == 0.;
     }
 
-    /** End of a time history with a non-zero last value, which continues to act
-     *  (s); otherwise infinite. */
+    /** Time (s) after which a time history remains at a non-zero last value;
+     *  infinite for other expressions. */
     double
     stays_from() const;
 

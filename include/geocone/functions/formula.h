@@ -10,7 +10,7 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Variables of a formula. */
+  /** Variables that a formula may contain. */
   enum class FormulaOf
   {
     place_and_time,
@@ -18,15 +18,15 @@ namespace geocone::GEOCONE_DIM
     time
   };
 
-  /** Syntax of admissible formulas, for messages. */
+  /** Description of the formula syntax, for error messages. */
   std::string
   allowed_formula(const FormulaOf variables);
 
   /**
-   * Checks a formula before muParser parses it, by the grammar given here.
-   * muParser accepts more ("x = 3" assigns, "0,5" is a list whose last value
-   * counts, rand() differs from run to run) and prints its own error messages.
-   * Grammar:
+   * Checks the syntax of a formula before muParser parses the formula. The
+   * grammar excludes input that muParser accepts: "x = 3" assigns, "0,5" is a
+   * list with the value 5, rand() differs from run to run. It also prevents
+   * muParser from printing error messages. Grammar:
    *   formula := operand {operator operand} ["?" formula ":" formula]
    *   operand := ["+" | "-"] (number | name |
    *              function "(" formula {"," formula} ")" | "(" formula ")")

@@ -14,15 +14,16 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Pore pressures on a structured rectangular grid, e.g. from a seepage
-   * program, read from a comma-separated file with the columns x, y (m) and u
-   * (Pa, >= 0): one row for each grid point, in any order. The pressure is
-   * bilinear between the points and constant beyond the boundary.
+   * Pore pressure field on a structured rectangular grid, e.g. from a seepage
+   * program. The comma-separated input file has the columns x, y (m) and u (Pa,
+   * >= 0), with one row per grid point in any order. The pressure is bilinear
+   * between the grid points and constant beyond the boundary.
    */
   class PressureGrid
   {
   public:
-    /** @param text,parameter value and name of the parameter, for messages
+    /** Reads the pressure grid from a file.
+     *  @param text,parameter value and name of the parameter, for messages
      *  @throws InputError naming the faulty line or the missing data */
     PressureGrid(const std::string &file,
                  const std::string &text,
@@ -32,23 +33,24 @@ namespace geocone::GEOCONE_DIM
     double
     value(const dealii::Point<dim> &x) const;
 
-    /** Pressure gradient (du/dx, du/dy), in three dimensions 0 along z
-     *  (N/m^3). */
+    /** Gradient of the pore pressure (N/m^3); in three dimensions zero along
+     *  z. */
     dealii::Tensor<1, dim>
     gradient(const dealii::Point<dim> &x) const;
 
-    /** Whether the grid covers the box between two corners. */
+    /** Returns true if the grid covers an axis-aligned box, given by two
+     *  opposite corners. */
     bool
     covers(const dealii::Point<dim> &lower,
            const dealii::Point<dim> &upper) const;
 
-    /** Coordinates of the corners of the grid as text, for messages. */
+    /** Corner coordinates of the grid as text, for error messages. */
     std::string
     extent() const;
 
   private:
-    /** Grid interval that contains a coordinate: index, relative position in
-     *  the interval (0 to 1), and length (m), 0 outside of the grid. */
+    /** Grid interval that contains a given coordinate. The relative position is
+     *  between 0 and 1; the length (m) is 0 outside the grid. */
     struct At
     {
       std::size_t i;

@@ -10,16 +10,18 @@
 namespace geocone
 {
   /**
-   * A time history from a comma-separated file with two columns, named in the
-   * first line: t (s), and either the value v or its time derivative a, both
-   * piecewise linear. For a, the value is the integral of a from zero (e.g. the
-   * velocity from an accelerogram). The value is constant before the first and
-   * after the last row.
+   * Time history of a scalar quantity, read from a comma-separated file with
+   * two columns. The first line contains the column names: t (s), and v for
+   * values or a for time derivatives. Both v and a are piecewise linear in
+   * time. For a, the value is the integral of a from zero (e.g. the velocity
+   * from an accelerogram). The value is constant before the first and after the
+   * last row.
    */
   class Record
   {
   public:
     /**
+     * Reads the time history from a file.
      * @param text,parameter value and name of the parameter, for messages
      * @throws InputError naming the faulty line
      */
@@ -30,7 +32,7 @@ namespace geocone
     double
     value(const double t) const;
 
-    /** Time of the last row (s). */
+    /** Time of the last row of the file (s). */
     double
     end() const
     {

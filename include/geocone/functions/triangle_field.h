@@ -14,21 +14,22 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Gradients of the barycentric coordinates of a triangle with respect to x
-   *  and y (1/m).
+  /** Gradients of the three barycentric coordinates of a triangle with respect
+   *  to x and y (1/m).
    *  @param corners of the triangle, in either orientation */
   std::array<dealii::Tensor<1, 2>, 3>
   barycentric_gradients(const std::array<dealii::Point<dim>, 3> &corners);
 
-  /** A continuous, piecewise linear field on a mesh of triangles, zero outside
-   *  of the mesh; in three dimensions uniform along z. */
+  /** Continuous, piecewise linear field on a triangular mesh in the x-y plane.
+   *  The field is zero outside the mesh and, in three dimensions, uniform along
+   *  z. */
   class TriangleField
   {
   public:
     using Cell = std::array<unsigned int, 3>;
 
-    /** @param vertices coordinates of the vertices (m) @param values field
-     *  values at the vertices */
+    /** Constructs the field from vertex coordinates (m), cells and field values
+     *  at the vertices. */
     TriangleField(std::vector<dealii::Point<dim>> vertices,
                   std::vector<Cell>               cells,
                   std::vector<double>             values);
@@ -36,20 +37,22 @@ namespace geocone::GEOCONE_DIM
     double
     value(const dealii::Point<dim> &x) const;
 
-    /** Gradient of the field in the triangle that contains x (per m). */
+    /** Gradient of the field at the point x, constant in each triangle (field
+     *  unit per metre). */
     dealii::Tensor<1, dim>
     gradient(const dealii::Point<dim> &x) const;
 
   private:
-    /** Index of a triangle, and barycentric coordinates of a point inside
-     *  it. */
+    /** Location of a point: index of the triangle that contains the point, and
+     *  barycentric coordinates. */
     struct At
     {
       unsigned int          cell;
       std::array<double, 3> parts;
     };
 
-    /** Triangle that contains x; no value outside of the mesh. */
+    /** Locates the point x in the mesh. No value is returned for a point
+     *  outside the mesh. */
     std::optional<At>
     locate(const dealii::Point<dim> &x) const;
 
@@ -60,8 +63,8 @@ namespace geocone::GEOCONE_DIM
       return barycentric_gradients({{vertices[i], vertices[j], vertices[k]}});
     }
 
-    /** Column and row of the search box that contains (x, y), limited to the
-     *  grid of boxes. */
+    /** Column and row of the search box that contains the point (x, y). For
+     *  points outside all boxes, the nearest column and row are returned. */
     std::array<unsigned int, 2>
     box_at(const double x, const double y) const;
 
