@@ -10,8 +10,8 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Tensor-product grid that follows a moving boundary segment: the grid lines
-   * move between steps, while the state is stored at the material points only.
+   * Tensor-product grid whose lines follow a moving boundary segment. The grid
+   * lines move between steps; the state is stored at the material points only.
    * Along each axis, the lines at the segment move with the segment; the other
    * lines are stretched or compressed between the segment and the fixed ends of
    * the grid:
@@ -23,20 +23,22 @@ namespace geocone::GEOCONE_DIM
   class FollowingGrid
   {
   public:
-    /** @throws InputError for a mesh that is not a tensor-product grid, or a
-     *  boundary condition without a moving segment */
+    /** Selects the boundary segment that the grid follows. @throws InputError
+     *  for a mesh that is not a tensor-product grid, or a boundary condition
+     *  without a moving segment */
     FollowingGrid(const std::string      &condition,
                   const Scene            &scene,
                   const MovingConditions &sides,
                   BackgroundMesh         &mesh,
                   Space                  &space);
 
-    /** Moves the grid lines with the segment. @throws StepFailure if the
-     *  segment reaches the end of the grid */
+    /** Moves the grid lines to the current position of the boundary segment.
+     *  @throws StepFailure if the segment reaches the end of the grid */
     void
     follow(const MovingConditions &sides);
 
-    /** Name of the parameter that selects the boundary condition. */
+    /** Name of the input parameter that selects the boundary condition of the
+     *  followed segment. */
     static constexpr const char *parameter =
       "Material point method/Grid follows";
 

@@ -10,8 +10,8 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Implicit time stepping of the finite element method with fixed quadrature
-   * points (small strains).
+   * Implicit time stepping by the finite element method at small strains, with
+   * fixed quadrature points.
    */
   class ImplicitFEM : public ImplicitStepper, public dealii::ParameterAcceptor
   {
@@ -47,8 +47,8 @@ namespace geocone::GEOCONE_DIM
     void
     take_points(const Archive &archive, MaterialPoints &points) override;
 
-    /** Rejects a scene without any resistance, in which no stress can develop.
-     *  Collective. */
+    /** Rejects a scene in which no stress can develop, e.g. weightless
+     *  cohesionless soil without loads or inertia. Collective. */
     void
     check_resistance(const MaterialPoints &points, const MPI_Comm comm) const;
 
@@ -109,8 +109,8 @@ namespace geocone::GEOCONE_DIM
                  Kinematics              &kinematics,
                  Vector                  &difference) const override;
 
-    /** Removes points outside the given cells and creates points in given cells
-     *  without points. */
+    /** Creates and removes quadrature points so that exactly the given cells
+     *  contain points. */
     void
     take_cells(const std::vector<bool> &is_there, MaterialPoints &points) const;
 

@@ -84,7 +84,7 @@ namespace geocone::GEOCONE_DIM
       return balance.n_repartitions();
     }
 
-    /** Seeding of the particles. */
+    /** Returns the object that seeds the particles. */
     Seeding &
     seeding()
     {
@@ -95,7 +95,8 @@ namespace geocone::GEOCONE_DIM
     void
     take_points(const Archive &archive, MaterialPoints &points) override;
 
-    /** Initial guess for the velocities in Newton's method. */
+    /** Choice of the initial guess for the nodal velocities in Newton's
+     *  method. */
     enum class Start
     {
       automatic, ///< both, tried in turn
@@ -103,7 +104,7 @@ namespace geocone::GEOCONE_DIM
       particles  ///< vL; elastic tangent in iteration 1
     };
 
-    /** Velocity that advects the particles. */
+    /** Choice of the velocity field that advects the particles. */
     enum class Advection
     {
       grid_velocity,
@@ -122,23 +123,23 @@ namespace geocone::GEOCONE_DIM
       dealii::Tensor<1, n_rotations> spin; ///< angles of rotation (rad)
     };
 
-    /** Allocates the data that depend on the distribution of cells over ranks.
-     *  Collective. */
+    /** Allocates the data structures that depend on the distribution of cells
+     *  over MPI ranks. Collective. */
     void
     set_up(const NonsmoothNewton &newton);
 
-    /** Whether the load imbalance (points per rank) exceeds the tolerance.
-     *  Collective. */
+    /** Returns true if the parallel load imbalance, in particles per rank,
+     *  exceeds the tolerance. Collective. */
     bool
     is_unbalanced(const MaterialPoints &points) const;
 
-    /** Redistributes the cells over the ranks. Must be followed by set_up().
-     *  Collective. */
+    /** Redistributes the mesh cells over the MPI ranks. Must be followed by
+     *  set_up(). Collective. */
     void
     hand_over(MaterialPoints &points);
 
-    /** Redistributes the cells and all state over the ranks during a run.
-     *  Collective. */
+    /** Redistributes the mesh cells and all state variables over the MPI ranks
+     *  during a run. Collective. */
     void
     hand_over_state(const NonsmoothNewton &newton,
                     dealii::TimerOutput   &timer,
@@ -160,30 +161,32 @@ namespace geocone::GEOCONE_DIM
     void
     begin(MaterialPoints &points, dealii::TimerOutput &timer) override;
 
-    /** Stencils of the ghost stiffness for the current points. Collective. */
+    /** Computes the stencils of the ghost stiffness for the current particle
+     *  positions. Collective. */
     std::vector<GhostStencil>
     ghost_stencils(const MaterialPoints &points);
 
-    /** @throws InputError if the grid cannot follow a segment */
+    /** Starts to move the grid with a boundary segment. @throws InputError if
+     *  the grid cannot follow a segment */
     void
     begin_to_follow();
 
-    /** Moves the grid with the boundary segment that it follows. Collective. */
+    /** Moves the grid lines with the followed boundary segment. Collective. */
     void
     follow_side();
 
-    /** Rejects contact options not available with particles. @throws
-     *  InputError */
+    /** Rejects contact options that are not available for particles.
+     *  @throws InputError */
     void
     check_contact(const MaterialPoints &points) const;
 
-    /** Rejects options not available for contact between bodies. @throws
-     *  InputError */
+    /** Rejects options that are incompatible with contact between bodies of
+     *  particles. @throws InputError */
     void
     check_bodies() const;
 
-    /** Reason for rejection of a solved step because of low-mass functions, or
-     *  empty. */
+    /** Reason for rejecting a solved step because of low-mass basis functions;
+     *  empty if the step is accepted. */
     std::string
     rejection(const Multipliers::LowMassShare &share) const;
 
@@ -200,7 +203,8 @@ namespace geocone::GEOCONE_DIM
                    const Stage          *stage,
                    const bool            scaled) override;
 
-    /** Adds the hydrostatic forces of water on the soil to dst. Collective. */
+    /** Adds the nodal forces of hydrostatic water pressure on the soil to dst.
+     *  Collective. */
     void
     add_water(const MaterialPoints &points, const double t, Vector &dst) const;
 
@@ -238,9 +242,10 @@ namespace geocone::GEOCONE_DIM
       return scene->gravity.at(t);
     }
 
-    /** External work in a step (J/m). The potential energy of fixed particles
-     *  does not change with the motion of the nodes: as in FEM, the weight is
-     *  an external force. A change of gravity does work on points at rest. */
+    /** Work done by external forces in a step (J/m). The potential energy of
+     *  fixed particles does not change with the motion of the nodes: as in FEM,
+     *  the weight is an external force. A change of gravity does work on points
+     *  at rest. */
     double
     external_work(const WorksOnNodes   &works,
                   const TimeStep       &step,
@@ -277,14 +282,14 @@ namespace geocone::GEOCONE_DIM
                  Kinematics              &kinematics,
                  Vector                  &difference) const override;
 
-    /** Computes vL from the nodal momentum with the partly consistent mass
-     *  matrix. */
+    /** Computes the initial nodal velocity vL from the nodal momentum by the
+     *  partly consistent mass matrix. */
     void
     solve_mass(Vector &velocity) const;
 
-    /** Reason for rejection of the trial motion of a particle (trial.moved), or
-     *  empty. @param ratio volume ratio of the step @param extent size of the
-     *  cell (m) */
+    /** Reason for rejecting the trial motion of a particle (trial.moved); empty
+     *  if the motion is accepted. @param ratio volume ratio of the step
+     *  @param extent size of the cell (m) */
     std::string
     rejection_of_move(const MaterialPoints          &points,
                       const unsigned int             p,
@@ -293,8 +298,8 @@ namespace geocone::GEOCONE_DIM
                       const std::array<double, dim> &extent) const;
 
     /**
-     * Computes the trial states trial.moved of the particles from the nodal
-     * velocities v (at t_n + h) and vL, and the advection velocity v_mean.
+     * Computes the trial states of the particles (trial.moved) from nodal
+     * velocities. These are vL at t_n, v at t_n + h, and v_mean for advection.
      * @return reason for rejection, or empty
      */
     std::string
@@ -303,8 +308,8 @@ namespace geocone::GEOCONE_DIM
              const Vector         &v_mean,
              const double          h);
 
-    /** Solves the incremental problem from each initial guess in turn until
-     *  convergence. */
+    /** Solves the incremental problem and tries the initial guesses in turn
+     *  until convergence. */
     SolverReport
     solve(const TimeStep   &step,
           const Kinematics &kinematics,
@@ -312,27 +317,30 @@ namespace geocone::GEOCONE_DIM
           Vector           &v,
           Vector           &residual) override;
 
-    /** Work done by a change of gravity in the step on points at rest (J/m). */
+    /** Work done in a step by the change of gravity on particles at rest
+     *  (J/m). */
     double
     work_of_changing_gravity(const TimeStep       &step,
                              const MaterialPoints &points) const;
 
-    /** Work done by the weight of fixed quadrature points in a run with
-     *  particles (J/m); as in FEM, not included in the potential energy. */
+    /** Work done in a step by the weight of fixed quadrature points in a run
+     *  with particles (J/m). As in FEM, the potential energy does not include
+     *  this weight. */
     double
     work_on_fixed_points(const TimeStep       &step,
                          const MaterialPoints &points) const;
 
-    /** Returns points that have penetrated prescribed boundary segments to the
-     *  segments, MovingConditions::return_to_boundary(). */
+    /** Moves particles that have penetrated a prescribed boundary segment back
+     *  to the segment. See MovingConditions::return_to_boundary(). */
     void
     put_points_back(const MaterialPoints &points);
 
-    /** Largest coordinates of all particles (m). */
+    /** Largest coordinate of all particles along each axis (m). */
     dealii::Point<dim>
     front_of(const MaterialPoints &points) const;
 
-    /** Boundary condition imposed on an individual particle, or null. */
+    /** Boundary condition imposed on an individual particle; null if there is
+     *  none. */
     const BoundaryCondition *
     holder_of(const MaterialPoints &points, const unsigned int p) const;
 
@@ -349,7 +357,8 @@ namespace geocone::GEOCONE_DIM
                                   {"grid velocity", Start::nodes},
                                   {"particle velocity", Start::particles}}};
 
-    /** Selection of the low-mass basis functions with ghost stiffness. */
+    /** Selection of the low-mass basis functions that receive ghost
+     *  stiffness. */
     enum class Ghosts
     {
       loaded, ///< at loaded or prescribed segments
@@ -382,7 +391,8 @@ namespace geocone::GEOCONE_DIM
     std::vector<bool>                 had_mass;     ///< nodes, in last step
     std::vector<unsigned int>         added;        ///< materials added so far
 
-    /** Trial state of the current attempt at a step. */
+    /** Trial particle states and statistics of the current attempt at a
+     *  step. */
     struct Trial
     {
       std::vector<Moved>      moved;

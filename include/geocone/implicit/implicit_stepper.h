@@ -15,10 +15,11 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Implicit step with fixed quadrature points (ImplicitFEM) or material points
-   * (ImplicitMPM): sets up the IncrementalProblem, calls the solver, and
-   * computes the momentum and energy balances of an accepted step. Derived
-   * classes define points, mass, loads and the motion of points.
+   * Base class of implicit time steppers with fixed quadrature points
+   * (ImplicitFEM) or material points (ImplicitMPM). A step sets up the
+   * IncrementalProblem, calls the solver, and computes the momentum and energy
+   * balances after acceptance. Derived classes define points, mass, loads and
+   * the motion of points.
    */
   class ImplicitStepper : public TimeStepper
   {
@@ -65,13 +66,14 @@ namespace geocone::GEOCONE_DIM
     }
 
   protected:
-    /** @param section timer section for loads and for the update after a
-     *  step */
+    /** Constructor. @param section timer section for loads and for the update
+     *  after a step */
     explicit ImplicitStepper(const char *section)
       : section(section)
     {}
 
-    /** Solver, timer and accepted error for solving a step. */
+    /** Solver, timer and accepted lagged-friction error for the solution of a
+     *  step. */
     struct Solving
     {
       const NonsmoothNewton &newton;
@@ -80,7 +82,7 @@ namespace geocone::GEOCONE_DIM
       const double           accepted_excess; ///< see NonsmoothNewton::Hints
     };
 
-    /** Work on the nodes in a step, by contribution (J/m). */
+    /** Work done by nodal forces in a step, split by contribution (J/m). */
     struct WorksOnNodes
     {
       double of_weight; ///< weight with a potential energy
@@ -90,22 +92,22 @@ namespace geocone::GEOCONE_DIM
     /** @name Steps */
     /** @{ */
 
-    /** Activates the boundary conditions of a stage. Collective. */
+    /** Activates the boundary conditions of a loading stage. Collective. */
     virtual void
     begin_stage(const Stage &stage);
 
-    /** Sets up the mass, the unknowns, the incremental problem and the sparsity
-     *  pattern; all depend on the state at t_n only. Collective.
+    /** Sets up the data of a step that depend only on the state at t_n: mass,
+     *  unknowns, incremental problem and sparsity pattern. Collective.
      *  @throws InputError or StepFailure if the problem cannot be set up */
     virtual void
     begin(MaterialPoints &points, dealii::TimerOutput &timer) = 0;
 
-    /** Whether external forces act. */
+    /** Returns true if external forces act on the body. */
     virtual bool
     has_force() const = 0;
 
-    /** Evaluates the external nodal forces at time t along x and y, without
-     *  ramped forces.
+    /** Evaluates the external nodal forces at time t along the coordinate axes.
+     *  Ramped forces are not included.
      *  @param dst overwritten @param stage,scaled as in Loads::evaluate() */
     virtual void
     evaluate_force(Vector               &dst,
@@ -114,7 +116,8 @@ namespace geocone::GEOCONE_DIM
                    const Stage          *stage  = nullptr,
                    const bool            scaled = false) = 0;
 
-    /** Sets the initial velocity vL and the constraints H v = q of the step.
+    /** Computes the initial nodal velocity vL and assembles the constraints H v
+     *  = q of the step.
      *  @param prescribed velocities */
     virtual void
     begin_motion(const TimeStep       &step,
@@ -122,7 +125,7 @@ namespace geocone::GEOCONE_DIM
                  const MaterialPoints &points,
                  const Vector         &prescribed) = 0;
 
-    /** Finds the potential contacts of the step. Collective. */
+    /** Finds the potential contacts with obstacles in a step. Collective. */
     virtual ContactStep
     find_contact(const TimeStep       &step,
                  const Kinematics     &kinematics,
@@ -137,8 +140,8 @@ namespace geocone::GEOCONE_DIM
           Vector           &v,
           Vector           &residual) = 0;
 
-    /** Computes a trial motion of the points with v, and with the velocities
-     *  v_end at t + h.
+    /** Computes a trial motion of the material points from the solution v. The
+     *  nodal velocities at t + h are v_end.
      *  @return reason for rejection of the solved step, or empty */
     virtual std::string
     try_move(const TimeStep & /* step */,
@@ -149,29 +152,31 @@ namespace geocone::GEOCONE_DIM
       return "";
     }
 
-    /** Moves boundary segments with the points after a step is accepted. */
+    /** Moves the boundary segments together with the material points after a
+     *  step is accepted. */
     virtual void
     accept_move(const TimeStep & /* step */,
                 const MaterialPoints & /* points */,
                 const Vector & /* v */)
     {}
 
-    /** Whether obstacles move with the steps. */
+    /** Returns true if the positions of obstacles are updated after each
+     *  step. */
     virtual bool
     moves_obstacles() const
     {
       return true;
     }
 
-    /** Gravity (m/s^2) included in the potential energy, not in the external
-     *  work. */
+    /** Gravity that contributes to the potential energy instead of the external
+     *  work (m/s^2). */
     virtual dealii::Tensor<1, dim>
     gravity_of_potential(const double /* t */) const
     {
       return {};
     }
 
-    /** Work done by external forces on the points in a step (J/m). */
+    /** Work done by external forces in a step (J/m). */
     virtual double
     external_work(const WorksOnNodes &works,
                   const TimeStep & /* step */,
@@ -180,12 +185,12 @@ namespace geocone::GEOCONE_DIM
       return works.of_others;
     }
 
-    /** Updates the state of the points to the end of the step.
+    /** Updates the state variables of the points to the end of the step.
      *  @return the dissipation (J/m) */
     virtual double
     update_points(const TimeStep &step, MaterialPoints &points) = 0;
 
-    /** Updates the nodal quantities to the end of the step. @return energy
+    /** Updates the nodal variables to the end of the step. @return energy
      *  dissipated by ObstacleContact::settle() (J/m) */
     virtual double
     update_nodes(const TimeStep &step,
@@ -193,8 +198,8 @@ namespace geocone::GEOCONE_DIM
                  const Vector   &v,
                  Kinematics     &kinematics) = 0;
 
-    /** Completes an accepted step; points may change cells or leave the
-     *  mesh. */
+    /** Completes an accepted step. Material points may change cells or leave
+     *  the mesh. */
     virtual void
     finish(const TimeStep & /* step */,
            const NonsmoothNewton & /* newton */,
@@ -217,9 +222,9 @@ namespace geocone::GEOCONE_DIM
         MaterialPoints           &points,
         std::vector<std::string> &remarks) = 0;
 
-    /** Updates the nodal quantities after a change of the body, and restricts
-     *  the force difference to nodes of the body. @param had_mass by dof,
-     *  before the change */
+    /** Updates the nodal variables after material is added or removed. Force
+     *  differences at nodes outside the body are set to zero. @param had_mass
+     *  whether a dof had mass before the change */
     virtual void
     change_nodes(const std::vector<bool> &had_mass,
                  Kinematics              &kinematics,
@@ -253,13 +258,13 @@ namespace geocone::GEOCONE_DIM
     Vector                              force;      ///< in rotated dofs
 
   private:
-    /** External minus internal nodal forces at time t along x and y, without
-     *  ramped forces. */
+    /** External minus internal nodal forces at time t along the coordinate
+     *  axes. Ramped forces are not included. */
     Vector
     net_force(const MaterialPoints &points, const double t);
 
-    /** Sets up the loads, prescribed velocities and potential contacts of a
-     *  step in the incremental problem.
+    /** Sets the loads, prescribed velocities and potential contacts of a step
+     *  in the incremental problem.
      *  @return loads controlled by a load factor. Collective. */
     ScaledLoads
     begin_step(const TimeStep       &step,
@@ -272,9 +277,9 @@ namespace geocone::GEOCONE_DIM
                    const Vector   &v,
                    const Vector   &residual) const;
 
-    /** Adds the work of a solved step by contribution (without dissipation and
-     *  contact) and the defect of the energy identity to the report; the points
-     *  are still at t_n. */
+    /** Adds the work contributions of a solved step and the defect of the
+     *  energy identity to the step report. Dissipation and contact are
+     *  excluded; the points are still at t_n. */
     void
     take_works(const TimeStep       &step,
                const MaterialPoints &points,
@@ -282,8 +287,8 @@ namespace geocone::GEOCONE_DIM
                const Vector         &residual,
                StepReport           &report) const;
 
-    /** Updates the displacements of supports and the reactions of boundary
-     *  conditions on the body. */
+    /** Updates the support displacements and the reactions of the boundary
+     *  conditions. */
     void
     update_supports(const TimeStep        &step,
                     const Vector          &v,

@@ -13,9 +13,9 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Ramped nodal forces after a change of the body: the change of the nodal
-   * forces is applied linearly over a time T. With n = F - sum V B's before and
-   * after the change,
+   * Nodal forces that are applied linearly over a time T after material is
+   * added or removed. With n = F - sum V B's before and after the change of the
+   * body,
    *   F(t) += (n_before - n_after) (1 - (t - t_0)/T),   t_0 <= t <= t_0 + T.
    * For removed material, the ramped forces are the weight of this material and
    * the forces by which the material supported the remaining body; for added
@@ -24,7 +24,9 @@ namespace geocone::GEOCONE_DIM
   class RampedForces
   {
   public:
-    /** @param difference n_before - n_after (N/m) @param duration T (s), or 0 */
+    /** Adds a ramp of nodal forces that starts at time begin (s).
+     *  @param difference n_before - n_after (N/m)
+     *  @param duration T (s), or 0 */
     void
     add(Vector difference, const double begin, const double duration);
 

@@ -12,20 +12,22 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Loads F controlled by a load factor in a step of a stage with load stepping
-   * (FEM or MPM). During the solution a constraint represents the loads, with
-   * the load factor as multiplier (doc/theory/stages.md); after the solution F
-   * acts as an ordinary load.
+   * Loads F multiplied by a load factor in a stage with load stepping (FEM or
+   * MPM). During the solution a constraint represents the loads, with the load
+   * factor as multiplier (doc/theory/stages.md); after the solution F acts as
+   * an ordinary load.
    */
   class ScaledLoads
   {
   public:
-    /** @throws InputError if a stage has load stepping and obstacles */
+    /** Rejects scenes that combine load stepping and obstacles.
+     *  @throws InputError */
     static void
     check(const Scene &scene);
 
     /**
-     * Adds the constraint row of the loads F. Collective.
+     * Appends the constraint that represents the loads F, with the load factor
+     * as multiplier. Collective.
      * @param force loads F @param prescribed velocities
      * @throws StepFailure if F cannot move the body
      */
@@ -36,8 +38,8 @@ namespace geocone::GEOCONE_DIM
             Constraints  &constraints);
 
     /**
-     * Adds the loads times the load factor to the force, and subtracts this
-     * part from the reactions of supports.
+     * Adds the loads times the load factor to the nodal forces. The same forces
+     * are subtracted from the reactions of supports.
      * @param lambda multipliers of the solved step
      * @return the load factor; 1 without load stepping
      */

@@ -20,22 +20,22 @@ namespace geocone::GEOCONE_DIM
   {
     backward_euler,
 
-    /** Theta-scheme with theta = 1/2: second order, energy-conserving in
-     *  elastic motion. Nodes in contact remain at u_mid = -g/h, where the
-     *  contact force does no positive work: the energy does not increase. */
+    /** Midpoint rule, the theta-scheme with theta = 1/2: second-order accurate,
+     *  and energy-conserving in elastic motion. Nodes in contact remain at
+     *  u_mid = -g/h, where the contact force does no positive work: the energy
+     *  does not increase. */
     midpoint,
 
-    /** Theta-scheme: backward Euler over theta h, then linear extrapolation of
-     *  all quantities to t + h. */
+    /** Theta-scheme: backward Euler step of size theta h, then linear
+     *  extrapolation to t + h. */
     theta_scheme,
 
-    /** Newmark scheme for displacement and velocity; the law is satisfied at t
-     *  + h. */
+    /** Newmark scheme; the constitutive equations are satisfied at t + h. */
     newmark
   };
 
-  /** Parameters of a time step from t to t + h and of the incremental problem
-   *  of the step: backward Euler for a velocity v, with displacement h v of the
+  /** Parameters of a time step from t to t + h. The incremental problem of the
+   *  step is backward Euler for a velocity v, with displacement h v of the
    *  points. */
   struct TimeStep
   {
@@ -49,8 +49,8 @@ namespace geocone::GEOCONE_DIM
     double corrector;     ///< h (1/2 - gamma + beta) by Newmark, or 0 (s)
     double start_part;    ///< weight of s^n in the dissipation
 
-    /** Extrapolation factor of stresses, strains and dissipation: 1/theta, or
-     *  1. */
+    /** Extrapolation factor of stresses, strains and dissipation: 1/theta for
+     *  the theta-scheme, otherwise 1. */
     double
     stress_extrapolation() const
     {
@@ -76,13 +76,14 @@ namespace geocone::GEOCONE_DIM
   class TimeIntegration
   {
   public:
-    /** Declares the parameters of the time integration in the section of an
+    /** Declares the time integration parameters in the section of a parameter
      *  acceptor. */
     void
     declare(dealii::ParameterAcceptor &acceptor,
             const std::string         &documentation);
 
-    /** @param section parameter section, with a slash @throws InputError */
+    /** Checks that the time integration scheme is available for a scene.
+     *  @param section parameter section, with a slash @throws InputError */
     void
     check(const Scene &scene, const std::string &section) const;
 
@@ -98,7 +99,7 @@ namespace geocone::GEOCONE_DIM
       return rule == Integration::newmark;
     }
 
-    /** Value of the parameter that selects the scheme. */
+    /** Parameter value that selects the time integration scheme. */
     std::string
     word() const
     {
@@ -108,14 +109,14 @@ namespace geocone::GEOCONE_DIM
     TimeStep
     step(const double t, const double h) const;
 
-    /** Lumped mass in the incremental problem: M, or by Newmark M/beta (stored
-     *  in this object). */
+    /** Lumped mass in the incremental problem: M/beta for Newmark schemes,
+     *  otherwise M. The scaled mass is stored in this object. */
     const Vector &
     mass_of_problem(const Vector &lumped_mass);
 
     /**
-     * Newmark's predictor: v += h (1/2 - beta) a, a = M^-1 f. At prescribed
-     * dofs, a is the mean acceleration in the step.
+     * Newmark's predictor v += h (1/2 - beta) a, with the accelerations a =
+     * M^-1 f. At prescribed dofs, a is the mean acceleration in the step.
      * @param net_force f at t_n, external minus internal forces, in rotated
      * dofs
      */
@@ -126,8 +127,8 @@ namespace geocone::GEOCONE_DIM
             const Constraints &constraints,
             Vector            &velocity);
 
-    /** Velocity at t + h from the solution v: vL + e (v - vL) + h (1/2 - gamma
-     *  + beta) a. */
+    /** Nodal velocities at t + h from the solution v: vL + e (v - vL) + h (1/2
+     *  - gamma + beta) a, with e = TimeStep::extrapolation. */
     Vector
     end_velocity(const TimeStep &step,
                  const Vector   &velocity_L,
@@ -139,7 +140,8 @@ namespace geocone::GEOCONE_DIM
     void
     check_theta_scheme(const Scene &scene, const std::string &section) const;
 
-    /** Theta of the scheme: 1 for backward Euler, 1/2 for the midpoint rule. */
+    /** Parameter theta of the selected scheme: 1 for backward Euler, 1/2 for
+     *  the midpoint rule. */
     double
     theta_of_rule() const;
 
@@ -154,7 +156,7 @@ namespace geocone::GEOCONE_DIM
     Vector acceleration; ///< a^n of the last predict() (m/s^2)
   };
 
-  /** State of a point at the end of a step. */
+  /** State of a material or quadrature point at the end of a step. */
   struct EndOfStep
   {
     Mandel stress;
@@ -164,10 +166,10 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Computes the state of the points at the end of a step from the solution. In
-   * the theta-scheme, the extrapolated stress is returned onto the admissible
-   * set by additional plastic strain. Of the points, only the history variables
-   * are updated.
+   * Computes the state of all points at the end of a step from the solution of
+   * the incremental problem. In the theta-scheme, the extrapolated stress is
+   * returned onto the set of admissible stresses by additional plastic strain.
+   * Of the points, only the history variables are updated.
    */
   std::vector<EndOfStep>
   end_step(const TimeStep       &step,
