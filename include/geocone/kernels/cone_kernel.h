@@ -11,7 +11,7 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Explicit stress update of a linear elastic material with a cone as yield
+   * Explicit stress update of an elastoplastic material with a conical yield
    * surface, for a block of points. The trial stress, rotated stress plus D e,
    * is returned as by return_map(), without branches. With the mean m = (s_xx +
    * s_yy)/2, the half difference d = (s_xx - s_yy)/2 and tau = sqrt(d^2 +
@@ -25,9 +25,10 @@ namespace geocone::GEOCONE_DIM
                const PointBlock &block);
 
   /**
-   * Explicit stress update for friction with memory (MohrCoulomb): the yield
-   * surface at each point is cone.delayed(part, p), with tension cut-off; then
-   * p becomes part p + (1 - part) s_n.
+   * Explicit stress update of a material with friction memory, for a block of
+   * points. The yield surface at each point is cone.delayed(part, p), with
+   * tension cut-off. The delayed normal stress p is then replaced by part p +
+   * (1 - part) s_n.
    * @param cone with a > 0
    * @param part memory factor lambda
    * @param place index of p (Pa) in the history

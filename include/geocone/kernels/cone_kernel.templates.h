@@ -28,12 +28,13 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Mean stress m and deviatoric components d_i of several points, rotated by
-   * the spin increment, and their strain increments. Elastically, m increases
-   * by K/d trace and d_i by 2 G part_i strain_i. The stress work per volume is
-   * m trace + sum_i d_i strain_i, and tau^2 = |s_t|^2/d = sum_i weight_i d_i^2.
-   * In the plane d is ((s_xx - s_yy)/2, s_xy), in space the deviator in the
-   * order of tensor_component.
+   * Rotated stresses and strain increments of several points (SIMD). The stress
+   * of a point is stored as the mean stress m and the deviatoric components
+   * d_i, rotated by the spin increment. Elastically, m increases by K/d trace
+   * and d_i by 2 G part_i strain_i. The stress work per volume is m trace +
+   * sum_i d_i strain_i, and tau^2 = |s_t|^2/d = sum_i weight_i d_i^2. In two
+   * dimensions d is ((s_xx - s_yy)/2, s_xy), in three dimensions the deviator
+   * in the order of tensor_component.
    */
   template <typename P>
   struct TurnedStress
@@ -46,8 +47,8 @@ namespace geocone::GEOCONE_DIM
 
     P m, trace, d[n], strain[n];
 
-    /** Loads stresses and strain increments of the points p, p + 1, ... of a
-     *  block. */
+    /** Loads the stresses and strain increments of consecutive points of a
+     *  block, from point p. */
     TurnedStress(const PointBlock &block, const unsigned int p)
     {
       if constexpr (dim == 2)
@@ -129,8 +130,8 @@ namespace geocone::GEOCONE_DIM
     }
   };
 
-  /** Implements advance_cone() for one instruction set, with or without
-   *  friction with memory. */
+  /** Implements advance_cone() for one SIMD instruction set, with or without
+   *  friction memory. */
   template <typename Arch, bool has_memory>
   void
   advance_cone_block(const ConeNumbers &cone, const PointBlock &block)
@@ -205,7 +206,7 @@ namespace geocone::GEOCONE_DIM
       }
   }
 
-  /** Selects the version with or without friction with memory. */
+  /** Calls the version of the cone kernel with or without friction memory. */
   template <typename Arch>
   void
   advance_cone_block(const ConeNumbers &cone, const PointBlock &block)

@@ -20,6 +20,7 @@ namespace geocone::GEOCONE_DIM
     Elasticity() = default;
 
     /**
+     * Computes the Lame constants from Young's modulus and Poisson's ratio.
      * @param young_modulus E > 0 (Pa)
      * @param poisson_ratio nu in (-1, 0.5)
      */
@@ -36,8 +37,8 @@ namespace geocone::GEOCONE_DIM
       return two_G * (3. * lambda + two_G) / (2. * lambda + two_G);
     }
 
-    /** Stiffness along the axis of the cone, dim lambda + 2G (Pa): dim times
-     *  the bulk modulus in dim dimensions. */
+    /** Stiffness along the cone axis, dim lambda + 2G (Pa), with the space
+     *  dimension dim. */
     double
     normal_stiffness() const
     {
@@ -60,7 +61,8 @@ namespace geocone::GEOCONE_DIM
       return two_G * strain + (lambda * trace(strain)) * unit_tensor<n>();
     }
 
-    /** Elastic strain of a stress in plane strain or in three dimensions. */
+    /** Elastic strain that corresponds to a stress, in plane strain or in three
+     *  dimensions. */
     template <int n>
     Eigen::Matrix<double, n, 1>
     strain(const Eigen::Matrix<double, n, 1> &stress) const
@@ -71,7 +73,7 @@ namespace geocone::GEOCONE_DIM
              two_G;
     }
 
-    /** Stiffness matrix D of stress() in Mandel components (Pa). */
+    /** Elastic stiffness matrix D in Mandel components (Pa). */
     template <int n = n_mandel>
     Eigen::Matrix<double, n, n, Eigen::RowMajor>
     stiffness() const

@@ -11,9 +11,9 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Block of points of one material, updated in place by an explicit step.
-   * Structure of arrays: all quantities of a point have the same index. Tensor
-   * components (no Mandel factors), tension positive, SI units.
+   * State of several points of one material, updated in place by an explicit
+   * step. Structure of arrays: all quantities of a point have the same index.
+   * Tensor components (no Mandel factors), tension positive, SI units.
    *
    * The arrays are read and written up to the next multiple of
    * PointBlock::lanes; entries beyond the last point are copies of the last
@@ -24,14 +24,14 @@ namespace geocone::GEOCONE_DIM
     /** Number of points that a kernel updates at once (SIMD lanes). */
     static constexpr unsigned int lanes = 4;
 
-    /** Maximum number of points per block; temporary arrays of this size fit
+    /** Maximum number of points per block. Temporary arrays of this size fit
      *  into the cache. */
     static constexpr unsigned int capacity = 64;
 
     unsigned int n_points = 0;
 
-    /** Increment of the displacement gradient dt grad v: dt dv_i/dx_j is stored
-     *  at index dim i + j. */
+    /** Increment of the displacement gradient, dt grad v. The component dt
+     *  dv_i/dx_j is stored at index dim i + j. */
     std::array<const double *, dim *dim> l = {};
 
     /** @name State variables, updated in place: stress (Pa) in the order of
@@ -45,17 +45,18 @@ namespace geocone::GEOCONE_DIM
 
     /** @name Results */
     /** @{ */
-    /** Stress work per volume (Pa): strain increment times the mean of the
-     *  rotated stress before the step and the stress after the step. */
+    /** Stress work per unit volume in the step (Pa). It is the strain increment
+     *  times the mean of the rotated stress before the step and the stress
+     *  after the step. */
     double *work = nullptr;
 
-    /** P-wave modulus M after the step (Pa), wave speed c = sqrt(M/rho). */
+    /** P-wave modulus M after the step (Pa); the wave speed is sqrt(M/rho). */
     double *wave_modulus = nullptr;
     /** @} */
 
     double step = 0.; ///< time step dt (s), for rate-dependent laws
 
-    /** Hoop strain increments of axisymmetric scenes; null otherwise. */
+    /** Hoop strain increments of axisymmetric scenes; null in other scenes. */
     const double *l_zz = nullptr;
 
     /** @name Access to one point */
@@ -86,7 +87,7 @@ namespace geocone::GEOCONE_DIM
     /** @} */
   };
 
-  /** Statistics of constitutive updates: totals and maximum over all points. */
+  /** Statistics of the stress updates at all points. */
   struct LawCounts
   {
     unsigned long long updates  = 0; ///< points updated, summed over steps
@@ -95,7 +96,8 @@ namespace geocone::GEOCONE_DIM
     unsigned long long limited  = 0; ///< states limited to retain a stiffness
     unsigned int       most     = 0; ///< most substeps of a point in a step
 
-    /** Reads or writes the counts of a checkpoint. @tparam Row StateRow */
+    /** Reads the counters from a checkpoint, or writes the counters to a
+     *  checkpoint. @tparam Row StateRow */
     template <typename Row>
     void
     state(Row &row)

@@ -10,15 +10,17 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Return map of SpatialMohrCoulomb for ordered principal trial stresses t, of
-   * one material point or of several.
+   * Return mapping of the three-dimensional Mohr-Coulomb model in principal
+   * stresses. The trial stresses t of one material point, or of several, are
+   * ordered.
    * @tparam P double or Pack
    */
   template <typename P>
   class PyramidReturn
   {
   public:
-    /** @param sine,flow sines of the friction and dilatancy angles */
+    /** Computes the constants of the return mapping from strength and elastic
+     *  moduli. @param sine,flow sines of the friction and dilatancy angles */
     PyramidReturn(const double sine,
                   const double flow,
                   const double lambda,
@@ -50,7 +52,7 @@ namespace geocone::GEOCONE_DIM
         }
     }
 
-    /** Yield function f_ij of the principal stresses i and j (Pa). */
+    /** Yield function f_ij of the principal stresses s_i and s_j (Pa). */
     template <typename V>
     P
     yield_function(const V &t, const int i, const int j, const P &size) const
@@ -58,15 +60,16 @@ namespace geocone::GEOCONE_DIM
       return more * t[i] + less * t[j] - size;
     }
 
-    /** Component k of D g_ij, the stiffness times the flow direction of plane
-     *  ij. */
+    /** Component k of D g_ij, the elastic stiffness times the flow direction of
+     *  the yield plane f_ij = 0. */
     const P &
     stiff_flow(const int i, const int j, const int k) const
     {
       return k == i ? Dg[0] : k == j ? Dg[1] : Dg_third;
     }
 
-    /** Return onto the plane f_13 = 0. @param f f_13 at t */
+    /** Returns the trial stress onto the yield plane f_13 = 0. @param f f_13 at
+     *  t */
     template <typename V>
     void
     to_plane(const V &t, const P &f, V &s) const
@@ -75,8 +78,9 @@ namespace geocone::GEOCONE_DIM
         s[i] = t[i] - (f * per_H) * stiff_flow(0, 2, i);
     }
 
-    /** Return onto an edge: e = 0 is f_13 = f_12 = 0 (s_2 = s_3), e = 1 is f_13
-     *  = f_23 = 0 (s_1 = s_2). */
+    /** Returns the trial stress onto an edge of the Mohr-Coulomb pyramid. Edge
+     *  e = 0 is f_13 = f_12 = 0 (s_2 = s_3), edge e = 1 is f_13 = f_23 = 0 (s_1
+     *  = s_2). */
     template <typename V>
     void
     to_edge(const int e, const V &t, const P &f, const P &size, V &s) const
@@ -92,8 +96,8 @@ namespace geocone::GEOCONE_DIM
       s[1 - e] = s[2 - e] = mean;
     }
 
-    /** Choice of the edge from the trial stress: e = 0 if the result is
-     *  positive, otherwise e = 1. */
+    /** Indicator of the active edge for a trial stress: edge 0 if positive,
+     *  otherwise edge 1. */
     template <typename V>
     P
     side(const V &t) const
@@ -101,7 +105,8 @@ namespace geocone::GEOCONE_DIM
       return flow_less * t[0] - (t[1] + t[1]) + flow_more * t[2];
     }
 
-    /** @param t principal trial stresses with f_13 = f
+    /** Returns principal trial stresses onto the Mohr-Coulomb pyramid.
+     *  @param t principal trial stresses with f_13 = f
      *  @param[out] s principal stresses after the return, if f > 0 */
     void
     operator()(const P (&t)[3],

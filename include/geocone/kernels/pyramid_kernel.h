@@ -30,12 +30,12 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Explicit stress update of a linear elastic material with the Mohr-Coulomb
-   * yield condition in three dimensions, for a block of points. The trial
-   * stress, rotated stress plus D e, is returned as by SpatialMohrCoulomb, four
-   * points at once. Principal stresses are computed by Jacobi rotations, which
-   * are accurate for equal principal stresses as well; the rotations are
-   * skipped if all four points lie within the cone inscribed in the pyramid.
+   * Explicit stress update by the three-dimensional Mohr-Coulomb model, for a
+   * block of points. The trial stress, rotated stress plus D e, is returned as
+   * by SpatialMohrCoulomb, four points at once. Principal stresses are computed
+   * by Jacobi rotations, which are accurate for equal principal stresses as
+   * well; the rotations are skipped if all four points lie within the cone
+   * inscribed in the pyramid.
    */
   void
   advance_pyramid(const PyramidNumbers &pyramid, const PointBlock &block);

@@ -11,9 +11,9 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Principal values in decreasing order and principal directions n of a
-   *  symmetric tensor; stored are the components of the dyad n n in two
-   *  dimensions, of n in three. */
+  /** Principal values of a symmetric tensor in decreasing order, with the
+   *  principal directions n. In two dimensions the components of the dyads n n
+   *  are stored, in three dimensions the components of n. */
   template <typename P>
   class PrincipalAxes
   {
@@ -31,7 +31,8 @@ namespace geocone::GEOCONE_DIM
       sort(0, 1);
     }
 
-    /** Tensor with principal values y and the same principal directions. */
+    /** Tensor with the principal values y and the stored principal
+     *  directions. */
     std::array<P, n_spatial>
     tensor(const P (&y)[3]) const
     {
@@ -55,7 +56,8 @@ namespace geocone::GEOCONE_DIM
 
     P axis[3][n_axis];
 
-    /** Principal axes in plane strain; the z axis is principal. */
+    /** Computes the principal axes in plane strain, where the z axis is a
+     *  principal axis. */
     void
     find_in_plane(const std::array<P, n_spatial> &s)
     {
@@ -82,8 +84,8 @@ namespace geocone::GEOCONE_DIM
       axis[2][3] = one;
     }
 
-    /** Principal axes by Jacobi rotations; each rotation annihilates one
-     *  off-diagonal component. */
+    /** Computes the principal axes by Jacobi rotations. Each rotation
+     *  annihilates one off-diagonal component. */
     void
     find_by_rotations(const std::array<P, n_spatial> &s)
     {
@@ -153,16 +155,17 @@ namespace geocone::GEOCONE_DIM
     }
   };
 
-  /** Stresses of several points, rotated by the spin increment, and strain
-   *  increments with engineering shears gamma_ij = 2 e_ij. */
+  /** Rotated stresses and strain increments of several points (SIMD). The
+   *  stresses are rotated by the spin increment; the shear strains are
+   *  engineering strains, gamma_ij = 2 e_ij. */
   template <typename P>
   struct TurnedTensors
   {
     std::array<P, n_spatial> s, strain;
 
-    /** Loads stresses and strain increments of the points p, p + 1, ... of a
-     *  block. @param nu Poisson ratio, for s_zz in plane strain (see
-     *  Material) */
+    /** Loads the stresses and strain increments of consecutive points of a
+     *  block, from point p. @param nu Poisson ratio, for s_zz in plane strain
+     *  (see Material) */
     TurnedTensors(const PointBlock &block, const unsigned int p, const P &nu)
     {
       std::array<P, dim * dim> l;
@@ -191,7 +194,7 @@ namespace geocone::GEOCONE_DIM
     }
   };
 
-  /** Implements advance_pyramid() for one instruction set. */
+  /** Implements advance_pyramid() for one SIMD instruction set. */
   template <typename Arch>
   void
   advance_pyramid_block(const PyramidNumbers &pyramid, const PointBlock &block)

@@ -12,16 +12,17 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Rotation of tensors in the plane by a spin increment w = (l_yx - l_xy)/2.
-   * The Cayley transform, tan(angle/2) = w/2, is exactly orthogonal, so that
-   * stress invariants are preserved.
+   * Rotation of plane tensors by the spin increment w = (l_yx - l_xy)/2. The
+   * Cayley transform, tan(angle/2) = w/2, is exactly orthogonal, so that stress
+   * invariants are preserved.
    * @tparam T double, or Pack for several points
    */
   template <typename T>
   class PlaneSpin
   {
   public:
-    /** @param l increment of the displacement gradient, l_ij at 2 i + j */
+    /** Computes the rotation from the increment l of the displacement gradient,
+     *  with l_ij at index 2 i + j. */
     explicit PlaneSpin(const std::array<T, 4> &l)
     {
       const T one(1.), two(2.);
@@ -51,15 +52,17 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Rotation of tensors in three dimensions by a spin increment (Cayley
-   * transform): with half the axial vector g of the increment,
+   * Rotation of tensors in three dimensions by the Cayley transform of a spin
+   * increment. With g, half the axial vector of the increment, the rotation
+   * matrix is
    *   Q = c 1 + s (g g' + [g x]),  s = 2/(1 + g.g),  c = 1 - s g.g.
    */
   template <typename T>
   class SpatialSpin
   {
   public:
-    /** @param l increment of the displacement gradient, l_ij at 3 i + j */
+    /** Computes the rotation from the increment l of the displacement gradient,
+     *  with l_ij at index 3 i + j. */
     explicit SpatialSpin(const std::array<T, 9> &l)
     {
       const T quarter(0.25), one(1.);

@@ -29,7 +29,9 @@ namespace geocone
       : c(c)
     {}
 
-    /** Coefficients of fbar(a + x (sigma - a)) = C + B x + A x^2. */
+    /** Coefficients of the yield function along the ray from the similarity
+     *  centre a through the stress sigma: fbar(a + x (sigma - a)) = C + B x + A
+     *  x^2. */
     struct Quadratic
     {
       Vector sa, sd; ///< sh at a; sh at sigma minus sh at a (Pa)
@@ -37,7 +39,7 @@ namespace geocone
       Number ph;     ///< shifted pressure of a (Pa)
       Number A, B, C;
 
-      /** Similarity ratio R, the root of fbar = 0 for x = 1/R. */
+      /** Similarity ratio R, the positive root of A + B R + C R^2 = 0. */
       Number
       ratio() const
       {
@@ -70,8 +72,9 @@ namespace geocone
       return f;
     }
 
-    /** Loading criterion: a value with the sign of N:D:de, equal to the sign of
-     *  dA + R dB along the elastic path. */
+    /** Loading criterion: positive for plastic loading, with the sign of
+     *  N:D:de. The sign is equal to the sign of dA + R dB along the elastic
+     *  path. */
     Number
     loading(const State     &y,
             const Quadratic &f,
@@ -87,8 +90,9 @@ namespace geocone
              volume * (two * (f.dp + R * f.ph) - R * y.pcb);
     }
 
-    /** Elastic stress path sigma + u e with e = tr(de) I + 2 G/K dev(de); u
-     *  increases from 0 to the integral of K over the strain increment. */
+    /** Elastic stress path sigma + u e of a strain increment de, with e =
+     *  tr(de) I + 2 G/K dev(de). The parameter u increases from 0 to the
+     *  integral of K over the strain increment. */
     struct ElasticPath
     {
       Vector e;
@@ -148,8 +152,8 @@ namespace geocone
       return path;
     }
 
-    /** Increments of the state for the strain increment de, at similarity ratio
-     *  R. */
+    /** Increments of the state variables for a strain increment de at the
+     *  similarity ratio R. */
     struct Rates
     {
       State                 increment;
@@ -159,8 +163,9 @@ namespace geocone
       Number plastic_strain;
     };
 
-    /** Computes the increments for a strain increment; with Result =
-     *  SubloadingRates also all intermediate quantities. */
+    /** Computes the increments of the state variables for a strain increment.
+     *  With Result = SubloadingRates, all intermediate quantities are returned
+     *  as well. */
     template <typename Result = Rates>
     Result
     rates(const State  &y,
@@ -301,8 +306,8 @@ namespace geocone
       return r;
     }
 
-    /** Substep of the modified Euler method, from the state y over a strain
-     *  increment. */
+    /** Result of a substep of the modified Euler method, from the state y over
+     *  a strain increment. */
     struct Substep
     {
       State     end;
@@ -360,7 +365,7 @@ namespace geocone
       return result;
     }
 
-    /** Comparison: 1 if a < b, otherwise 0. */
+    /** Returns 1 if a < b, otherwise 0. */
     static Number
     is_less(const Number &a, const Number &b)
     {
@@ -376,8 +381,8 @@ namespace geocone
     const SubloadingNumbers c; ///< copied, so that stores do not alias it
 
   private:
-    /** Largest root of a x^2 + b x + c = 0 with a < 0 <= c, without
-     *  cancellation; a = 0 is allowed if b < 0. */
+    /** Largest root of a x^2 + b x + c = 0 for a < 0 <= c, computed without
+     *  cancellation. The case a = 0 is allowed if b < 0. */
     static Number
     positive_root(const Number &a, const Number &b, const Number &c)
     {
@@ -443,8 +448,9 @@ namespace geocone
     }
 
     /**
-     * Cosine of the Lode angle t of a deviator s with the norm r; t = 0 in
-     * triaxial extension, 60 degrees in triaxial compression.
+     * Cosine of the Lode angle t of a stress deviator s with the norm r. The
+     * angle t is 0 in triaxial extension and 60 degrees in triaxial
+     * compression.
      */
     static Number
     cos_lode(const Vector &s, const Number &r)
@@ -476,9 +482,9 @@ namespace geocone
         }
     }
 
-    /** Critical stress ratio eta_beta,cs in the direction of the deviator s
-     *  with the norm norm_s.
-     *  @param[out] lode Willam and Warnke's h */
+    /** Stress ratio eta_beta,cs at the critical state in the direction of the
+     *  stress deviator s.
+     *  @param norm_s norm of s @param[out] lode Willam and Warnke's h */
     Number
     critical_ratio(const Vector &s, const Number &norm_s, Number &lode) const
     {

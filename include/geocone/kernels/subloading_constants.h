@@ -8,9 +8,9 @@ namespace geocone
 {
   /**
    * Material constants of the subloading soil model of Pereira et al. (the STSM
-   * report); numbers such as "(21)" are equations of the report. Any consistent
-   * unit of stress can be used; defaults are in Pa. Compression is positive
-   * here.
+   * report). Numbers such as "(21)" refer to equations of the report. Any
+   * consistent unit of stress can be used; defaults are in Pa. Compression is
+   * positive here.
    */
   struct SubloadingConstants
   {
@@ -33,8 +33,8 @@ namespace geocone
     double Rmin  = 0.01; ///< elastic range, R below Rmin (31) (-)
     double delta = 0.01; ///< margin of the similarity centre (38) (-)
 
-    /** Pressure in the rotation (24) of the surfaces: sh = s - ph beta if true,
-     *  otherwise s - p beta. */
+    /** True if the rotation of the surfaces, equation (24), is sh = s - ph beta
+     *  instead of sh = s - p beta. */
     bool rotates_with_ph = false;
 
     double tolerance        = 1e-4; ///< error tolerance per substep (STOL) (-)
@@ -43,7 +43,7 @@ namespace geocone
     double smallest_size    = 1e3;  ///< lower limit of pcb (Pa)
   };
 
-  /** Material constants with derived constants of the subloading model. */
+  /** Material constants of the subloading model, with derived constants. */
   struct SubloadingNumbers : SubloadingConstants
   {
     SubloadingNumbers() = default;

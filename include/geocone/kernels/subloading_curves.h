@@ -12,7 +12,8 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Mandel vector, compression positive, of a tensor, tension positive. */
+  /** Converts a tensor (tension positive) into a Mandel vector (compression
+   *  positive). */
   template <int n>
   typename SubloadingModel<n>::Vector
   to_model(const Tensor6 &x)
@@ -23,8 +24,8 @@ namespace geocone::GEOCONE_DIM
     return y;
   }
 
-  /** Tensor of a Mandel vector times the sign. @param sign -1 reverses the sign
-   *  convention */
+  /** Converts a Mandel vector into tensor components, multiplied by a sign.
+   *  @param sign -1 reverses the sign convention */
   template <int n>
   Tensor6
   from_model(const Eigen::Matrix<double, n, 1> &x, const double sign)
@@ -35,8 +36,8 @@ namespace geocone::GEOCONE_DIM
     return y;
   }
 
-  /** Plane sections of the yield surface and of the subloading surface inside
-   *  the yield surface. */
+  /** Sections of the yield surface and of the subloading surface by a plane in
+   *  stress space. */
   template <int n>
   std::vector<YieldCurve>
   subloading_curves(const SubloadingModel<n> &model,

@@ -8,7 +8,7 @@
 
 namespace geocone
 {
-  /** State variables of the subloading model and strain increments at four
+  /** State variables and strain increments of the subloading model at four
    *  points, as a structure of arrays. Components in the order of
    *  SubloadingState, compression positive. */
   template <int n>
@@ -25,7 +25,8 @@ namespace geocone
     bool   is_done[size];        ///< if false, the state is unchanged
     /** @} */
 
-    /** @param y a SubloadingState (a template argument, so that kernels need
+    /** Copies the state and the strain increment of a point into a lane.
+     *  @param y a SubloadingState (a template argument, so that kernels need
      *  not include the class) */
     template <typename State, typename Strain>
     void
@@ -58,11 +59,12 @@ namespace geocone
   };
 
   /**
-   * Integrates four points over their strain increments in one substep each.
-   * One substep is taken where SubloadingModel::integrate() would take only
-   * one: the loading is plastic from the start, the error of the full increment
-   * is within the tolerance, and no limit is reached. In explicit steps this is
-   * the usual case. The other points are left to integrate().
+   * Integrates the subloading model at four points over their strain
+   * increments, in one substep per point. One substep is taken where
+   * SubloadingModel::integrate() would take only one: the loading is plastic
+   * from the start, the error of the full increment is within the tolerance,
+   * and no limit is reached. In explicit steps this is the usual case. The
+   * other points are left to integrate().
    */
   void
   take_single_substeps(const SubloadingNumbers &, SubloadingLanes<4> &);

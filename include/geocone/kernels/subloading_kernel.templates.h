@@ -20,8 +20,8 @@ namespace geocone
     P                pcb, Rb;
   };
 
-  /** Integration of four points at once, one substep of the subloading model
-   *  each. */
+  /** SIMD integration of the subloading model at four points, with one substep
+   *  per point. */
   template <typename P, int n>
   class SubloadingSubstep
   {
@@ -30,7 +30,8 @@ namespace geocone
       : body(c)
     {}
 
-    /** Integrates the four points of the lanes; see take_single_substeps(). */
+    /** Integrates the four points stored in the SIMD lanes; see
+     *  take_single_substeps(). */
     void
     operator()(SubloadingLanes<n> &lanes) const
     {
@@ -87,8 +88,8 @@ namespace geocone
     using Body   = SubloadingBody<State, n>;
     using Vector = typename Body::Vector;
 
-    /** Acceptance of a plastic substep over the full increment: 1 if the error
-     *  and all limits are respected, otherwise 0. */
+    /** Returns 1 if a plastic substep over the full increment respects the
+     *  error tolerance and all limits, otherwise 0. */
     P
     is_good(const typename Body::Substep &next, const P &R) const
     {
@@ -107,7 +108,7 @@ namespace geocone
         to[i] = P::load(from[i]);
     }
 
-    /** Stores the values of the lanes for which good is 1. */
+    /** Stores the values of the SIMD lanes for which good is 1. */
     static void
     store(const P &good, const P &end, double (&to)[4])
     {
@@ -130,7 +131,7 @@ namespace geocone
     const Body body;
   };
 
-  /** Implements take_single_substeps() for one instruction set. */
+  /** Implements take_single_substeps() for one SIMD instruction set. */
   template <typename Arch, int n>
   void
   take_single_substeps_by(const SubloadingNumbers &c, SubloadingLanes<n> &lanes)

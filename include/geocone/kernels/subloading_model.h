@@ -28,9 +28,10 @@ namespace geocone
   };
 
   /**
-   * Plastic rates of the subloading model for a strain increment de: h_x is
-   * dx/dLambda, with the plastic multiplier Lambda scaled by m = d gbar/d sy.
-   * Numbers in parentheses are equations of the report (SubloadingConstants).
+   * Plastic rates of the subloading model for a strain increment de. The rate
+   * h_x of a state variable x is dx/dLambda; the plastic multiplier Lambda is
+   * scaled by m = d gbar/d sy. Numbers in parentheses are equations of the
+   * report (SubloadingConstants).
    */
   template <int n>
   struct SubloadingRates
@@ -54,13 +55,13 @@ namespace geocone
     double d_lambda       = 0.;       ///< N:D:de/(N:D:m + H), 0 if negative
     double stable         = 1.;       ///< 1 if N:D:m + H > 0, otherwise 0
     double plastic_strain = 0.;       ///< ||d eps_p|| for de (-)
-    /** Increments of the state variables for de. */
+    /** Increments of the state variables for the strain increment de. */
     SubloadingState<n> increment;
 
     static constexpr bool has_all = true; ///< rates() computes all members
   };
 
-  /** Statistics of the integration of one strain increment. */
+  /** Statistics of the integration over one strain increment. */
   struct SubloadingReport
   {
     unsigned int substeps       = 0;     ///< plastic substeps and elastic parts
@@ -70,9 +71,9 @@ namespace geocone
   };
 
   /**
-   * Subloading model of one material point with rotational hardening, moving
-   * similarity centre, structure and non-associated flow; n = 4 (plane strain)
-   * or n = 6 stress components, compression positive. See
+   * Subloading model at a material point, with rotational hardening, structure
+   * and non-associated flow. The similarity centre moves. Stresses have n = 4
+   * (plane strain) or n = 6 components, compression positive. See
    * doc/theory/subloading.md.
    */
   template <int n>
@@ -94,25 +95,26 @@ namespace geocone
     }
 
     /**
-     * Similarity ratio R of the subloading surface through the stress: the
-     * positive root of fbar(a + (sigma - a)/R) = 0, (20), (21).
+     * Similarity ratio R of the subloading surface through the stress. R is the
+     * positive root of fbar(a + (sigma - a)/R) = 0, equations (20) and (21).
      */
     double
     ratio(const State &state) const;
 
-    /** Yield function fbar(S; beta, pcb) (21) (Pa^2), negative inside. */
+    /** Yield function fbar(S; beta, pcb) of equation (21) (Pa^2), negative
+     *  inside the yield surface. */
     double
     yield_function(const Vector &S, const Vector &beta, const double pcb) const;
 
     /**
-     * Size pc (Pa) of the yield surface with inclination beta through the
-     * stress; <= 0 if no surface passes through the stress.
+     * Size pc (Pa) of the yield surface with inclination beta that passes
+     * through a stress. The size is not positive if no such surface exists.
      */
     double
     size_through(const Vector &stress, const Vector &beta) const;
 
-    /** Plastic rates for a strain increment at a state with similarity ratio
-     *  R. */
+    /** Computes the plastic rates for a strain increment at a given state and
+     *  similarity ratio R. */
     SubloadingRates<n>
     rates(const State &state, const double R, const Vector &strain) const;
 
@@ -128,7 +130,8 @@ namespace geocone
       return (1. + 4. / 3. * c.shear_ratio) * (p + c.pe) / c.kappa;
     }
 
-    /** Ratio of shear to bulk modulus, G/K = 3(1-2nu)/(2(1+nu)) (25) (-). */
+    /** Ratio of shear to bulk modulus, G/K = 3(1-2nu)/(2(1+nu)), equation (25)
+     *  (-). */
     double
     g_over_k() const
     {

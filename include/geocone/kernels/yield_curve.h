@@ -10,12 +10,12 @@
 
 namespace geocone
 {
-  /** Symmetric tensor by the components xx, yy, zz, xy, yz, zx (no Mandel
-   *  factors). */
+  /** Components xx, yy, zz, xy, yz, zx of a symmetric tensor, without Mandel
+   *  factors. */
   using Tensor6 = std::array<double, 6>;
 
-  /** Section of a yield surface, for figures: points (p, q) in Pa, p positive
-   *  in compression. */
+  /** Section of a yield surface for plots, as points (p, q) in Pa with p
+   *  positive in compression. */
   using YieldCurve = std::vector<std::pair<double, double>>;
 
   /** Section plane in stress space, spanned by the hydrostatic axis and the
@@ -24,8 +24,9 @@ namespace geocone
   {
     Tensor6 stress; ///< a stress in the plane, tension positive (Pa)
 
-    /** Sign of q: if 0 to 2, q is positive where this normal component is the
-     *  most compressive; otherwise along the deviator of the stress. */
+    /** Index of the normal stress component that determines the sign of q. For
+     *  0 to 2, q is positive where this component is the most compressive;
+     *  otherwise q is positive along the deviator of the stress. */
     unsigned int axis;
 
     double largest_p; ///< end of the curve if the surface is open (Pa)
