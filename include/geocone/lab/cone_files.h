@@ -11,12 +11,13 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Reads a second-order-cone complementarity problem in the text format of Siconos:
-   * dimension, number n of cones, model type (plasticity only: 1; absent in older files),
-   * matrix storage, numbers of rows and columns, matrix W, vector q, and coefficients of
-   * the cones. The matrix is dense (storage 0: numbers of rows and columns, rows),
-   * block-sparse (storage 1) or sparse (storage 2: 1, 2 or 3 for triplets, columns or
-   * rows, and the matrix as printed by CSparse).
+   * Reads a second-order-cone complementarity problem from a file in the text format of
+   * Siconos. The file contains the dimension, the number n of cones, the model type
+   * (plasticity only: 1; absent in older files), the matrix storage, the numbers of
+   * rows and columns, the matrix W, the vector q, and the coefficients of the cones.
+   * The matrix is dense (storage 0: numbers of rows and columns, rows), block-sparse
+   * (storage 1) or sparse (storage 2: 1, 2 or 3 for triplets, columns or rows, and the
+   * matrix as printed by CSparse).
    *  - Plasticity, dimension 3: for each cone an aperture eta = a, then for each a
    *    coefficient theta. The change of variable of the file is z + theta |z_t| n, so
    *    that theta = a - b. There is no cohesion: stresses are relative to the apex.
@@ -30,15 +31,17 @@ namespace geocone::GEOCONE_DIM
   ReducedProblem
   read_siconos(const std::string &file_name);
 
-  /** Whether a file is an HDF5 file in the format of FCLib (Acary et al. 2014). */
+  /** Returns true if a file is an HDF5 file in the format of FCLib (Acary et al.
+   *  2014). */
   bool
   is_fclib(const std::string &file_name);
 
   /**
-   * Reads a frictional contact problem of FCLib in dimension 2 or 3: a local problem,
+   * Reads a two- or three-dimensional frictional contact problem from a file in the
+   * format of FCLib. The problem is either local,
    *   u = W r + q,
-   * or a global problem, M v = H r + f, u = H' v + w, reduced to W = H' M^-1 H and q = H'
-   * M^-1 f + w. Coefficients of the cones: a = mu, b = 0.
+   * or global, M v = H r + f, u = H' v + w, and then reduced to W = H' M^-1 H and q =
+   * H' M^-1 f + w. Coefficients of the cones: a = mu, b = 0.
    * @throws RunError or InputError naming the file and the error in it, also for
    * bilateral constraints and rolling friction
    */

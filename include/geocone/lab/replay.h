@@ -19,9 +19,9 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Solves a problem stored in a file again, without the scene and on one rank: an
-   * incremental problem in HDF5 (FrozenProblem), or a reduced problem in the text format
-   * of Siconos (ReducedProblem).
+   * Solves a problem stored in a file again, on one MPI rank and without the scene. The
+   * file contains an incremental problem in HDF5 (FrozenProblem), or a reduced problem
+   * in the format of Siconos or FCLib (ReducedProblem).
    *
    * @param overrides parameters of the sections Newton, Linear solver, Time stepping
    * (friction), Materials and Output ('If folder exists', as for runs), as on the
@@ -51,7 +51,8 @@ namespace geocone::GEOCONE_DIM
                         ". How to treat a folder that is not empty.");
     }
 
-    /** Creates the output folder, if requested. @throws InputError */
+    /** Creates the output folder unless the path is empty.
+     *  @throws InputError */
     void
     make()
     {
@@ -65,7 +66,8 @@ namespace geocone::GEOCONE_DIM
     Choice<IfExists> if_exists = if_exists_choice();
   };
 
-  /** Calls a function that reads a file; a remedy is appended to errors without one. */
+  /** Calls a function that reads a file, and appends a remedy to error messages.
+   *  Messages that already contain a remedy are not changed. */
   template <typename Read>
   auto
   read_with_remedy(const Read &read, const std::string &remedy)
@@ -90,12 +92,12 @@ namespace geocone::GEOCONE_DIM
     std::vector<Mandel> stress;
   };
 
-  /** Whether a file contains a reduced problem in the format of Siconos or FCLib
-   *  (two-dimensional scenes only). */
+  /** Returns true if a file contains a reduced problem in the format of Siconos or
+   *  FCLib. Available in two-dimensional scenes only. */
   bool
   is_reduced_problem(const std::string &file_name);
 
-  /** Reads and solves a reduced problem. */
+  /** Reads a reduced problem from a file and solves the problem. */
   Outcome
   replay_reduced(const std::string              &file_name,
                  const std::vector<std::string> &overrides,
