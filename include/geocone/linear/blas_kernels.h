@@ -9,8 +9,8 @@
 namespace geocone
 {
   /**
-   * Selects the kernels of OpenBLAS by the instruction sets of the processor.
-   * By default OpenBLAS selects kernels by the processor model, with SSE3 for
+   * Selects the OpenBLAS kernels by the instruction sets of the processor. By
+   * default OpenBLAS selects kernels by the processor model, with SSE3 for
    * models unknown to the installed version: factorisations in three dimensions
    * are then three times slower. Has no effect if OpenBLAS has selected AVX2 or
    * better, if the environment variable OPENBLAS_CORETYPE is set, or with
@@ -19,8 +19,8 @@ namespace geocone
   void
   select_blas_kernels();
 
-  /** Name of the kernels selected in OpenBLAS (e.g. "Haswell"); "unknown" with
-   *  another BLAS. */
+  /** Name of the OpenBLAS kernels in use, e.g. "Haswell"; "unknown" for other
+   *  BLAS libraries. */
   std::string
   blas_core();
 } // namespace geocone

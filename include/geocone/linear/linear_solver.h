@@ -17,37 +17,38 @@
 namespace geocone
 {
   /**
-   * Interface of solvers for sparse linear systems: analyse() once per sparsity
-   * pattern, factorise() once per matrix. The matrix must outlive the last
-   * solve() with its factorisation.
+   * Interface of solvers for sparse linear systems. Call analyse() once per
+   * sparsity pattern and factorise() once per matrix. The matrix must outlive
+   * the last solve() with its factorisation.
    */
   class LinearSolver
   {
   public:
     virtual ~LinearSolver() = default;
 
-    /** Symbolic analysis: orders the unknowns and plans the factorisation for
-     *  the sparsity pattern of a matrix. */
+    /** Performs the symbolic factorisation for the sparsity pattern of a
+     *  matrix. */
     virtual void
     analyse(const SparseMatrix &matrix) = 0;
 
     /**
-     * Numerical factorisation of a matrix with the analysed sparsity pattern.
-     * @return false if the matrix is singular or, for a Cholesky
-     * factorisation, not positive definite; the same on all ranks
+     * Computes the numerical factorisation of a matrix with the analysed
+     * sparsity pattern.
+     * @return false if the matrix is singular or, for a Cholesky factorisation,
+     * not positive definite; the same on all ranks
      */
     [[nodiscard]] virtual bool
     factorise(const SparseMatrix &matrix) = 0;
 
     /**
-     * Solves for several right-hand sides; the solutions replace the right-hand
-     * sides.
+     * Solves the linear system for several right-hand sides. The solutions
+     * replace the right-hand sides.
      * @param x owned rows, column by column
      */
     virtual void
     solve(std::vector<double> &x, const unsigned int n_columns = 1) = 0;
 
-    /** Whether set_nodal_rows() must be called before analyse(). */
+    /** Returns true if set_nodal_rows() must be called before analyse(). */
     virtual bool
     wants_nodal_rows() const
     {
@@ -58,7 +59,7 @@ namespace geocone
     set_nodal_rows(NodalRows)
     {}
 
-    /** Whether the solver uses only the lower triangle of a symmetric
+    /** Returns true if the solver uses only the lower triangle of a symmetric
      *  matrix. */
     virtual bool
     wants_one_triangle() const = 0;
@@ -66,13 +67,13 @@ namespace geocone
     virtual std::string
     name() const = 0;
 
-    /** Reports the failure of a solver, which terminates the run. @throws
-     *  RunError */
+    /** Terminates the run because a linear solver has failed.
+     *  @throws RunError */
     [[noreturn]] static void
     fail(const std::string &why);
   };
 
-  /** Choice of the linear solver and its memory options. */
+  /** Parameters of the linear solver: type, memory and iteration options. */
   class LinearSolverParameters : public dealii::ParameterAcceptor
   {
   public:
@@ -92,7 +93,7 @@ namespace geocone
                           {"Mumps", Name::mumps},
                           {"multigrid", Name::multigrid}}};
 
-    /** Size of the integers that index the entries of Cholmod's factors. */
+    /** Integer size for the indices of Cholmod's factors, in bits. */
     enum class IndexSize
     {
       automatic,
@@ -103,18 +104,18 @@ namespace geocone
                                      {"32", IndexSize::bits_32},
                                      {"64", IndexSize::bits_64}}};
 
-    /** Whether Mumps stores the factors on disk, and the folder for the
-     *  factors. */
+    /** Out-of-core factorisation by Mumps, and folder for the factors on
+     *  disk. */
     bool        out_of_core = false;
     std::string folder      = "/tmp";
 
-    /** Multigrid: tolerance for the relative residual, and maximum number of
-     *  iterations. */
+    /** Tolerance for the relative residual, and maximum number of iterations,
+     *  of the multigrid solver. */
     double       tolerance      = 1e-6;
     unsigned int max_iterations = 200;
 
     /**
-     * Creates the selected solver for symmetric or unsymmetric matrices:
+     * Creates the selected linear solver. The following solvers are available:
      * - Cholmod: supernodal Cholesky of SuiteSparse; one rank, symmetric
      *   positive definite matrices (associated flow);
      * - Umfpack: unsymmetric multifrontal LU of SuiteSparse; one rank;
@@ -137,21 +138,24 @@ namespace geocone
   /** @name Creation of the linear solvers */
   /** @{ */
 
-  /** @param size size of the integers; automatic: smallest size sufficient for
-   *  the factors */
+  /** Creates the solver Cholmod (sparse Cholesky factorisation). @param size
+   *  size of the integers; automatic: smallest size sufficient for the
+   *  factors */
   std::unique_ptr<LinearSolver>
   make_cholmod(const LinearSolverParameters::IndexSize size);
 
   std::unique_ptr<LinearSolver>
   make_umfpack();
 
-  /** @param folder folder for factors on disk; empty: factors in memory */
+  /** Creates the solver Mumps (distributed multifrontal factorisation).
+   *  @param folder folder for factors on disk; empty: factors in memory */
   std::unique_ptr<LinearSolver>
   make_mumps(const MPI_Comm     comm,
              const bool         symmetric,
              const std::string &folder);
 
-  /** @param direct direct solver for systems that exceed max_iterations */
+  /** Creates a Krylov solver preconditioned by algebraic multigrid.
+   *  @param direct direct solver for systems that exceed max_iterations */
   std::unique_ptr<LinearSolver>
   make_multigrid(const MPI_Comm                comm,
                  const bool                    symmetric,

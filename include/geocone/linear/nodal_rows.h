@@ -12,23 +12,24 @@
 namespace geocone
 {
   /**
-   * Nodes of the matrix rows of a Jacobian, for algebraic multigrid. Multigrid
-   * aggregates nodes instead of rows, with rigid motions as the near-nullspace
-   * of the elastic stiffness.
+   * Assignment of the rows of a Jacobian to nodes, for algebraic multigrid.
+   * Multigrid aggregates nodes instead of rows, with rigid motions as the
+   * near-nullspace of the elastic stiffness.
    */
   struct NodalRows
   {
     unsigned int n_components = 2; ///< velocity components per node
 
-    /** Parallel layout of the velocity vector; the dofs of a node are
-     *  consecutive. */
+    /** Parallel layout of the velocity vector; the degrees of freedom of a node
+     *  are consecutive. */
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> layout;
 
-    /** Global dof of each local matrix row. */
+    /** Global index of the degree of freedom of each locally owned matrix
+     *  row. */
     std::vector<dealii::types::global_dof_index> dof;
 
-    /** Rigid-body motions: translations and, if nodal positions are available,
-     *  rotations. Values at the owned dofs, zero at dofs without a matrix
+    /** Rigid-body modes: translations, and rotations if nodal positions are
+     *  available. Values at the owned dofs, zero at dofs without a matrix
      *  row. */
     std::vector<std::vector<double>> rigid_motions;
   };
