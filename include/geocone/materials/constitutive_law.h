@@ -20,27 +20,28 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Interface of all constitutive laws: mass density and explicit stress update
-   * (advance()). Laws with a closed-form return map, which implicit methods can
-   * also use, derive from Material; laws with their own stress integration
-   * derive from this class. Each law is one unit in this folder with its own
-   * parameters, and one line in material_library.cc.
+   * Base class of all constitutive laws, with mass density and explicit stress
+   * update (advance()). Laws with a closed-form return mapping, which implicit
+   * methods can also use, derive from Material; laws with their own stress
+   * integration derive from this class. Each law is one unit in this folder
+   * with its own parameters, and one line in material_library.cc.
    */
   class ConstitutiveLaw : public dealii::ParameterAcceptor
   {
   public:
-    /** Full stress tensor, tension positive (Pa): xx, yy, zz, xy, and in three
-     *  dimensions yz, zx. */
+    /** Components xx, yy, zz, xy and, in three dimensions, yz, zx of the full
+     *  stress tensor (Pa), tension positive. */
     using Stress = std::array<double, n_spatial>;
 
-    /** Stress components in the order of tensor_component (Pa); in plane scenes
-     *  without zz. */
+    /** Stress components in the order of tensor_component (Pa); zz is omitted
+     *  in plane scenes. */
     using Components = std::array<double, n_mandel>;
 
-    /** @param section name of the parameter section, e.g. "Materials/soil" */
+    /** Declares the common parameters of all laws. @param section name of the
+     *  parameter section, e.g. "Materials/soil" */
     explicit ConstitutiveLaw(const std::string &section);
 
-    /** Checks the parameters and computes derived constants. */
+    /** Checks the material parameters and computes the derived constants. */
     virtual void
     prepare();
 
@@ -58,21 +59,22 @@ namespace geocone::GEOCONE_DIM
       return rho_saturated;
     }
 
-    /** Computes the densities from given unit weights. @param g gravitational
-     *  acceleration (m/s^2)
+    /** Computes the mass densities from the unit weights in the parameter file.
+     *  @param g gravitational acceleration (m/s^2)
      *  @throws InputError for unit weights with zero gravity */
     void
     set_gravity(const double g);
 
-    /** Bulk modulus K_w/n (Pa) of the pore fluid of undrained soil: the excess
-     *  pore pressure increases by dp = -K_w/n tr(de). 0: drained. */
+    /** Bulk modulus K_w/n (Pa) of the pore fluid in undrained soil; 0 in
+     *  drained soil. The excess pore pressure increases by dp = -K_w/n
+     *  tr(de). */
     double
     fluid_modulus() const
     {
       return pore_fluid;
     }
 
-    /** Elastic energy density of the pore fluid at an excess pore pressure
+    /** Elastic energy density of the pore fluid at a given excess pore pressure
      *  (J/m^3). */
     double
     fluid_energy(const double pressure) const
@@ -84,14 +86,14 @@ namespace geocone::GEOCONE_DIM
     dealii::SymmetricTensor<2, 2>
     permeability() const;
 
-    /** Drainable porosity (-): volume of water drained per volume of soil as
-     *  the free surface falls.
+    /** Drainable porosity (-): volume of water drained per unit volume of soil
+     *  as the free surface falls.
      *  @throws InputError if it is not given */
     double
     drainable_porosity() const;
 
-    /** Earth pressure coefficient at rest K0 given in the parameter file (-);
-     *  0: not given. */
+    /** Earth pressure coefficient at rest K0 from the parameter file (-); 0 if
+     *  not specified. */
     double
     given_k0() const
     {
@@ -99,9 +101,10 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * Earth pressure coefficient at rest K0 of the law (-), the ratio of
-     * horizontal to vertical effective stress in level ground without lateral
-     * strain; admissible at any depth. K0 = 1 is an isotropic stress state.
+     * Default earth pressure coefficient at rest K0 of a constitutive law (-).
+     * K0 is the ratio of horizontal to vertical effective stress in level
+     * ground without lateral strain; the stress is admissible at any depth. K0
+     * = 1 is an isotropic stress state.
      */
     virtual double
     earth_pressure_at_rest() const
@@ -109,16 +112,16 @@ namespace geocone::GEOCONE_DIM
       return 1.;
     }
 
-    /** Strength parameters for Prandtl's limit load in plane strain; no value
-     *  for laws without such parameters. */
+    /** Strength parameters for Prandtl's limit load in plane strain. No value
+     *  for laws without cohesion and friction angle. */
     virtual std::optional<FrictionalStrength>
     plane_strain_strength() const
     {
       return std::nullopt;
     }
 
-    /** Enables out-of-plane strain, for axisymmetry. @return whether the law
-     *  supports it */
+    /** Enables out-of-plane (hoop) strain for axisymmetric problems. @return
+     *  whether the law supports out-of-plane strain */
     virtual bool
     set_axisymmetric()
     {
@@ -129,20 +132,21 @@ namespace geocone::GEOCONE_DIM
     /** @{ */
 
     /**
-     * One explicit step of all points of a block: rotates stress and tensorial
-     * history by the spin increment exactly, then adds the response to the
-     * strain increment sym(dt grad v).
+     * Updates the stress at all points of a block in an explicit step. Stress
+     * and tensorial history variables are first rotated by the spin increment
+     * exactly; the response to the strain increment sym(dt grad v) is then
+     * added.
      */
     virtual void
     advance(const PointBlock &block, LawCounts &counts) const = 0;
 
-    /** Number of history variables per point; their meaning is internal to the
+    /** Number of history variables per point. Their meaning is internal to the
      *  law. */
     virtual unsigned int
     n_history() const = 0;
 
     /**
-     * Initialises the history variables of a point with a given stress from the
+     * Initialises the history variables of a point from a given stress and the
      * parameters of the law.
      * @param size length over which strain localises (m), for softening laws:
      * cell size over polynomial degree; 0: a single point with uniform strain
@@ -155,23 +159,24 @@ namespace geocone::GEOCONE_DIM
                const double  size,
                double       *history) const = 0;
 
-    /** Sets the history variables that depend on the initial position, before
-     *  initialise(). @throws InputError at a position where the law is not
-     *  valid */
+    /** Initialises history variables that depend on the initial position of a
+     *  point. To be called before initialise(). @throws InputError at a
+     *  position where the law is not valid */
     virtual void
     initialise_at(const dealii::Point<dim> & /*place*/,
                   double * /*history*/) const
     {}
 
-    /** Name of a parameter that is a formula in the initial position; empty:
-     *  none. */
+    /** Name of the parameter given by a formula in the initial coordinates;
+     *  empty if there is none. */
     virtual std::string
     formula_of_place() const
     {
       return "";
     }
 
-    /** Size given to initialise(), of laws that need it (m). */
+    /** Localisation length stored by initialise() (m); 0 for laws independent
+     *  of the cell size. */
     virtual double
     size(const double * /*history*/) const
     {
@@ -186,11 +191,12 @@ namespace geocone::GEOCONE_DIM
     Stress
     whole(const Components &stress, const double *history) const;
 
-    /** Elastic P-wave modulus M (Pa), with the wave speed c = sqrt(M/rho). */
+    /** Elastic P-wave modulus M (Pa); the wave speed is sqrt(M/rho). */
     virtual double
     wave_modulus(const Stress &stress, const double *history) const = 0;
 
-    /** An output quantity of a law besides the stress components. */
+    /** Output quantity of a constitutive law in addition to the stress
+     *  components. */
     struct OutputQuantity
     {
       std::string name;  ///< field name, e.g. "stress_zz"
@@ -199,8 +205,8 @@ namespace geocone::GEOCONE_DIM
     virtual std::vector<OutputQuantity>
     output_quantities() const = 0;
 
-    /** Sections of the yield surfaces at a given state, outermost first; empty
-     *  for laws that do not provide them. */
+    /** Section curves of the yield surfaces at a given state, outermost first.
+     *  Empty for laws that do not provide curves. */
     virtual std::vector<YieldCurve>
     yield_curves(const Components & /*stress*/,
                  const double * /*history*/,
@@ -217,12 +223,13 @@ namespace geocone::GEOCONE_DIM
     /** @} */
 
   protected:
-    /** Parameter name "Materials/soil/NAME", for messages; without a name, the
-     *  section. */
+    /** Full parameter name for error messages, e.g. "Materials/soil/NAME";
+     *  without a name, the section. */
     std::string
     parameter(const std::string &name = "") const;
 
-    /** Checks a constant of the law. @throws InputError unless @p holds */
+    /** Checks a condition on a material constant. @throws InputError unless
+     *  @p holds */
     void
     require(const bool         holds,
             const char        *name,
@@ -240,14 +247,15 @@ namespace geocone::GEOCONE_DIM
     double              drainable          = 0.;
   };
 
-  /** Evaluates the output quantity of a given name; NaN for laws without this
+  /** Evaluates an output quantity selected by name; NaN for laws without this
    *  quantity. */
   class ShownValue
   {
   public:
     ShownValue(const ConstitutiveLaw &law, const std::string &name);
 
-    /** Value of the output quantity, see ConstitutiveLaw::output(). */
+    /** Evaluates the selected output quantity, see
+     *  ConstitutiveLaw::output(). */
     double
     operator()(const ConstitutiveLaw::Components &stress,
                const double                      *history);
@@ -258,7 +266,7 @@ namespace geocone::GEOCONE_DIM
     std::size_t            place = 0;
   };
 
-  /** Stress components from a Mandel vector (Pa). */
+  /** Converts a Mandel vector into stress components (Pa). */
   inline ConstitutiveLaw::Stress
   stress_of(const SpatialMandel &t)
   {
@@ -268,7 +276,8 @@ namespace geocone::GEOCONE_DIM
     return s;
   }
 
-  /** Mandel vector from stress components, the inverse of stress_of(). */
+  /** Converts stress components into a Mandel vector (Pa), the inverse of
+   *  stress_of(). */
   inline SpatialMandel
   spatial_of(const ConstitutiveLaw::Stress &s)
   {

@@ -11,14 +11,15 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Drucker-Prager law (Drucker and Prager 1952), a circular cone in
-   * three-dimensional stress space,
+   * Drucker-Prager law (Drucker and Prager 1952). The yield surface is a
+   * circular cone in three-dimensional stress space,
    *   sqrt(J_2) + alpha I_1 <= kappa,  I_1 = tr s,
-   * with the flow rule of the cone of the dilatancy angle. In components along
-   * and across the axis n = -(1, 1, 0, 1)/sqrt3 it is the FlowCone
+   * and the plastic potential is the same cone for the dilatancy angle. In
+   * components along and across the axis n = -(1, 1, 0, 1)/sqrt3 it is the
+   * FlowCone
    *   |s_t| <= a s_n + k,   a = sqrt6 alpha,  k = sqrt2 kappa,
-   * with D = diag(3 lambda + 2G, 2G, 2G, 2G): return map, change of variable
-   * and natural map are those of MohrCoulomb's in-plane cone with more
+   * with D = diag(3 lambda + 2G, 2G, 2G, 2G): return mapping, change of
+   * variable and natural map are those of MohrCoulomb's in-plane cone with more
    * components.
    *
    * The size of the cone is matched to the Mohr-Coulomb pyramid (s = sin, t =
@@ -52,8 +53,8 @@ namespace geocone::GEOCONE_DIM
       return cone.b > 0.;
     }
 
-    /** Exact cone in three dimensions; no value in plane scenes, where the law
-     *  also determines s_zz. */
+    /** Yield cone of the exact law in three dimensions. No value in plane
+     *  scenes, where the law also determines s_zz. */
     std::optional<FlowCone>
     flow_cone(const double *history) const override
     {
@@ -92,7 +93,7 @@ namespace geocone::GEOCONE_DIM
                          const SpatialMandel &stress,
                          const OwnStrength   &own) const override;
 
-    /** Stress component s_n along the axis of the cone (Pa). */
+    /** Normal stress s_n, the component along the cone axis (Pa). */
     double
     normal_stress(const SpatialMandel &stress) const override
     {
@@ -116,14 +117,15 @@ namespace geocone::GEOCONE_DIM
                             {"outer", Match::outer},
                             {"inner", Match::inner}}};
 
-    /** Cone of a step, with the delayed part of the normal stress. */
+    /** Yield cone of a step, including the delayed part of the normal
+     *  stress. */
     FlowCone
     cone_of(const OwnStrength &own) const
     {
       return cone_with(own.cohesion).delayed(own.part, own.normal);
     }
 
-    /** Cone for a cohesion increased by @p cohesion (Pa). */
+    /** Yield cone after an increase of the cohesion by @p cohesion (Pa). */
     FlowCone
     cone_with(const double cohesion) const
     {
@@ -136,7 +138,8 @@ namespace geocone::GEOCONE_DIM
     double   k_per_cohesion = 0.; ///< dk/dc (-)
   };
 
-  /** von Mises law sqrt(J_2) <= c: DruckerPrager with phi = theta = 0. */
+  /** Von Mises law, sqrt(J_2) <= c: the Drucker-Prager law with phi = theta =
+   *  0. */
   class VonMises : public DruckerPrager
   {
   public:

@@ -12,34 +12,36 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Friction with memory, a regularised law: the normal stress in the strength
-   * is delayed with the relaxation time tau (doc/theory/friction_memory.md). A
-   * history variable p obeys dp/dt = (s_n - p)/tau, and an implicit step h has
+   * Friction with memory, a regularised friction law
+   * (doc/theory/friction_memory.md). The normal stress in the yield condition
+   * is delayed with the relaxation time tau. A history variable p obeys dp/dt =
+   * (s_n - p)/tau, and an implicit step h has
    *   p = lambda p_n + (1 - lambda) s_n,   lambda = tau/(h + tau).
    */
   class FrictionMemory
   {
   public:
-    /** @param text default value of the parameter: "automatic", or a time
-     *  (s) */
+    /** Constructor. @param text default value of the parameter: "automatic", or
+     *  a time (s) */
     explicit FrictionMemory(const std::string &text = "automatic")
       : text(text)
     {}
 
-    /** Name of the parameter. */
+    /** Name of the input parameter for the relaxation time. */
     static constexpr const char *entry = "Friction memory";
 
     /** Declares the parameter 'Friction memory'. */
     void
     declare(dealii::ParameterAcceptor &section);
 
-    /** Reads the relaxation time. @param section section of the parameter
+    /** Reads the relaxation time from the input parameter. @param section
+     *  section of the parameter
      *  @param is_useful whether friction exceeds dilatancy
      *  @throws InputError */
     void
     prepare(const dealii::ParameterAcceptor &section, const bool is_useful);
 
-    /** Sets the relaxation time chosen by the scene if the parameter is
+    /** Sets the relaxation time if the value of the input parameter is
      *  "automatic". */
     void
     set_automatic(const double time)
@@ -48,22 +50,23 @@ namespace geocone::GEOCONE_DIM
         tau = time;
     }
 
-    /** Relaxation time tau (s); 0: the exact law. */
+    /** Relaxation time tau (s); 0 for the exact friction law. */
     double
     time() const
     {
       return tau;
     }
 
-    /** Weight lambda of the previous delayed stress p_n in a step h (s). */
+    /** Weight lambda of the previous delayed normal stress p_n in a step of
+     *  size h (s). */
     double
     remembered(const double h) const
     {
       return tau > 0. ? tau / (h + tau) : 0.;
     }
 
-    /** Delayed normal stress p at the end of a step h (s). @param s_n normal
-     *  stress at the end of the step (Pa) */
+    /** Delayed normal stress p (Pa) at the end of a step of size h (s).
+     *  @param s_n normal stress at the end of the step (Pa) */
     double
     next(const double p, const double s_n, const double h) const
     {
@@ -71,8 +74,9 @@ namespace geocone::GEOCONE_DIM
       return part * p + (1. - part) * s_n;
     }
 
-    /** Whether the value "automatic" activates friction with memory, because
-     *  the exact law is hard to solve. @param non_associativity (a - b)/a
+    /** Returns true if the value "automatic" activates friction memory, because
+     *  the exact law is strongly non-associated. @param non_associativity (a -
+     *  b)/a
      *  @param aperture_left sin(phi) - sin(theta) */
     static bool
     is_hard(const double non_associativity, const double aperture_left);

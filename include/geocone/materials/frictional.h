@@ -20,12 +20,12 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * A law with cohesion, friction and dilatancy. Strength variables of a point
-   * are the delayed normal stress (WithFrictionMemory) and, if the cohesion
-   * varies in space, c(y) = c + gradient (level - y), a formula or a ratio of the
-   * initial vertical stress, its increase
-   * above c at the initial position of the point (Pa), which is the next
-   * history variable.
+   * Base class of constitutive laws with cohesion, friction and dilatancy.
+   * History variables of the strength are the delayed normal stress
+   * (WithFrictionMemory) and, if the cohesion varies in space, its increase
+   * above c at the initial position of the point (Pa). The cohesion varies with
+   * depth, c(y) = c + gradient (level - y), by a formula, or in proportion to
+   * the initial vertical stress.
    * @tparam Base Material, or a class derived from it
    */
   template <typename Base>
@@ -143,8 +143,8 @@ namespace geocone::GEOCONE_DIM
       this->memory.declare(*this);
     }
 
-    /** Constructor for laws with phi = theta = 0, which do not declare these
-     *  angles.
+    /** Constructor for laws without friction, phi = theta = 0. The angles are
+     *  not declared as parameters.
      *  @param cohesion documentation of the parameter 'Cohesion' */
     Frictional(const std::string &section, const std::string &cohesion)
       : Remembering(section)
@@ -155,14 +155,14 @@ namespace geocone::GEOCONE_DIM
       declare_places();
     }
 
-    /** Whether the cohesion varies in space. */
+    /** Returns true if the cohesion varies in space. */
     bool
     cohesion_grows() const
     {
       return given.gradient != 0. || profile || ratio > 0.;
     }
 
-    /** Increase of the cohesion of a point above c (Pa).
+    /** Increase of the cohesion of a point above the parameter c (Pa).
      *  @param history of the point; null: no increase */
     double
     grown_cohesion(const double *history) const
@@ -171,8 +171,8 @@ namespace geocone::GEOCONE_DIM
                                                     : 0.;
     }
 
-    /** Index of the cohesion increase among the history variables. @pre the
-     *  cohesion varies in space */
+    /** Index of the history variable that stores the cohesion increase.
+     *  @pre the cohesion varies in space */
     unsigned int
     index_of_growth() const
     {

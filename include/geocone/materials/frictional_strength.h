@@ -11,8 +11,8 @@
 
 namespace geocone
 {
-  /** Strength parameters of a law: cohesion, friction, dilatancy and tensile
-   *  strength. */
+  /** Strength parameters of a constitutive law: cohesion, friction angle,
+   *  dilatancy angle and tensile strength. */
   struct FrictionalStrength
   {
     double c     = 2000.; ///< cohesion (Pa)
@@ -26,14 +26,15 @@ namespace geocone
     double gradient = 0.; ///< increase of cohesion with depth (Pa/m)
     double level    = 0.; ///< y at which the cohesion is c (m)
 
-    /** Increase of the cohesion above c at the height y (Pa). */
+    /** Increase of the cohesion above the parameter c at the coordinate y
+     *  (Pa). */
     double
     growth(const double y) const
     {
       return gradient * (level - y);
     }
 
-    /** Undrained strength of clay: phi = theta = 0. */
+    /** Strength parameters of undrained clay, with phi = theta = 0. */
     static FrictionalStrength
     without_friction()
     {
@@ -42,32 +43,33 @@ namespace geocone
       return clay;
     }
 
-    /** Declares cohesion, friction angle and dilatancy angle in the section of
-     *  a law. */
+    /** Declares the parameters for cohesion, friction angle and dilatancy angle
+     *  in the section of a law. */
     void
     declare(dealii::ParameterAcceptor &law);
 
-    /** Declares the cohesion alone. */
+    /** Declares the parameter for the cohesion only. */
     void
     declare_cohesion(dealii::ParameterAcceptor &law,
                      const std::string         &documentation);
 
-    /** Declares the variation of the cohesion with depth. */
+    /** Declares the parameters for the variation of the cohesion with depth. */
     void
     declare_growth(dealii::ParameterAcceptor &law);
 
-    /** Declares the tensile strength. */
+    /** Declares the parameter for the tensile strength. */
     void
     declare_tension(dealii::ParameterAcceptor &law);
 
-    /** Parses the tensile strength.
+    /** Parses the parameter for the tensile strength.
      *  @throws InputError @param section of the law */
     void
     prepare(const std::string &section);
 
-    /** Reduced strength, with c and tan(phi) divided by F. For associated flow
-     *  theta remains equal to phi; otherwise theta is unchanged but limited to
-     *  the reduced phi. F = 1 returns the given values exactly. */
+    /** Strength parameters after strength reduction: c and tan(phi) are divided
+     *  by F. For associated flow theta remains equal to phi; otherwise theta is
+     *  unchanged but limited to the reduced phi. F = 1 returns the given values
+     *  exactly. */
     FrictionalStrength
     reduced(const double F) const;
 

@@ -10,12 +10,13 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * MohrCoulomb with hardening or softening: strength parameters depend on the
-   * plastic shear strain kappa, the integral of |e_1 - e_2| = sqrt2 |z_t| over
-   * the plastic strain increments in the plane (-), a history variable:
+   * Plane-strain Mohr-Coulomb law with hardening or softening. The strength
+   * parameters depend on the plastic shear strain kappa, the integral of |e_1 -
+   * e_2| = sqrt2 |z_t| over the plastic strain increments in the plane (-), a
+   * history variable:
    *   c(kappa), phi(kappa), theta(kappa),
-   * either c = c_0 + H kappa, with a closed-form return map (in cone axes k =
-   * k_n + h |z_t| with h = 2 H cos(phi)), or one StrainCurve per parameter,
+   * either c = c_0 + H kappa, with a closed-form return mapping (in cone axes k
+   * = k_n + h |z_t| with h = 2 H cos(phi)), or one StrainCurve per parameter,
    * with one scalar equation per step (return_map_varying()). The apex of the
    * cone moves with the parameters; plastic opening at the apex does not change
    * them. The energy stored by hardening counts as dissipation.
@@ -80,13 +81,15 @@ namespace geocone::GEOCONE_DIM
     std::optional<FlowCone>
     exact_end_cone(const double *history_n, const double slip) const override;
 
-    /** Maximum degree of non-associativity (a - b)/a over the curves. */
+    /** Maximum degree of non-associativity (a - b)/a along the hardening
+     *  curves. */
     double
     non_associativity() const override;
 
-    /** Whether the tangent is symmetric: false for hardening with friction,
-     *  where the apex of the cone depends on shear but not on opening, and for
-     *  softening, where the tangent is not positive definite. */
+    /** Returns true if the tangent stiffness is symmetric. False for hardening
+     *  with friction, where the apex of the cone depends on shear but not on
+     *  opening, and for softening, where the tangent is not positive
+     *  definite. */
     bool
     has_symmetric_tangent() const override;
 
@@ -101,7 +104,8 @@ namespace geocone::GEOCONE_DIM
     add_to_history(const double slip, double *history) const override;
 
   private:
-    /** Index of kappa among the history variables; l/L follows. */
+    /** Index of the plastic shear strain kappa among the history variables. The
+     *  next history variable is l/L. */
     unsigned int
     plastic_shear() const
     {
@@ -122,13 +126,13 @@ namespace geocone::GEOCONE_DIM
     double
     cohesion_at(const double kappa) const;
 
-    /** Checks the strength on the curves. @throws InputError if it is not
-     *  admissible */
+    /** Checks the strength parameters along the hardening curves.
+     *  @throws InputError if a value is not admissible */
     void
     check_curves() const;
 
-    /** Plastic shear strains at which the parameters are checked: all points of
-     *  the curves (-). */
+    /** Plastic shear strains (-) at which the strength parameters are checked:
+     *  all points of the curves. */
     std::vector<double>
     places() const;
 

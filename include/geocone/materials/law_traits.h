@@ -9,7 +9,7 @@
 
 namespace geocone
 {
-  /** Properties of the constitutive laws of a scene on which methods depend. */
+  /** Summary of the properties of all constitutive laws in a scene. */
   struct LawTraits
   {
     bool symmetric       = true;  ///< all tangents are symmetric
@@ -19,15 +19,16 @@ namespace geocone
     bool frictionless    = false; ///< some laws yield, all on cylinders (a = 0)
     bool dilates         = false; ///< any law has plastic dilatancy
     bool undrained       = false; ///< any soil is undrained
-    /** Whether any law without friction memory is hard to solve
+    /** True if any law without friction memory is strongly non-associated
      *  (Material::hard_flow). */
     bool has_hard_flow = false;
 
     double non_associativity = 0.; ///< largest (a - b)/a, 0 to 1
-    /** Shortest relaxation time of friction with memory (s); infinite: none. */
+    /** Shortest relaxation time of friction memory over all laws (s); infinite
+     *  without friction memory. */
     double friction_memory = std::numeric_limits<double>::infinity();
 
-    /** Whether any law has friction with memory. */
+    /** Returns true if any law has friction memory. */
     bool
     has_friction_memory() const
     {

@@ -15,8 +15,8 @@ namespace geocone::GEOCONE_DIM
   public:
     using WithStiffnessFormula::WithStiffnessFormula;
 
-    /** Whether the law is three-dimensional: in axisymmetry only; in plane
-     *  strain s_zz follows from the in-plane stresses. */
+    /** Returns true in axisymmetry only, where the law computes all stress
+     *  components. In plane strain s_zz follows from the in-plane stresses. */
     bool
     is_spatial() const override
     {
@@ -35,8 +35,8 @@ namespace geocone::GEOCONE_DIM
     void
     update(const Increment &increment, const Response &response) const override;
 
-    /** Explicit update by the cone kernel, with a cone that no stress
-     *  reaches. */
+    /** Explicit stress update by the cone kernel with an infinitely large yield
+     *  cone. */
     void
     advance(const PointBlock &block, LawCounts &counts) const override;
 

@@ -16,37 +16,40 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Data of a time step in a material update, besides the state at t_n. */
+  /** Time step data for a material update, in addition to the state at t_n. */
   struct StepLaw
   {
     double size = 0.; ///< step size h (s)
 
     /**
-     * Weight of the normal stress at t_n in the strength, a solver setting
-     * (lagged friction): 0 is the exact law, 1 explicit friction
-     * (doc/theory/friction_memory.md). Laws without friction ignore it.
+     * Weight of the normal stress at t_n in the yield condition, for lagged
+     * friction. The weight is set by the solver: 0 is the exact law, 1 explicit
+     * friction (doc/theory/friction_memory.md). Laws without friction ignore
+     * it.
      */
     double friction_lag = 0.;
   };
 
-  /** Input of a material update for a batch of points, as arrays by point. */
+  /** Input of a material update for a batch of points, as arrays over the
+   *  points. */
   struct Increment
   {
     dealii::ArrayView<const Mandel> strain;   ///< strain increments of the step
     dealii::ArrayView<const Mandel> stress_n; ///< stress at t_n (Pa)
 
-    /** History variables at t_n: n_history values for each point, of which the
-     *  law uses the first ConstitutiveLaw::n_history(). */
+    /** History variables at t_n, n_history values per point. The law uses the
+     *  first ConstitutiveLaw::n_history() values. */
     const double *history_n = nullptr;
     unsigned int  n_history = 0;
 
     StepLaw step;
 
-    /** Out-of-plane strain increments of axisymmetric scenes; null: none. */
+    /** Out-of-plane strain increments in axisymmetric scenes; null in other
+     *  scenes. */
     const double *strain_zz = nullptr;
   };
 
-  /** Out-of-plane part of a tangent (Pa). */
+  /** Out-of-plane components of a tangent stiffness (Pa). */
   struct OutOfPlaneTangent
   {
     Mandel by_zz; ///< ds/de_zz
@@ -71,10 +74,10 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * A constitutive law with a return map, for all methods: the state at t_{n+1}
-   * is a function of strain increments and the state at t_n. Elasticity is
-   * isotropic, and linear by default (elasticity_at()). In plane scenes the
-   * out-of-plane stress is
+   * Base class of constitutive laws with a return mapping, available for all
+   * numerical methods. The state at t_{n+1} is a function of the strain
+   * increments and the state at t_n. Elasticity is isotropic, and linear by
+   * default (elasticity_at()). In plane scenes the out-of-plane stress is
    *   s_zz = nu (s_xx + s_yy) + d,
    * where d (Pa) is the first history variable, followed by the history
    * variables of hardening laws. d is constant for plastic flow in the plane;
@@ -86,28 +89,31 @@ namespace geocone::GEOCONE_DIM
   class Material : public ConstitutiveLaw
   {
   public:
-    /** @param section name of the parameter section, e.g. "Materials/soil" */
+    /** Declares the common parameters of laws with a return mapping.
+     *  @param section name of the parameter section, e.g. "Materials/soil" */
     explicit Material(const std::string &section);
 
-    /** Checks the parameters and computes derived constants. */
+    /** Checks the material parameters and computes the derived constants. */
     void
     prepare() override;
 
-    /** Evaluates the law for all points of the batch. */
+    /** Computes stresses, history variables and tangents for a batch of
+     *  points. */
     virtual void
     update(const Increment &increment, const Response &response) const = 0;
 
     /**
-     * K0 for cone laws by Jaky's formula, 1 - a = 1 - sin(phi), an admissible
-     * state: the cone sustains K0 >= (1 - a)/(1 + a) - 2 c cos(phi)/((1 + a)
-     * |s_yy|), Rankine's active pressure. Otherwise nu/(1 - nu), uniaxial
-     * strain.
+     * Default earth pressure coefficient at rest K0: Jaky's formula 1 -
+     * sin(phi) for laws with a yield cone, otherwise nu/(1 - nu) for uniaxial
+     * strain. Jaky's value 1 - a = 1 - sin(phi) is admissible, since the cone
+     * sustains K0 >= (1 - a)/(1 + a) - 2 c cos(phi)/((1 + a) |s_yy|), Rankine's
+     * active pressure.
      */
     double
     earth_pressure_at_rest() const override;
 
-    /** Explicit step by the cone kernel for cone laws, otherwise by update()
-     *  from the rotated stress. */
+    /** Explicit stress update by the cone kernel for laws with a yield cone.
+     *  Other laws call update() from the rotated stress. */
     void
     advance(const PointBlock &block, LawCounts &counts) const override;
 
@@ -145,15 +151,16 @@ namespace geocone::GEOCONE_DIM
         values[0] = stress_zz(stress, history);
     }
 
-    /** Whether the law has history variables that evolve during a step. */
+    /** Returns true if the law has history variables that evolve during a
+     *  step. */
     bool
     has_history() const
     {
       return (dim == 2 && is_spatial()) || n_history() > Material::n_history();
     }
 
-    /** Whether strength and flow depend on all stress components, including
-     *  s_zz. */
+    /** Returns true if yield condition and flow rule depend on all stress
+     *  components, including s_zz. */
     virtual bool
     is_spatial() const
     {
@@ -166,25 +173,27 @@ namespace geocone::GEOCONE_DIM
       return is_spatial();
     }
 
-    /** Full stress of a plane scene in the order xx, yy, xy, zz (Pa).
+    /** Full stress tensor of a point in a plane scene, in the order xx, yy, xy,
+     *  zz (Pa).
      *  @param history of the point */
     SpatialMandel
     whole_stress(const Mandel &stress, const double *history) const;
 
-    /** Elastic strain between two stresses. For plane laws it has no zz
-     *  component, and s_zz does no work. @param history of the point */
+    /** Elastic strain increment between two stress states. For plane laws the
+     *  increment has no zz component, and s_zz does no work. @param history of
+     *  the point */
     virtual SpatialMandel
     elastic_strain(const SpatialMandel &from,
                    const SpatialMandel &to,
                    const double        *history) const;
 
-    /** Violation of the yield condition (Pa), negative at elastic stresses; no
+    /** Value of the yield function (Pa), positive outside the yield surface. No
      *  value for laws without a yield condition. @param history of the point */
     virtual std::optional<double>
     overstress(const Mandel &stress, const double *history) const;
 
-    /** Whether flow_cone() evolves with plastic strain (hardening or
-     *  softening). */
+    /** Returns true if the yield cone flow_cone() evolves with plastic strain
+     *  (hardening or softening). */
     virtual bool
     hardens() const
     {
@@ -192,8 +201,8 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * Strength and flow cone at t_n, for checks of solutions independent of
-     * update(); no value for laws other than cone laws.
+     * Yield and flow cone at t_n, for checks of solutions independent of
+     * update(). No value for laws without a yield cone.
      * @param history of the point; null is allowed for laws without hardening
      */
     virtual std::optional<FlowCone>
@@ -202,16 +211,17 @@ namespace geocone::GEOCONE_DIM
       return std::nullopt;
     }
 
-    /** Yield curve of flow_cone() in a section plane: the line |s_t| = a s_n +
-     *  k with s_n = sqrt2 p, |s_t| = q/sqrt2. */
+    /** Section of the yield cone flow_cone() by a plane in stress space. The
+     *  curve is the line |s_t| = a s_n + k with s_n = sqrt2 p and |s_t| =
+     *  q/sqrt2. */
     std::vector<YieldCurve>
     yield_curves(const Components   &stress,
                  const double       *history,
                  const SectionPlane &plane) const override;
 
     /**
-     * Cone of the implicit equations of a step: flow_cone() with the delayed
-     * part of the normal stress (FlowCone::delayed()).
+     * Yield cone of an implicit step: flow_cone() with the delayed part of the
+     * normal stress (FlowCone::delayed()).
      * @param stress_n,history_n state of the point at t_n
      */
     virtual std::optional<FlowCone>
@@ -220,8 +230,9 @@ namespace geocone::GEOCONE_DIM
               const StepLaw &step) const;
 
     /**
-     * Cones at the end of a step with the plastic shear |z_t| = slip:
-     * end_cone() of step_cone(), exact_end_cone() of flow_cone().
+     * Yield cones after hardening by the plastic shear |z_t| = slip of a step.
+     * Initial cones are step_cone() for end_cone() and flow_cone() for
+     * exact_end_cone().
      */
     virtual std::optional<FlowCone>
     end_cone(const Mandel  &stress_n,
@@ -231,25 +242,26 @@ namespace geocone::GEOCONE_DIM
     virtual std::optional<FlowCone>
     exact_end_cone(const double *history_n, const double slip) const;
 
-    /** Check of yield condition and flow rule at the end of a step, independent
-     *  of update(): by flow_cone() for cone laws; no value for laws without de
-     *  Saxce's change of variable. */
+    /** Checks yield condition and flow rule at the end of a step, independently
+     *  of update(). Cone laws are checked by flow_cone(); no value for laws
+     *  without de Saxce's change of variable. */
     virtual std::optional<FlowCheck>
     check_flow(const PointStep &point, const StepLaw &step) const;
 
     /** @name Formulation of the law as a root of its natural map, see
      *  NaturalMap */
     /** @{ */
-    /** Whether the law has a natural map in this dimension; not for spatial
-     *  laws in plane scenes, where s_zz is not an unknown. */
+    /** Returns true if the law has a natural map in this space dimension.
+     *  Spatial laws have no natural map in plane scenes, where s_zz is not an
+     *  unknown. */
     virtual bool
     has_natural_map() const
     {
       return !is_spatial();
     }
 
-    /** Projection of s - rho Psi(z) onto the admissible stresses, for laws that
-     *  are not cones. */
+    /** Projection of s - rho Psi(z) onto the set of admissible stresses, for
+     *  laws without a yield cone. */
     struct Projection
     {
       Mode         mode;      ///< region of the projection
@@ -269,7 +281,7 @@ namespace geocone::GEOCONE_DIM
     }
     /** @} */
 
-    /** Violation of the yield condition of spatial laws, see overstress() (Pa).
+    /** Value of the yield function of spatial laws (Pa), see overstress().
      *  @param history of the point */
     virtual std::optional<double>
     yield_function(const SpatialMandel & /*stress*/,
@@ -278,8 +290,9 @@ namespace geocone::GEOCONE_DIM
       return std::nullopt;
     }
 
-    /** Excess of the plastic work density over the dissipation by the strength
-     *  without memory, for spatial laws (J/m^3); can be negative.
+    /** Plastic work density minus the dissipation density of the exact law
+     *  without memory, for spatial laws (J/m^3). The difference can be
+     *  negative.
      *  @param history of the point */
     virtual double
     power_beyond_strength(const SpatialMandel & /*plastic_strain*/,
@@ -289,43 +302,45 @@ namespace geocone::GEOCONE_DIM
       return 0.;
     }
 
-    /** Relaxation time tau of friction with memory (s); 0: none. */
+    /** Relaxation time tau of friction memory (s); 0 without friction
+     *  memory. */
     virtual double
     friction_memory() const
     {
       return 0.;
     }
 
-    /** Sets the relaxation time tau (s) chosen by the scene, if the parameter
-     *  is "automatic" and the exact law is hard to solve. */
+    /** Sets the relaxation time tau (s) of laws with automatic friction memory.
+     *  Without effect unless the parameter is "automatic" and the exact law is
+     *  hard to solve. */
     virtual void
     set_friction_memory(const double /*tau*/)
     {}
 
-    /** Cone before any hardening; no value for laws other than cone laws. */
+    /** Initial yield cone, before hardening. No value for laws without a yield
+     *  cone. */
     std::optional<FlowCone>
     initial_cone() const;
 
-    /** Nearest admissible stress (Pa); the given stress for laws without a
-     *  cone. @param history of the point */
+    /** Admissible stress nearest to a given stress (Pa). Laws without a yield
+     *  cone return the given stress. @param history of the point */
     Mandel
     nearest_admissible(const Mandel &stress, const double *history) const;
 
-    /** Strength reduction: divides c and tan(phi) of the parameter file by F,
+    /** Reduces the strength: divides c and tan(phi) of the parameter file by F,
      *  and limits theta to the reduced phi.
      *  @throws InputError for laws without cohesion and friction */
     virtual void
     reduce_strength(const double F);
 
-    /** Whether strength reduction applies to this material. */
+    /** Returns true if strength reduction applies to this material. */
     bool
     is_reduced() const
     {
       return reduced;
     }
 
-    /** Increase of the strength k of flow_cone() with depth: slope (level -
-     *  y). */
+    /** Linear increase of the cone strength k with depth: slope (level - y). */
     struct Growth
     {
       double slope = 0.; ///< (Pa/m)
@@ -343,8 +358,8 @@ namespace geocone::GEOCONE_DIM
       return {};
     }
 
-    /** Name of the parameter by which the strength is not linear in the
-     *  coordinates; empty: none. */
+    /** Name of the parameter that makes the strength a nonlinear function of
+     *  the coordinates; empty if there is none. */
     virtual std::string
     strength_formula() const
     {
@@ -352,19 +367,20 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * Threshold of (a - b)/a up to which Newton's method with line search
-     * converged on most meshes; theta >= phi/2 corresponds to (nearly) 1/2.
+     * Threshold of the non-associativity (a - b)/a up to which Newton's method
+     * with line search converged on most meshes. Dilatancy angles theta >=
+     * phi/2 correspond to values up to about 1/2.
      */
     static constexpr double hard_flow = 0.51;
 
     /**
-     * Degree of non-associativity (a - b)/a of the cone before any hardening,
-     * from 0 (associated) to 1 (no dilatancy).
+     * Degree of non-associativity (a - b)/a of the initial yield cone, from 0
+     * (associated) to 1 (no dilatancy).
      */
     virtual double
     non_associativity() const;
 
-    /** Whether plastic flow increases the volume. */
+    /** Returns true if plastic flow increases the volume. */
     virtual bool
     dilates() const
     {
@@ -372,15 +388,16 @@ namespace geocone::GEOCONE_DIM
       return cone && (cone->b > 0. || cone->is_cut());
     }
 
-    /** Whether the tangent is symmetric in all states. */
+    /** Returns true if the tangent stiffness is symmetric in all states. */
     virtual bool
     has_symmetric_tangent() const
     {
       return non_associativity() == 0.;
     }
 
-    /** Elasticity of all states; for a stress-dependent stiffness, that at the
-     *  pressure 100 kPa, and for a formula, that of 'Young modulus'. */
+    /** Elastic moduli of the law. For a stress-dependent stiffness, these are
+     *  the moduli at the pressure 100 kPa; for a stiffness formula, the moduli
+     *  for 'Young modulus'. */
     const Elasticity &
     elasticity() const
     {
@@ -389,19 +406,20 @@ namespace geocone::GEOCONE_DIM
 
     /** @name Laws with a stiffness that depends on stress or position */
     /** @{ */
-    /** Elastic energy density at a stress (J/m^3). @param history of the
+    /** Elastic energy density at a given stress (J/m^3). @param history of the
      *  point */
     virtual double
     elastic_energy(const Mandel &stress, const double *history) const;
 
-    /** Elastic stiffness at a stress. @param history of the point */
+    /** Elastic moduli of a point at a given stress. @param history of the
+     *  point */
     virtual Elasticity
     elasticity_at(const Mandel & /*stress*/, const double * /*history*/) const
     {
       return elastic;
     }
 
-    /** Whether the elastic stiffness is the same at all stresses. */
+    /** Returns true if the elastic stiffness is the same at all stresses. */
     virtual bool
     has_constant_stiffness() const
     {
@@ -410,7 +428,7 @@ namespace geocone::GEOCONE_DIM
     /** @} */
 
   protected:
-    /** Source of the stiffness of a law. */
+    /** Source of the elastic moduli of a law. */
     enum class Stiffness
     {
       constant, ///< by parameters
@@ -424,17 +442,17 @@ namespace geocone::GEOCONE_DIM
       return poisson_ratio;
     }
 
-    /** Sets elasticity() of laws with a stress-dependent stiffness, after
-     *  prepare(). */
+    /** Sets the reference elastic moduli of laws with a stress-dependent
+     *  stiffness. To be called after prepare(). */
     void
     set_elasticity(const Elasticity &elasticity)
     {
       elastic = elasticity;
     }
 
-    /** Cone that contains the stress at the end of a step: flow_cone(), except
-     *  for friction with memory, where it includes the delayed normal
-     *  stress. */
+    /** Yield cone that contains the stress at the end of a step. This is
+     *  flow_cone(); for friction with memory the cone includes the delayed
+     *  normal stress. */
     virtual std::optional<FlowCone>
     strength(const double *history) const
     {

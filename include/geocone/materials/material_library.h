@@ -15,39 +15,40 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Function that creates the law of a section, e.g. "Materials/soil". */
+  /** Type of functions that create the constitutive law of a parameter section,
+   *  e.g. "Materials/soil". */
   using MakeLaw =
     std::unique_ptr<ConstitutiveLaw> (*)(const std::string &section);
 
-  /** Registers a law of another program, built on this library
-   *  (doc/tutorials/soil.md), for make_material(). */
+  /** Registers a user-defined constitutive law for make_material()
+   *  (doc/tutorials/soil.md). */
   void
   add_law(const std::string &type, const MakeLaw make);
 
   /**
-   * Creates the material of a section, e.g. "Materials/soil".
+   * Creates the constitutive law of a parameter section, e.g. "Materials/soil".
    * @param type a name of material_types()
    * @throws InputError for an unknown type, with the list of known types
    */
   std::unique_ptr<ConstitutiveLaw>
   make_material(const std::string &type, const std::string &section);
 
-  /** Names of all registered laws. */
+  /** Names of all registered constitutive laws. */
   std::vector<std::string>
   material_types();
 
   /**
-   * Parameters of all laws, each with the names of the laws that declare it, so
-   * that a file can contain parameters of laws other than the selected law. To
-   * be called before any parameter is declared.
+   * Parameters of all constitutive laws, each with the names of the laws that
+   * declare the parameter. A file can thus contain parameters of laws other
+   * than the selected law. To be called before any parameter is declared.
    */
   ParameterFile::OfOthers
   parameters_of_laws();
 
   /**
-   * Materials of a scene, in the order of "Materials/Names"; a material is
-   * identified by its index in the list. A point belongs to the last material
-   * whose region contains it, otherwise to the first one.
+   * List of the materials of a scene, in the order of "Materials/Names". A
+   * material is identified by its index in the list. A point belongs to the
+   * last material whose region contains it, otherwise to the first one.
    */
   class Materials : public NamedList<ConstitutiveLaw>
   {
@@ -62,13 +63,13 @@ namespace geocone::GEOCONE_DIM
     void
     set_axisymmetric();
 
-    /** Computes the densities from unit weights, see
+    /** Computes the mass densities from unit weights, see
      *  ConstitutiveLaw::set_gravity(). */
     void
     set_gravity(const double g);
 
-    /** Properties of the laws, up to date after prepare() and later changes of
-     *  parameters. */
+    /** Summary of the properties of all laws. Up to date after prepare() and
+     *  later changes of parameters. */
     const LawTraits &
     traits() const
     {
@@ -107,9 +108,8 @@ namespace geocone::GEOCONE_DIM
     /** @} */
 
     /**
-     * Checks that all laws have a closed-form return map, which @p method
-     * needs. @throws InputError
-     * @p method needs
+     * Checks that all laws have a closed-form return mapping, as @p method
+     * requires. @throws InputError
      */
     void
     check_closed_form(const std::string &method) const;
@@ -130,13 +130,13 @@ namespace geocone::GEOCONE_DIM
     void
     reduce_strength(const double F);
 
-    /** Parameter section of the materials as text, with the values chosen by
-     *  the scene. */
+    /** Parameter section of the materials as text, including values set
+     *  automatically by the scene. */
     std::string
     as_parameters() const;
 
-    /** Number of history variables stored per point: maximum over all laws,
-     *  plus the excess pore pressure for undrained soil. */
+    /** Number of history variables stored per point: the maximum over all laws,
+     *  plus one for undrained soil (excess pore pressure). */
     unsigned int
     n_history() const;
 
@@ -145,7 +145,7 @@ namespace geocone::GEOCONE_DIM
     shown_names() const;
 
   private:
-    /** Properties of the laws from their current parameters. */
+    /** Collects the properties of all laws from the current parameters. */
     LawTraits
     gather() const;
 

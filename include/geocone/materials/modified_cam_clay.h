@@ -13,9 +13,9 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Modified Cam-Clay (Roscoe and Burland 1968), for all methods. With P = p +
-   * a and Pc = pc + a, p the mean pressure and a the attraction, the yield
-   * surface, with associated flow, is the ellipse
+   * Modified Cam-Clay law (Roscoe and Burland 1968), available for all
+   * numerical methods. With P = p + a and Pc = pc + a, p the mean pressure and
+   * a the attraction, the yield surface, with associated flow, is the ellipse
    *   f = q^2/M^2 + P (P - Pc) = 0,  q = sqrt(3/2) |dev s|,
    * elasticity has the bulk modulus K = P/kappa and a constant Poisson ratio,
    * and Pc increases with the compressive plastic volumetric strain w: dPc = Pc
@@ -48,8 +48,8 @@ namespace geocone::GEOCONE_DIM
     void
     prepare() override;
 
-    /** K0 by Jaky's formula 1 - sin(phi), with sin(phi) = 3 M/(6 + M) for
-     *  triaxial compression. */
+    /** Earth pressure coefficient at rest by Jaky's formula 1 - sin(phi), with
+     *  sin(phi) = 3 M/(6 + M) in triaxial compression. */
     double
     earth_pressure_at_rest() const override
     {
@@ -102,9 +102,9 @@ namespace geocone::GEOCONE_DIM
                    const SpatialMandel &to,
                    const double        *history) const override;
 
-    /** Elastic energy density kappa (p - a ln(1 + p/a)) + q^2/(6G) of isotropic
-     *  compression, then shear at constant pressure (J/m^3). An exact elastic
-     *  energy does not exist for constant nu. */
+    /** Elastic energy density (J/m^3) of isotropic compression followed by
+     *  shear at constant pressure: kappa (p - a ln(1 + p/a)) + q^2/(6G). An
+     *  exact elastic energy does not exist for constant nu. */
     double
     elastic_energy(const Mandel &stress, const double *history) const override;
 
@@ -147,11 +147,12 @@ namespace geocone::GEOCONE_DIM
             SpatialMandelMatrix *tangent) const override;
 
   private:
-    /** State at the end of a step for an angle phi on the yield surface. */
+    /** Trial state at the end of a step for a given angle phi on the yield
+     *  ellipse. */
     struct Trial;
 
-    /** Elastic response from P_n to a volumetric strain increment x,
-     *  compression positive. */
+    /** Elastic response to a volumetric strain increment x from the pressure
+     *  P_n, compression positive. */
     struct Elastic
     {
       double P;     ///< P_n exp(x/kappa) (Pa)
@@ -161,21 +162,22 @@ namespace geocone::GEOCONE_DIM
     Elastic
     elastic(const double P_n, const double x) const;
 
-    /** Tangent moduli at a pressure P (Pa). */
+    /** Elastic tangent moduli at the pressure P (Pa). */
     Elasticity
     elasticity_of(const double P) const
     {
       return {3. * P / kappa * (1. - 2. * poisson()), poisson()};
     }
 
-    /** Mean pressure plus attraction, P = p + a, at a stress (Pa). */
+    /** Mean pressure plus attraction, P = p + a, of a stress tensor (Pa). */
     double
     pressure(const SpatialMandel &stress) const
     {
       return a - trace(stress) / 3.;
     }
 
-    /** Size Pc = P + q^2/(M^2 P) of the yield surface through a stress (Pa). */
+    /** Size Pc = P + q^2/(M^2 P) of the yield surface that passes through a
+     *  stress (Pa). */
     double
     size_through(const SpatialMandel &stress) const;
 
@@ -185,7 +187,8 @@ namespace geocone::GEOCONE_DIM
       return SpatialLaw::n_history();
     }
 
-    /** Lower limit of P: 1 Pa, in scaled units of stress. */
+    /** Lower limit of the pressure P: 1 Pa, converted to the scaled unit of
+     *  stress. */
     static double
     lowest()
     {

@@ -10,25 +10,25 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Perfectly plastic Mohr-Coulomb law in plane strain, the in-plane cone of
-   * Guillet et al. 2025 (appendix A):
+   * Perfectly plastic Mohr-Coulomb law in plane strain. The yield surface is
+   * the in-plane cone of Guillet et al. 2025 (appendix A),
    *   |s_t| <= sin(phi) s_n + sqrt2 c cos(phi),  flow aperture sin(theta),
-   * with friction angle phi, dilatancy angle theta <= phi and cohesion c.
-   * phi = 0 is Tresca's cylinder, |s_t| <= sqrt2 c. Yielding depends on the
-   * in-plane stresses: the out-of-plane stress is assumed intermediate.
-   * theta = phi is associated flow, theta = 0 flow without dilatancy. A tensile strength T
-   * is Rankine's cut-off, sigma_1 <= T in the plane: |s_t| <= s_n + sqrt2 T.
+   * with friction angle phi, dilatancy angle theta <= phi and cohesion c. phi =
+   * 0 is Tresca's cylinder, |s_t| <= sqrt2 c. Yielding depends on the in-plane
+   * stresses: the out-of-plane stress is assumed intermediate. theta = phi is
+   * associated flow, theta = 0 flow without dilatancy. A tensile strength T is
+   * Rankine's cut-off, sigma_1 <= T in the plane: |s_t| <= s_n + sqrt2 T.
    *
    * Friction with memory (doc/theory/friction_memory.md; Prakash and Clifton
    * 1993 and Cochard and Rice 2000 for sliding): the strength follows the
    * normal stress with the relaxation time tau, by the second history variable
    * p (Pa),
    *   |s_t| <= b s_n + mu p + sqrt2 c cos(phi),   dp/dt = (s_n - p)/tau,
-   * with the apertures a and b and mu = a - b. A step h has p = lambda
-   * p_n + (1 - lambda) s_n with lambda = tau/(h + tau): the cone with the
-   * aperture a - lambda mu and the same flow, FlowCone::delayed(lambda, p_n).
-   * In a steady state p = s_n, the exact strength; tau = 0 is the exact law.
-   * The plastic work is never negative, since p >= -k/a at all times.
+   * with the apertures a and b and mu = a - b. A step h has p = lambda p_n + (1
+   * - lambda) s_n with lambda = tau/(h + tau): the cone with the aperture a -
+   * lambda mu and the same flow, FlowCone::delayed(lambda, p_n). In a steady
+   * state p = s_n, the exact strength; tau = 0 is the exact law. The plastic
+   * work is never negative, since p >= -k/a at all times.
    */
   class MohrCoulomb : public Frictional<WithStiffnessFormula<Material>>
   {
@@ -45,12 +45,12 @@ namespace geocone::GEOCONE_DIM
     void
     update(const Increment &increment, const Response &response) const override;
 
-    /** Exact cone, without friction memory. */
+    /** Yield cone of the exact law, without friction memory. */
     std::optional<FlowCone>
     flow_cone(const double *history) const override;
 
-    /** Whether the law has a natural map: only without tensile cut-off, because
-     *  the map projects onto the cone alone. */
+    /** Returns true if the law has a natural map. The map exists only without
+     *  tension cut-off, because it projects onto the cone alone. */
     bool
     has_natural_map() const override
     {
@@ -111,26 +111,26 @@ namespace geocone::GEOCONE_DIM
     }
 
   protected:
-    /** Whether the cone of a step varies with its plastic shear by end_cone(),
-     *  other than by linear hardening. */
+    /** Returns true if the yield cone varies nonlinearly with the plastic shear
+     *  of a step, by end_cone(). */
     virtual bool
     varies() const
     {
       return false;
     }
 
-    /** Updates the history of hardening laws after a step.
+    /** Updates the history variables of hardening laws after a step.
      *  @param slip |z_t| of the step (-) */
     virtual void
     add_to_history(const double /*slip*/, double * /*history*/) const
     {}
 
-    /** Cone from cohesion (Pa), friction angle and dilatancy angle
+    /** Yield cone for given cohesion (Pa), friction angle and dilatancy angle
      *  (degrees). */
     static FlowCone
     cone_of(const double cohesion, const double phi, const double theta);
 
-    /** Cone with the delayed normal stress of a step, see step_cone().
+    /** Yield cone with the delayed normal stress of a step, see step_cone().
      *  @param exact cone without memory */
     FlowCone
     with_memory(const FlowCone &exact,
@@ -154,7 +154,7 @@ namespace geocone::GEOCONE_DIM
     double   k_per_cohesion = 0.; ///< dk/dc after reduction (-)
 
     /**
-     * Solves the one-point problem of a step, in cone axes.
+     * Return mapping of one point in a step, in cone axes.
      * @param elastic of the point
      * @param trial s_n + D e @param[out] slip |z_t| of the step (-)
      * @param[out] tangent ds/de, or null
@@ -173,7 +173,8 @@ namespace geocone::GEOCONE_DIM
     set_cone(const double F);
   };
 
-  /** Tresca's law |s1 - s2| <= 2c: MohrCoulomb with phi = theta = 0. */
+  /** Tresca law in plane strain, |s1 - s2| <= 2c: the Mohr-Coulomb law with phi
+   *  = theta = 0. */
   class Tresca : public MohrCoulomb
   {
   public:

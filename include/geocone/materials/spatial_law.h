@@ -12,11 +12,11 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * A three-dimensional ("spatial") law, which depends on the full stress
-   * tensor, for plane strain, axisymmetric and three-dimensional scenes: four
-   * or six stress components. In plane strain the plastic strain along z is
-   * balanced by elastic strain, so that s_zz follows from the flow rule and
-   * affects the result.
+   * Base class of three-dimensional ("spatial") laws, which depend on the full
+   * stress tensor. Stresses have four components in plane strain and
+   * axisymmetry, and six in three dimensions. In plane strain the plastic
+   * strain along z is balanced by elastic strain, so that s_zz follows from the
+   * flow rule and affects the result.
    */
   class SpatialLaw : public Material
   {
@@ -37,7 +37,7 @@ namespace geocone::GEOCONE_DIM
 
   protected:
     /**
-     * Computes the stress s at t_{n+1}.
+     * Stress update of one point: computes the stress s at t_{n+1}.
      * @param history_n of the point
      * @param[out] history history variables after those of Material, or null
      * @param[out] tangent ds/de, or null
@@ -52,7 +52,8 @@ namespace geocone::GEOCONE_DIM
             SpatialMandelMatrix *tangent) const = 0;
   };
 
-  /** A spatial law with linear elasticity and without internal variables. */
+  /** Base class of spatial laws with linear elasticity and without internal
+   *  variables. */
   class SpatialReturnMap : public SpatialLaw
   {
   public:
@@ -67,9 +68,9 @@ namespace geocone::GEOCONE_DIM
     }
 
   protected:
-    /** Strength variables of a point in a step: increase of the cohesion, and
-     *  weight lambda of the delayed normal stress p in the strength; the normal
-     *  stress at the end of the step has the weight 1 - lambda. */
+    /** Strength variables of a point in a step: cohesion increase and delayed
+     *  normal stress p. In the strength, p has the weight lambda, and the
+     *  normal stress at the end of the step has the weight 1 - lambda. */
     struct OwnStrength
     {
       double cohesion = 0.; ///< increase above the law's cohesion (Pa)
@@ -92,7 +93,8 @@ namespace geocone::GEOCONE_DIM
              double * /*history*/) const
     {}
 
-    /** Return map: stress s at t_{n+1} from the trial stress s_n + D e.
+    /** Return mapping: computes the stress s at t_{n+1} from the trial stress
+     *  s_n + D e.
      *  @param[out] tangent ds/de, or null */
     virtual Mode
     return_to_strength(const SpatialMandel &trial,
@@ -121,8 +123,8 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * A spatial law with cohesion, friction and dilatancy, optionally friction
-   * with memory (FrictionMemory) and a cohesion that varies in space.
+   * Base class of spatial laws with cohesion, friction and dilatancy. Options
+   * are friction memory (FrictionMemory) and a cohesion that varies in space.
    */
   class FrictionalSpatialLaw : public Frictional<SpatialReturnMap>
   {
@@ -136,7 +138,7 @@ namespace geocone::GEOCONE_DIM
       set_strength(F);
     }
 
-    /** K0 by Jaky's formula 1 - sin(phi). */
+    /** Earth pressure coefficient at rest by Jaky's formula, 1 - sin(phi). */
     double
     earth_pressure_at_rest() const override;
 
@@ -149,8 +151,8 @@ namespace geocone::GEOCONE_DIM
     virtual double
     normal_stress(const SpatialMandel &stress) const = 0;
 
-    /** Check of yield condition and flow rule (check_flow()) for a given
-     *  plastic strain increment. */
+    /** Checks yield condition and flow rule for a given plastic strain
+     *  increment, see check_flow(). */
     virtual FlowCheck
     check_plastic_strain(const SpatialMandel &plastic_strain,
                          const SpatialMandel &stress,
@@ -168,7 +170,8 @@ namespace geocone::GEOCONE_DIM
 
     using Frictional::Frictional;
 
-    /** Sets the strength parameters of the file, reduced by the factor F. */
+    /** Sets the strength parameters to the input values, reduced by the factor
+     *  F. */
     virtual void
     set_strength(const double F) = 0;
 

@@ -13,10 +13,10 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Three-dimensional Mohr-Coulomb law, with s_1 >= s_2 >= s_3: for each pair
-   * i < j
+   * Three-dimensional Mohr-Coulomb law. With s_1 >= s_2 >= s_3, the yield
+   * condition for each pair i < j is
    *   f_ij = s_i - s_j + (s_i + s_j) sin(phi) - 2 c cos(phi) <= 0,
-   * with the flow directions of the same pyramid for theta. MohrCoulomb is its
+   * and the plastic potential is the same pyramid for theta. MohrCoulomb is its
    * in-plane pair in plane strain; this law also yields on edges of the pyramid
    * where s_zz is the largest or the smallest stress.
    *
@@ -51,7 +51,8 @@ namespace geocone::GEOCONE_DIM
       return sin_theta > 0.;
     }
 
-    /** Explicit update by a vectorised kernel, for several points at once. */
+    /** Explicit stress update by a vectorised kernel, for several points at
+     *  once. */
     void
     advance(const PointBlock &block, LawCounts &counts) const override;
 
@@ -92,8 +93,8 @@ namespace geocone::GEOCONE_DIM
                          const SpatialMandel &stress,
                          const OwnStrength   &own) const override;
 
-    /** Normal stress -(s_1 + s_3)/2 in the plane of the major and minor
-     *  principal stresses (Pa). */
+    /** Normal stress -(s_1 + s_3)/2 at the centre of the largest Mohr circle
+     *  (Pa). */
     double
     normal_stress(const SpatialMandel &stress) const override;
 
@@ -120,7 +121,7 @@ namespace geocone::GEOCONE_DIM
                          : std::numeric_limits<double>::infinity();
       }
 
-      /** Largest yield function f_13, for ordered principal stresses (Pa). */
+      /** Largest yield function f_13 of ordered principal stresses (Pa). */
       double
       yield_function(const Principal &s) const
       {
@@ -128,10 +129,10 @@ namespace geocone::GEOCONE_DIM
       }
 
       /**
-       * Whether a stress lies in the largest circular cone inside the pyramid,
-       * a test without principal stresses: f_13 <= 2 sqrt(J_2 (1 + sine^2/3)) +
-       * 2 p sine - size over all Lode angles, with p = tr(s)/3 and J_2 = |dev
-       * s|^2/2.
+       * Returns true if a stress lies in the circular cone inscribed in the
+       * pyramid. The test requires no principal stresses: f_13 <= 2 sqrt(J_2 (1
+       * + sine^2/3)) + 2 p sine - size over all Lode angles, with p = tr(s)/3
+       * and J_2 = |dev s|^2/2.
        */
       bool
       holds_cone(const SpatialMandel &stress) const
@@ -143,20 +144,20 @@ namespace geocone::GEOCONE_DIM
       }
     };
 
-    /** Pyramid for a cohesion increased by @p cohesion (Pa). */
+    /** Pyramid after an increase of the cohesion by @p cohesion (Pa). */
     Pyramid
     pyramid_with(const double cohesion) const
     {
       return {exact.sine, exact.size + size_per_cohesion * cohesion};
     }
 
-    /** Pyramid of a step with friction memory: part of the normal stress in the
+    /** Pyramid of a step with friction memory. Part of the normal stress in the
      *  strength is the delayed normal stress, as in FlowCone::delayed(). */
     Pyramid
     delayed(const OwnStrength &own) const;
 
-    /** Vector y of de Saxce's change of variable as a tensor, and the sums of
-     *  its positive and negative principal values. */
+    /** Result of de Saxce's change of variable: tensor y, and sums of the
+     *  positive and of the negative principal values of y. */
     struct Normal
     {
       SpatialMandel whole;
@@ -164,8 +165,9 @@ namespace geocone::GEOCONE_DIM
     };
 
     /**
-     * De Saxce's change of variable for the pyramid: maps flow directions of
-     * the pyramid for theta to normals of the pyramid for phi by
+     * De Saxce's change of variable for the Mohr-Coulomb pyramid. Flow
+     * directions of the pyramid for theta are mapped to normals of the pyramid
+     * for phi by
      *   y_i = e_i (1 + sin(phi))/(1 + sin(theta))   if e_i > 0,
      *   y_i = e_i (1 - sin(phi))/(1 - sin(theta))   if e_i < 0,
      * for the principal values e_i of the plastic strain increment, in its
@@ -177,7 +179,8 @@ namespace geocone::GEOCONE_DIM
               const Pyramid       &pyramid,
               SpatialMandelMatrix *slope) const;
 
-    /** Return map of one point. @param flow sine of the dilatancy angle
+    /** Return mapping of one material point. @param flow sine of the dilatancy
+     *  angle
      *  @param[out] tangent ds/de, or null */
     static Mode
     return_to(const Elasticity    &elastic,
@@ -187,8 +190,8 @@ namespace geocone::GEOCONE_DIM
               SpatialMandel       &stress,
               SpatialMandelMatrix *tangent);
 
-    /** Projection onto a pyramid: the associated return map with unit
-     *  stiffness. */
+    /** Projects a stress onto a pyramid by the associated return mapping with
+     *  unit stiffness. */
     static Mode
     project(const Pyramid       &pyramid,
             const SpatialMandel &x,
@@ -199,7 +202,7 @@ namespace geocone::GEOCONE_DIM
         Elasticity(1., 0.), pyramid, pyramid.sine, x, projected, slope);
     }
 
-    /** Return map for ordered principal stresses, see return_to().
+    /** Return mapping in ordered principal stresses, see return_to().
      *  @param flow sine of the dilatancy angle
      *  @param[out] tangent ds/de of principal values */
     static Mode

@@ -11,8 +11,8 @@
 namespace geocone
 {
   /**
-   * Variation of a strength parameter with plastic strain from its initial
-   * value y_0, parsed from a text:
+   * Variation of a strength parameter with plastic strain, parsed from a text.
+   * With the initial value y_0, the formats are
    *   constant                    y_0,
    *   g_1: y_1, g_2: y_2, ...     linear from (0, y_0) to (g_1, y_1) and so on,
    *                               and constant beyond the last,
@@ -40,11 +40,11 @@ namespace geocone
     std::pair<double, double>
     range() const;
 
-    /** Minimum of the derivative, negative for decreasing curves. */
+    /** Minimum slope of the curve, negative for decreasing curves. */
     double
     least_slope() const;
 
-    /** Plastic strains of the points of the curve; for an exponential curve,
+    /** Plastic strains at the points of the curve; for an exponential curve, at
      *  sampling points. */
     std::vector<double>
     places() const;

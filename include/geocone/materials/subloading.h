@@ -14,10 +14,11 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * The subloading soil model (SubloadingModel) as a law for explicit steps:
-   * anisotropy, cyclic behaviour, structure, non-associated flow; with default
-   * parameters it is Modified Cam-Clay with a subloading surface. Tension is
-   * positive in this interface, compression in the model.
+   * Subloading soil model (SubloadingModel) as a constitutive law for explicit
+   * steps. It describes anisotropy, cyclic behaviour, structure and
+   * non-associated flow. With default parameters the law is Modified Cam-Clay
+   * with a subloading surface. Tension is positive in this interface,
+   * compression in the model.
    *
    * History of a point, components without Mandel factors: stress_zz, in the
    * plane only; the similarity centre a (xx, yy, zz, xy, in three dimensions
@@ -27,7 +28,8 @@ namespace geocone::GEOCONE_DIM
   class Subloading : public ConstitutiveLaw
   {
   public:
-    /** @param section name of the parameter section, e.g. "Materials/soil" */
+    /** Declares the parameters of the model. @param section name of the
+     *  parameter section, e.g. "Materials/soil" */
     explicit Subloading(const std::string &section);
 
     void
@@ -56,7 +58,8 @@ namespace geocone::GEOCONE_DIM
     double
     wave_modulus(const Stress &stress, const double *history) const override;
 
-    /** K0 by Jaky's formula 1 - sin(phi), with sin(phi) = 3 Mc/(6 + Mc). */
+    /** Earth pressure coefficient at rest by Jaky's formula 1 - sin(phi), with
+     *  sin(phi) = 3 Mc/(6 + Mc). */
     double
     earth_pressure_at_rest() const override
     {
@@ -96,8 +99,9 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * Initial state for a stress (Pa) from the parameters: a = chi sigma, beta,
-     * Rb, and pcb as given or from the overconsolidation ratio.
+     * Computes the initial state variables for a stress (Pa) from the
+     * parameters. The similarity centre is a = chi sigma; beta and Rb are
+     * given; pcb is given or follows from the overconsolidation ratio.
      * @return a note on values that had to be changed, or empty
      * @throws InputError if no such state exists
      */
@@ -118,7 +122,7 @@ namespace geocone::GEOCONE_DIM
     void
     check_initial() const;
 
-    /** Pressure that multiplies the rotation beta. */
+    /** Choice of the pressure that multiplies the rotation tensor beta. */
     enum class Rotation
     {
       p,

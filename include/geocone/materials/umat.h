@@ -13,9 +13,9 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * User-defined law for small strains: a function in a shared library with the
-   * UMAT interface of Abaqus/Standard. Stress has four components xx, yy, zz,
-   * xy in plane strain and axisymmetry, and six, xx, yy, zz, xy, xz, yz, in
+   * User-defined constitutive law for small strains, from a shared library with
+   * the UMAT interface of Abaqus/Standard. Stress has four components xx, yy,
+   * zz, xy in plane strain and axisymmetry, and six, xx, yy, zz, xy, xz, yz, in
    * three dimensions; tension is positive, and shear strains are engineering
    * strains.
    *
@@ -34,19 +34,20 @@ namespace geocone::GEOCONE_DIM
   public:
     explicit Umat(const std::string &section);
 
-    /** Sets the folder to which the file name of the library is relative. */
+    /** Sets the base folder for a relative path of the shared library. */
     void
     set_folder(const std::string &folder)
     {
       folder_of_parameters = folder;
     }
 
-    /** Loads the shared library. @throws InputError if the command line does
-     *  not allow it */
+    /** Loads the shared library of the user-defined law. @throws InputError if
+     *  the command line does not allow it */
     void
     prepare() override;
 
-    /** Explicit update, which rotates the total strain with the stress. */
+    /** Explicit stress update; the total strain is rotated together with the
+     *  stress. */
     void
     advance(const PointBlock &block, LawCounts &counts) const override;
 

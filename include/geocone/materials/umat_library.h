@@ -9,9 +9,9 @@
 
 namespace geocone
 {
-  /** Signature of the subroutine UMAT of Abaqus/Standard as compiled by
-   *  gfortran: all arguments by reference, and the length of CMNAME at the
-   *  end. */
+  /** Signature of the Abaqus/Standard subroutine UMAT as compiled by gfortran.
+   *  All arguments are passed by reference; the length of CMNAME is the last
+   *  argument. */
   using UmatFunction = void (*)(double       *stress,
                                 double       *statev,
                                 double       *ddsdde,
@@ -54,14 +54,14 @@ namespace geocone
   /** Command-line option that allows shared libraries to be loaded. */
   constexpr const char *option_for_libraries = "--load-library";
 
-  /** Whether the command line allows shared libraries to be loaded, which can
-   *  execute any code; false by default. */
+  /** True if the command line allows shared libraries to be loaded; false by
+   *  default. A shared library can execute any code. */
   bool &
   may_load_libraries();
 
   /**
-   * Returns a function of a shared library, which is loaded and remains loaded
-   * until the process ends.
+   * Loads a shared library and returns one of its functions. The library
+   * remains loaded until the process ends.
    * @param path of the shared library
    * @param function name of the function; in Fortran without the underscore
    * @param parameters section of the parameters, for messages

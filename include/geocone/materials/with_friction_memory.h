@@ -13,9 +13,9 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * A law with optional friction with memory: the strength depends on a delayed
-   * normal stress p (Pa), stored as the history variable after those of the
-   * base class.
+   * Adds optional friction memory to a constitutive law. The strength depends
+   * on a delayed normal stress p (Pa), stored as the history variable after the
+   * variables of the base class.
    * @tparam Base Material, or a class derived from it
    */
   template <typename Base>
@@ -71,27 +71,28 @@ namespace geocone::GEOCONE_DIM
   protected:
     using Base::Base;
 
-    /** Steady-state value of p at a constant stress (Pa). */
+    /** Steady-state value of the delayed normal stress p at a constant stress
+     *  (Pa). */
     virtual double
     remembered_stress(const Stress &stress) const = 0;
 
-    /** Index of p among the history variables. @pre the relaxation time is
-     *  positive */
+    /** Index of the delayed normal stress p among the history variables.
+     *  @pre the relaxation time is positive */
     unsigned int
     index_of_memory() const
     {
       return Base::n_history();
     }
 
-    /** Delayed part of the normal stress in a step: its weight (-), and the
-     *  friction_history normal stress (Pa). */
+    /** Delayed normal stress in the strength (Pa), with a weight (-). */
     struct FrictionHistory
     {
       double part, stress;
     };
 
-    /** Delayed part of the normal stress in a step; lagged friction of a solver
-     *  increases its weight, also without friction memory.
+    /** Computes the delayed part of the normal stress in a step. Lagged
+     *  friction of a solver increases the weight of this part, also without
+     *  friction memory.
      *  @param s_n normal stress at the beginning of the step (Pa) */
     FrictionHistory
     friction_history_of(const StepLaw &step,

@@ -17,9 +17,10 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * A law whose Young's modulus can be a formula in the coordinates where the
-   * point began: then it is the history variable E (Pa) after those of the base
-   * class. Poisson's ratio is that of the law.
+   * Adds a Young's modulus that varies in space to a constitutive law. If the
+   * modulus is a formula in the initial coordinates of a point, E (Pa) is the
+   * history variable after the variables of the base class. Poisson's ratio is
+   * that of the law.
    * @tparam Base Material, or a class derived from it
    */
   template <typename Base>
@@ -131,10 +132,11 @@ namespace geocone::GEOCONE_DIM
     }
 
   protected:
-    /** Name of the parameter in its section. */
+    /** Name of the input parameter for the stiffness formula. */
     static constexpr const char *entry = "Young modulus formula";
 
-    /** Elasticity of a point. @pre there is a formula */
+    /** Elastic moduli of a point with a stiffness formula. @pre there is a
+     *  formula */
     Elasticity
     own_elasticity(const double *history) const
     {
@@ -142,7 +144,8 @@ namespace geocone::GEOCONE_DIM
     }
 
   private:
-    /** Index of E in the history, if there is a formula. */
+    /** Index of Young's modulus E among the history variables, if a formula is
+     *  given. */
     unsigned int
     index_of_modulus() const
     {
