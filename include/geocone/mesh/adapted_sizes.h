@@ -12,10 +12,10 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Cell sizes of the next mesh, chosen to equalise the contributions of all
-   * cells to an error. Contributions scale with the cube of the cell size.
-   * Contributions are averaged with those of neighbouring cells: a coarse cell
-   * beside refined ones would otherwise be refined one mesh later.
+   * Computes the cell sizes of an adapted mesh such that all cells contribute
+   * equally to an error. Contributions scale with the cube of the cell size.
+   * Contributions are averaged over neighbouring cells: a coarse cell beside
+   * refined ones would otherwise be refined one mesh later.
    * @param error contribution of each cell
    * @param n_wanted approximate number of triangles
    */

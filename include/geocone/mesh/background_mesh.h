@@ -27,8 +27,8 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Mesh distributed over the ranks, with its mapping, material ids (indices
-   * into Scene::materials) and side ids.
+   * Mesh distributed over the MPI ranks, with mapping, material ids and
+   * boundary ids of the sides. Material ids are indices into Scene::materials.
    *
    * Quadrilaterals and hexahedra use parallel::distributed::Triangulation
    * (p4est); simplices, which p4est does not support, use
@@ -44,8 +44,8 @@ namespace geocone::GEOCONE_DIM
   public:
     BackgroundMesh(const MPI_Comm comm);
 
-    /** Expected number and area of cells, as far as the parameters determine
-     *  them. */
+    /** Estimated number and total area of the cells before the mesh is
+     *  created. */
     struct Expected
     {
       double n_cells;
@@ -56,15 +56,16 @@ namespace geocone::GEOCONE_DIM
       std::string parameter; ///< that determines the number of cells
     };
 
-    /** Estimates the number of cells without creating the mesh: for a file,
-     *  from its size or, after prepare(), from its content. @throws InputError
-     *  as prepare() */
+    /** Estimates the number of cells without creating the mesh. For a mesh
+     *  file, the estimate follows from the file size or, after prepare(), from
+     *  the content. @throws InputError as prepare() */
     Expected
     expect(const Scene &scene, const Method &method);
 
-    /** Sets the function that computes the cell sizes of a mesh of type "from
-     *  the bounds" by limit analysis. To be called before prepare(); this module
-     *  does not include limit analysis. Collective. @throws InputError */
+    /** Sets the function that computes cell sizes by limit analysis for the
+     *  mesh type "from the bounds". To be called before prepare(); the mesh
+     *  module does not include limit analysis. Collective.
+     *  @throws InputError */
     using SizesOf = std::function<CellSizes(const MeshParameters &)>;
     void
     take_sizes(const SizesOf &sizes_of,
@@ -76,8 +77,8 @@ namespace geocone::GEOCONE_DIM
     prepare(const Scene &scene, const Method &method);
 
     /**
-     * Coordinates of the grid lines of a uniform grid of rectangles, without
-     * creating the mesh; empty for other meshes (m). @throws InputError as
+     * Computes the grid line coordinates (m) of a uniform grid of rectangles
+     * without creating the mesh. Empty for other meshes. @throws InputError as
      * prepare()
      */
     std::array<std::vector<double>, dim>
@@ -85,9 +86,9 @@ namespace geocone::GEOCONE_DIM
 
     using Cell = dealii::Triangulation<dim>::active_cell_iterator;
 
-    /** Equivalent cell size: side length of a square (in three dimensions, a
-     *  cube) of the area (volume) of the cell; for simplices, of twice the area
-     *  (six times the volume) (m). */
+    /** Equivalent cell size (m): side length of a square (or cube) with the
+     *  area (or volume) of the cell. For simplices, twice the area or six times
+     *  the volume is used. */
     static double
     size_of(const Cell &cell)
     {
@@ -96,7 +97,7 @@ namespace geocone::GEOCONE_DIM
       return length_of(cell->measure() * parts);
     }
 
-    /** Iterates over the cells of this rank. */
+    /** Range of the cells owned by this MPI rank, for iteration. */
     auto
     own_cells() const
     {
@@ -105,32 +106,33 @@ namespace geocone::GEOCONE_DIM
         dealii::IteratorFilters::LocallyOwnedCell());
     }
 
-    /** Rank that owns each cell of the mesh, by active cell index. */
+    /** Owner rank of each cell of the mesh, by active cell index. */
     const std::vector<unsigned int> &
     owner_of_cell() const
     {
       return owners;
     }
 
-    /** Redistributes the cells over the ranks, so that the sum of cell weights
-     *  per rank is about equal. Collective. @param weight positive weight of a
-     *  cell of this rank */
+    /** Redistributes the cells over the MPI ranks such that the sum of cell
+     *  weights per rank is about equal. Collective. @param weight positive
+     *  weight of a cell of this rank */
     void
     repartition(const std::function<unsigned int(const Cell &)> &weight);
 
-    /** Marks the cells in the union over all ranks of the given lists of owned
-     *  cells, by active cell index, for owned and ghost cells. Collective. */
+    /** Marks the cells that belong to the given list of owned cells on any
+     *  rank. The result is indexed by active cell index, for owned and ghost
+     *  cells. Collective. */
     std::vector<bool>
     is_among(const std::vector<Cell> &cells) const;
 
-    /** Whether the problem is axisymmetric, with x as the radius. */
+    /** Returns true if the problem is axisymmetric, with x as the radius. */
     bool
     is_axisymmetric() const
     {
       return symmetry == Geometry::Symmetry::axisymmetric;
     }
 
-    /** Factor of volume integrals in plane strain or axisymmetry, see
+    /** Integration factor at a point for plane strain or axisymmetry, see
      *  Geometry::measure(). */
     double
     measure(const dealii::Point<dim> &x) const
@@ -138,16 +140,16 @@ namespace geocone::GEOCONE_DIM
       return Geometry::measure(symmetry, x);
     }
 
-    /** Tolerance of the search for points: distance from a cell, relative to
-     *  the cell size, within which a point counts as inside. */
+    /** Tolerance of the point search, relative to the cell size. Points within
+     *  this distance from a cell are inside the cell. */
     static constexpr double tolerance = 1e-8;
 
-    /** Unit coordinates of x in a cell; no value if x is outside of the cell by
-     *  more than the tolerance. */
+    /** Unit cell coordinates of the point x in a given cell. No value if x is
+     *  outside the cell by more than the tolerance. */
     std::optional<dealii::Point<dim>>
     unit_point(const Cell &cell, const dealii::Point<dim> &x) const;
 
-    /** Coordinates of the grid lines of a tensor grid (m); empty for other
+    /** Grid line coordinates of a tensor-product grid (m); empty for other
      *  meshes. */
     const std::array<std::vector<double>, dim> &
     grid() const
@@ -155,40 +157,40 @@ namespace geocone::GEOCONE_DIM
       return lines;
     }
 
-    /** Moves the grid lines of a tensor grid; the number of lines must not
-     *  change. */
+    /** Moves the grid lines of a tensor-product grid. The number of lines must
+     *  not change. */
     void
     move_grid(const std::array<std::vector<double>, dim> &to);
 
-    /** Column and row of a cell of a tensor grid. */
+    /** Column and row indices of a cell in a tensor-product grid. */
     std::array<unsigned int, dim>
     place_in_grid(const Cell &cell) const;
 
-    /** Whether the mesh is split between bodies in contact; each rank then
-     *  stores the complete mesh. */
+    /** Returns true if the mesh is split between bodies in contact. Each rank
+     *  then stores the complete mesh. */
     bool
     is_parted() const
     {
       return parted;
     }
 
-    /** Number of layers: one per body for particle bodies in contact, otherwise
-     *  1. */
+    /** Number of mesh layers: one per body for particle bodies in contact,
+     *  otherwise 1. */
     unsigned int
     n_layers() const
     {
       return layers;
     }
 
-    /** Layer of a cell, counted from 0. */
+    /** Index of the mesh layer that contains a cell, counted from 0. */
     unsigned int
     layer_of(const Cell &cell) const
     {
       return cell->active_cell_index() / (tria->n_active_cells() / layers);
     }
 
-    /** Cell at the same position in another layer, possibly owned by another
-     *  rank. */
+    /** Cell at the same position in another mesh layer. The cell may be owned
+     *  by another rank. */
     Cell
     twin(const Cell &cell, const unsigned int layer) const
     {
@@ -196,19 +198,19 @@ namespace geocone::GEOCONE_DIM
       return Cell(tria.get(), 0, cell->index() % n + int(layer) * n);
     }
 
-    /** Bounding box of all vertices, over all ranks. */
+    /** Bounding box of the complete mesh, over all ranks. */
     dealii::BoundingBox<dim>
     bounding_box() const;
 
-    /** Lowest corner of the bounding box. */
+    /** Corner of the bounding box with the smallest coordinates. */
     dealii::Point<dim>
     lower_corner() const
     {
       return bounding_box().get_boundary_points().first;
     }
 
-    /** Inverse of the Jacobian dx/dxi at a point of a cell, given in unit
-     *  coordinates (1/m). */
+    /** Inverse Jacobian dxi/dx of the cell mapping (1/m) at a point given in
+     *  unit cell coordinates. */
     dealii::Tensor<2, dim>
     inverse_jacobian(const Cell &cell, const dealii::Point<dim> &unit) const;
 
@@ -231,30 +233,30 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * Ids of the sides on which a boundary condition acts.
+     * Boundary ids of the sides on which a boundary condition acts.
      * @throws InputError if the mesh has no side of that name
      */
     std::set<dealii::types::boundary_id>
     side_ids(const BoundaryCondition &condition) const;
 
-    /** Side ids by name of the side. */
+    /** Boundary ids of the sides, by name of the side. */
     const std::map<std::string, dealii::types::boundary_id> &
     named_sides() const
     {
       return sides;
     }
 
-    /** Vertices of each boundary face on which a condition acts, over all
-     *  ranks: in the plane with the body on the left, in space counterclockwise
-     *  as seen from outside. Collective. @throws InputError if the mesh has no
-     *  side of a given name */
+    /** Vertices of all boundary faces on which a condition acts, over all
+     *  ranks. In two dimensions the body is on the left; in three dimensions
+     *  the vertices are counterclockwise as seen from outside. Collective.
+     *  @throws InputError if the mesh has no side of a given name */
     std::vector<std::vector<dealii::Point<dim>>>
     faces_of(const BoundaryCondition &condition) const;
 
     /**
-     * Index of the connected part of the body, counted from 0, for each vertex
-     * of the mesh; parts without a common edge are not connected.
-     * @param cells of the body on this rank. Collective.
+     * Index of the connected component of the body for each mesh vertex,
+     * counted from 0. Parts without a common edge are not connected.
+     * @param cells cells of the body on this rank. Collective.
      */
     std::vector<unsigned int>
     connected_parts(const std::vector<Cell> &cells) const;

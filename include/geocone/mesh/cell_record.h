@@ -17,13 +17,13 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Table that assigns records of a checkpoint to cells by their CellId,
-   * independent of the number of ranks.
+   * Table that assigns checkpoint records to mesh cells, independently of the
+   * number of MPI ranks. Cells are identified by their CellId.
    */
   class CellRecord
   {
   public:
-    /** Creates an empty table, to be written. */
+    /** Creates an empty table for writing a checkpoint. */
     CellRecord() = default;
 
     /** Reads a table. @throws RunError if the table does not match the records */
@@ -44,7 +44,7 @@ namespace geocone::GEOCONE_DIM
                        "records than it holds");
     }
 
-    /** Assigns the next n records to a cell. */
+    /** Assigns the next n records of the checkpoint to a cell. */
     void
     add(const BackgroundMesh::Cell &cell, const std::size_t n)
     {
@@ -59,7 +59,8 @@ namespace geocone::GEOCONE_DIM
       return ranges.count(cell->id().to_binary<dim>()) > 0;
     }
 
-    /** Range of the records of a cell. @throws RunError for an unknown cell */
+    /** Index range of the checkpoint records of a cell. @throws RunError for an
+     *  unknown cell */
     std::pair<std::size_t, std::size_t>
     range(const BackgroundMesh::Cell &cell) const
     {

@@ -14,15 +14,16 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Search for the cell that contains a point. Each rank stores the cells of
-   * all ranks, so that points are found at any distance from their former cell.
+   * Search for the mesh cell that contains a given point. Each rank stores the
+   * cells of all ranks, so that points are found at any distance from their
+   * former cell.
    */
   class CellSearch
   {
   public:
     using Cell = BackgroundMesh::Cell;
 
-    /** Location of a point: a cell and the unit coordinates in the cell. */
+    /** Location of a point in the mesh: cell and unit cell coordinates. */
     struct Location
     {
       Cell               cell;
@@ -32,10 +33,10 @@ namespace geocone::GEOCONE_DIM
     explicit CellSearch(const BackgroundMesh &mesh);
 
     /**
-     * Finds the cell of a point x: first the cell @p hint, then its vertex
-     * neighbours, then a complete layer of the mesh. In the last case, a point
-     * on a cell boundary belongs to the cell of the lowest rank and index, on
-     * whichever rank the search runs.
+     * Finds the cell that contains a point x. The search order is the cell
+     * @p hint, the vertex neighbours of this cell, and a complete layer of the
+     * mesh. In the last case, a point on a cell boundary belongs to the cell of
+     * the lowest rank and index, on whichever rank the search runs.
      * @return no value outside of the mesh, or if x is NaN
      */
     std::optional<Location>
@@ -43,14 +44,14 @@ namespace geocone::GEOCONE_DIM
          const Cell               &hint  = Cell(),
          const unsigned int        layer = 0) const;
 
-    /** Cell with an active cell index; the index is the same on all ranks. */
+    /** Cell with a given active cell index, which is the same on all ranks. */
     Cell
     cell(const unsigned int active_cell_index) const
     {
       return cells[active_cell_index];
     }
 
-    /** Rank that owns a cell. */
+    /** MPI rank that owns a given cell. */
     unsigned int
     owner(const Cell &cell) const
     {
@@ -63,7 +64,8 @@ namespace geocone::GEOCONE_DIM
       return mesh.is_simplicial();
     }
 
-    /** Shortest distance between two vertices of a cell, over all cells (m). */
+    /** Smallest distance between two vertices of the same cell in the mesh
+     *  (m). */
     double
     smallest_cell() const
     {
@@ -74,8 +76,8 @@ namespace geocone::GEOCONE_DIM
     const BackgroundMesh               &mesh;
     const dealii::GridTools::Cache<dim> cache;
     std::vector<Cell>                   cells;
-    /** Vertex neighbours of all cells; the neighbours of cell c start at
-     *  neighbours[first_neighbour[c]]. */
+    /** Vertex neighbours of all cells in compressed row format. The neighbours
+     *  of cell c start at neighbours[first_neighbour[c]]. */
     std::vector<unsigned int> first_neighbour, neighbours;
     double                    smallest;
   };

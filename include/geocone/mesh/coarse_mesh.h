@@ -19,12 +19,12 @@
 namespace geocone::GEOCONE_DIM
 {
   /** Mesh data for deal.II: vertices, cells with material ids, and boundary
-   *  faces with side ids. */
+   *  faces with boundary ids. */
   struct CoarseMesh
   {
-    /** Vertices of a face: of an edge in the plane, in increasing order; of a
-     *  triangle, followed by no_vertex, or of a quadrilateral, in the order of
-     *  its cell. */
+    /** Vertex indices of a face (an edge in two dimensions). The vertices of an
+     *  edge are in increasing order; the vertices of a triangle, followed by
+     *  no_vertex, or of a quadrilateral are in the order of the cell. */
     using Face = std::array<unsigned int, dim == 2 ? 2 : 4>;
     static constexpr unsigned int no_vertex = -1;
 
@@ -33,18 +33,19 @@ namespace geocone::GEOCONE_DIM
     dealii::SubCellData                               boundary;
     std::map<std::string, dealii::types::boundary_id> sides;
 
-    /** Coordinates of the grid lines of a tensor grid; otherwise empty. */
+    /** Grid line coordinates of a tensor-product grid (m); empty for other
+     *  meshes. */
     std::array<std::vector<double>, dim> grid;
 
-    /** Whether the cells are simplices (triangles or tetrahedra). */
+    /** Returns true if the cells are simplices (triangles or tetrahedra). */
     bool
     has_simplices() const;
 
-    /** Mean of the vertices of a cell. */
+    /** Mean of the vertex coordinates of a cell. */
     dealii::Point<dim>
     centre(const dealii::CellData<dim> &cell) const;
 
-    /** Canonical form of a face: its vertices in increasing order. */
+    /** Canonical form of a face, with vertex indices in increasing order. */
     static Face
     sorted(Face face);
 
@@ -52,7 +53,7 @@ namespace geocone::GEOCONE_DIM
     std::vector<Face>
     outer_faces() const;
 
-    /** Mean of the vertices of a face. */
+    /** Mean of the vertex coordinates of a face. */
     dealii::Point<dim>
     centre(const Face &face) const;
 
@@ -64,12 +65,12 @@ namespace geocone::GEOCONE_DIM
     std::vector<Face>
     part(const std::function<bool(unsigned int, unsigned int)> &are_apart);
 
-    /** Replaces the mesh by copies at the same position without shared
-     *  vertices. */
+    /** Replaces the mesh by several disconnected copies at the same
+     *  position. */
     void
     repeat(const unsigned int times);
 
-    /** Assigns a side id to a boundary face. */
+    /** Assigns the boundary id of a side to a boundary face. */
     void
     add_boundary(const Face &face, const dealii::types::boundary_id side);
   };

@@ -22,20 +22,22 @@ namespace geocone::GEOCONE_DIM
   class DomainOfTriangles
   {
   public:
-    /** @param is_end whether a vertex of the outline must be retained, e.g.
-     *  where a condition ends on a side */
+    /** Constructs the domain of a triangular mesh. @param is_end whether a
+     *  vertex of the outline must be retained, e.g. where a condition ends on a
+     *  side */
     DomainOfTriangles(
       const Triangles                                       &triangles,
       const std::function<bool(const dealii::Point<dim> &)> &is_end);
 
-    /** Reason why the domain cannot be remeshed; empty if it can. */
+    /** Reason why the domain cannot be remeshed; empty if remeshing is
+     *  possible. */
     const std::string &
     obstacle() const
     {
       return why_not;
     }
 
-    /** New mesh of the domain with prescribed cell sizes. Collective.
+    /** Creates a new mesh of the domain with prescribed cell sizes. Collective.
      *  @param lines additional lines that become edges @param algorithm number
      *  of gmsh's meshing algorithm */
     CoarseMesh
@@ -45,7 +47,7 @@ namespace geocone::GEOCONE_DIM
          const MPI_Comm   comm) const;
 
   private:
-    /** Boundary edge, given by its end points and boundary id. */
+    /** Boundary edge, defined by end points and boundary id. */
     struct Side
     {
       std::array<dealii::Point<dim>, 2> ends;
@@ -59,8 +61,8 @@ namespace geocone::GEOCONE_DIM
     Triangles         triangles;
   };
 
-  /** Domain of the mesh in a file; retains the vertices where boxes of boundary
-   *  conditions end. */
+  /** Domain of a mesh that was read from a file. The vertices where the boxes
+   *  of boundary conditions end are retained. */
   DomainOfTriangles
   domain_of_file(const Triangles &triangles, const Scene &scene);
 } // namespace geocone::GEOCONE_DIM

@@ -14,8 +14,8 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Creates the mesh of a scene, with materials of cells and sides of the
-   * boundary. Collective.
+   * Creates the mesh of a scene, with material ids of cells and boundary ids of
+   * sides. Collective.
    * @param parameters prepared for the scene and the method
    * @param sizes cell sizes that replace the parameters; the mesh is then
    * created by gmsh
@@ -31,8 +31,8 @@ namespace geocone::GEOCONE_DIM
               const bool            parts_bodies = true);
 
   /**
-   * Triangular mesh of the body of a scene, with materials and sides, created
-   * by gmsh or read from the mesh file. Collective.
+   * Creates a triangular mesh of the body by gmsh, or reads the mesh file of
+   * the scene. Materials and sides are assigned. Collective.
    * @param vertices points on the outline that become vertices of the mesh
    * @param lines lines that become edges of the mesh, as far as they lie in the
    * body
@@ -46,9 +46,9 @@ namespace geocone::GEOCONE_DIM
                     const MPI_Comm                         comm);
 
   /**
-   * Ids of the sides on which a boundary condition acts.
-   * @param sides side ids by name
-   * @param all side ids of the complete boundary, for the name "all"
+   * Boundary ids of the sides on which a boundary condition acts.
+   * @param sides boundary ids by side name
+   * @param all boundary ids of the complete boundary, for the name "all"
    * @throws InputError if no side has the given name
    */
   std::set<dealii::types::boundary_id>

@@ -15,8 +15,8 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Expected number of cells of an unstructured mesh with the size field h.
-   * Triangles are nearly equilateral, so that their number is
+   * Estimated number of cells of an unstructured mesh with the cell size field
+   * h(x). Triangles are nearly equilateral, so that the number of triangles is
    *   4/sqrt(3) times the integral of 1/h^2 over the domain;
    * each pair of triangles becomes four quadrilaterals. Within a factor of 2 of
    * gmsh's number, unless edges of materials force small cells.
@@ -24,26 +24,26 @@ namespace geocone::GEOCONE_DIM
   double
   unstructured_size(const MeshParameters &parameters);
 
-  /** Straight lines that become edges of the mesh, as far as they lie in the
-   *  domain. */
+  /** Straight lines that become mesh edges inside the domain. */
   using MeshLines = std::vector<std::array<dealii::Point<dim>, 2>>;
 
-  /** Unstructured mesh of a box or polygon, created by gmsh. Collective. */
+  /** Creates an unstructured mesh of a box or polygon by gmsh. Collective. */
   CoarseMesh
   unstructured_mesh(const MeshParameters &parameters,
                     const Regions        &regions,
                     const MeshLines      &lines,
                     const MPI_Comm        comm);
 
-  /** Prescribed cell sizes of an unstructured mesh (m), linear on triangles
-   *  that cover the domain. */
+  /** Prescribed cell sizes of an unstructured mesh (m), piecewise linear on
+   *  triangles that cover the domain. */
   struct CellSizes
   {
     std::vector<std::array<dealii::Point<dim>, 3>> triangles;
     std::vector<std::array<double, 3>>             sizes; ///< at the corners
   };
 
-  /** Domain of an unstructured mesh. */
+  /** Domain of an unstructured mesh: outline, holes, prescribed edges and
+   *  vertices. */
   struct MeshDomain
   {
     Polygon                         outline;
@@ -57,7 +57,7 @@ namespace geocone::GEOCONE_DIM
   MeshDomain
   domain_of(const MeshParameters &parameters);
 
-  /** Unstructured mesh with prescribed cell sizes. Collective. */
+  /** Creates an unstructured mesh with prescribed cell sizes. Collective. */
   CoarseMesh
   mesh_with_sizes(const MeshDomain     &domain,
                   const Regions        &regions,
@@ -66,9 +66,9 @@ namespace geocone::GEOCONE_DIM
                   const MPI_Comm        comm);
 
   /**
-   * Mesh from a .msh file (see msh_file.h), or from a .geo script if the
-   * geometry allows scripts. Collective: the first rank reads the file or runs
-   * the script.
+   * Reads a mesh from a .msh file (see msh_file.h), or creates the mesh by a
+   * .geo script if scripts are allowed. Collective: the first rank reads the
+   * file or runs the script.
    * @param contacts contacts along which nodes of bodies can be separate, or
    * null
    * @throws InputError if the file is neither, or the mesh is not supported

@@ -13,9 +13,9 @@
 namespace geocone
 {
   /**
-   * Discretisation of the continuum: by quadrature points of a body-fitted mesh
-   * (finite element method) or by particles that move through a background mesh
-   * (material point method).
+   * Discretisation method: finite element method (FEM) or material point method
+   * (MPM). FEM uses quadrature points of a body-fitted mesh; in MPM, particles
+   * move through a background mesh.
    */
   class Method : public dealii::ParameterAcceptor
   {
@@ -28,7 +28,7 @@ namespace geocone
       return kind != Kind::fem;
     }
 
-    /** Whether time integration is explicit. */
+    /** Returns true if the time integration is explicit. */
     bool
     is_explicit() const
     {

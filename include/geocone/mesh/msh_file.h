@@ -22,15 +22,16 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Mesh in gmsh's terms (nodes, elements, physical groups), from a .msh file
-   * or a model of the gmsh library. Elements are linear: lines, triangles and
-   * quadrilaterals, and in three dimensions tetrahedra and hexahedra. Quadratic
-   * elements with straight edges are reduced to their corner nodes. Cells have
-   * the dimension of the scene, faces one less.
+   * Mesh in gmsh's data model: nodes, elements and physical groups. The mesh is
+   * read from a .msh file or from a model of the gmsh library. Elements are
+   * linear: lines, triangles and quadrilaterals, and in three dimensions
+   * tetrahedra and hexahedra. Quadratic elements with straight edges are
+   * reduced to their corner nodes. Cells have the dimension of the scene, faces
+   * one less.
    */
   struct MshData
   {
-    /** Supported element types, with gmsh's numbers. */
+    /** Supported element types, with the type numbers of gmsh. */
     enum Type
     {
       line          = 1,
@@ -58,11 +59,12 @@ namespace geocone::GEOCONE_DIM
     {
       std::uint64_t tag;
       int           type;
-      /** Number of the curve, surface or volume to which the element belongs. */
+      /** Tag of the geometric entity (curve, surface or volume) that contains
+       *  the element. */
       int entity;
-      /** Physical groups of the element, as an index into #group_lists. */
+      /** Index of the element's list of physical groups in #group_lists. */
       unsigned int groups;
-      /** Tags of the nodes of the element, followed by zeros. */
+      /** Node tags of the element, followed by zeros. */
       std::array<std::uint64_t, 8> nodes;
 
       template <class Archive>
@@ -74,7 +76,7 @@ namespace geocone::GEOCONE_DIM
     };
 
     /**
-     * Index of a list of physical groups in #group_lists; a new list is
+     * Index of a given list of physical groups in #group_lists. A new list is
      * appended.
      */
     unsigned int
@@ -83,10 +85,11 @@ namespace geocone::GEOCONE_DIM
     std::vector<Node>    nodes;
     std::vector<Element> cells, faces;
 
-    /** Distinct lists of physical groups (numbers > 0) of elements. */
+    /** Distinct lists of physical groups (numbers > 0) to which elements
+     *  belong. */
     std::vector<std::vector<int>> group_lists = {{}};
 
-    /** Physical groups of boundary faces (curves or surfaces). */
+    /** Physical group numbers of the boundary faces (curves or surfaces). */
     std::set<int> face_groups;
 
     /** Names of the physical groups of faces and of cells, by group number. */
@@ -104,15 +107,17 @@ namespace geocone::GEOCONE_DIM
     std::map<std::vector<int>, unsigned int> index_of_list = {{{}, 0}};
   };
 
-  /** Remedy for a damaged .msh file, for error messages. */
+  /** Suggested remedy for a damaged .msh file, used in error messages. */
   inline const std::string msh_remedy =
     "write it anew, e.g.: gmsh OLD.msh -save -format msh41 -o NEW.msh";
 
-  /** gmsh's terms for boundary faces and for regions of cells, for messages. */
+  /** Terms of gmsh for boundary faces and for cell regions, used in error
+   *  messages. */
   const std::string face_word = dim == 2 ? "curve" : "surface";
   const std::string cell_word = dim == 2 ? "surface" : "volume";
 
-  /** Number of corner nodes and dimension of an element type of MshData. */
+  /** Number of corner nodes of a gmsh element type. The second function returns
+   *  the dimension of the type. */
   unsigned int
   n_nodes_of_type(const int type);
   int
@@ -128,14 +133,14 @@ namespace geocone::GEOCONE_DIM
                      const std::string &element);
 
   /**
-   * Whether a text begins as a .msh file: with the section MeshFormat, possibly
-   * after comments.
+   * Returns true if a text begins like a .msh file. The first section must be
+   * MeshFormat, possibly after comments.
    */
   bool
   begins_as_msh(const std::string &text);
 
   /**
-   * Reads a regular file, possibly binary.
+   * Reads the content of a regular file, which may be binary.
    * @throws InputError if the file is not regular, cannot be read, or exceeds
    * 512 MB, the size of meshes with five million nodes
    */

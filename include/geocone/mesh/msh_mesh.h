@@ -14,14 +14,14 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Mesh of the cells of a .msh file. Vertices are ordered by their first use
-   * in cells; cells by surface, with the triangles of each surface first. Edges
-   * of physical curves form the sides.
+   * Creates the mesh from the cells of a .msh file. Vertices are ordered by
+   * their first use in cells; cells by surface, with the triangles of each
+   * surface first. Edges of physical curves form the sides.
    * @param contacts contacts between bodies whose nodes can be separate, or
    * null
-   * @throws InputError if nodes are missing, not finite, not in the plane
-   * z = 0, or too close together for their coordinates; if there are no cells,
-   * or some are inverted, overlap, or have hanging nodes
+   * @throws InputError if nodes are missing, not finite, not in the plane z =
+   * 0, or too close together for their coordinates; if there are no cells, or
+   * some are inverted, overlap, or have hanging nodes
    */
   CoarseMesh
   coarse_mesh(const MshData     &data,

@@ -22,7 +22,8 @@ namespace geocone::GEOCONE_DIM
   inline const std::string msh_versions =
     "gmsh's .msh files of version 2.2 or 4.1, ASCII or binary";
 
-  /** Whether a character is white space between words of a .msh file. */
+  /** Returns true if a character is white space between words of a .msh
+   *  file. */
   inline bool
   is_msh_space(const char c)
   {
@@ -42,9 +43,9 @@ namespace geocone::GEOCONE_DIM
   }
 
   /**
-   * Tokeniser of a .msh file: words, and numbers as text or as bytes, without
-   * their meaning. Every number is checked against its range when it is read;
-   * nothing is allocated.
+   * Tokeniser for .msh files: reads words, numbers in text form and binary
+   * numbers, without interpretation. Every number is checked against its range
+   * when it is read; nothing is allocated.
    */
   class MshScanner
   {
@@ -54,8 +55,8 @@ namespace geocone::GEOCONE_DIM
       , what(what)
     {}
 
-    /** Switches to binary numbers; with @p is_swapped, in the opposite byte
-     *  order. */
+    /** Switches to binary numbers. If @p is_swapped is true, the byte order is
+     *  reversed. */
     void
     set_binary(const bool is_swapped)
     {
@@ -111,7 +112,7 @@ namespace geocone::GEOCONE_DIM
       position              = end == std::string::npos ? text.size() : end + 1;
     }
 
-    /** Skips to the line after $EndNAME. */
+    /** Skips the rest of a section, up to the line after $EndNAME. */
     void
     skip_section(const std::string &name)
     {
@@ -147,7 +148,7 @@ namespace geocone::GEOCONE_DIM
       position += end.size();
     }
 
-    /** Reads an integer written as text, also in binary files. */
+    /** Reads an integer in text form, also in binary files. */
     template <typename Integer>
     Integer
     integer_in_text(const char   *name,
@@ -164,7 +165,7 @@ namespace geocone::GEOCONE_DIM
       return value;
     }
 
-    /** Reads an integer of type int or std::uint64_t, the type stored in binary
+    /** Reads an integer of type int or std::uint64_t, the types used in binary
      *  files. */
     template <typename Integer>
     Integer
@@ -234,7 +235,7 @@ namespace geocone::GEOCONE_DIM
                           std::numeric_limits<Integer>::max());
     }
 
-    /** Reads the text between quotation marks in the rest of the line. */
+    /** Reads a quoted string from the rest of the line. */
     std::string
     quoted(const char *name)
     {

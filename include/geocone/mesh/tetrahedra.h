@@ -14,11 +14,11 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Tetrahedral mesh in plain arrays of vertices, cells and facets. */
+  /** Tetrahedral mesh, stored in plain arrays of vertices, cells and facets. */
   struct Tetrahedra
   {
-    /** @param mesh tetrahedral mesh, or a tensor grid; each hexahedron becomes
-     *  six tetrahedra */
+    /** Constructs the arrays from a coarse mesh. @param mesh tetrahedral mesh,
+     *  or a tensor grid; each hexahedron becomes six tetrahedra */
     explicit Tetrahedra(const CoarseMesh &mesh);
 
     static constexpr unsigned int none = -1;
@@ -26,7 +26,8 @@ namespace geocone::GEOCONE_DIM
     struct Facet
     {
       std::array<unsigned int, 3> vertices; ///< in increasing order
-      /** Cells on both sides of the facet; the second is none on the boundary. */
+      /** Indices of the cells on both sides of the facet. On the boundary, the
+       *  second index is none. */
       std::array<unsigned int, 2> cells = {{none, none}};
       int                         side  = -1; ///< boundary id, or -1 inside
     };
@@ -40,7 +41,7 @@ namespace geocone::GEOCONE_DIM
 
     std::map<std::string, dealii::types::boundary_id> sides;
 
-    /** Boundary facets on which a condition acts.
+    /** Boundary facets on which a boundary condition acts.
      *  @throws InputError if there is none, or if one is partly in the box of
      *  the condition */
     std::vector<unsigned int>
@@ -52,18 +53,18 @@ namespace geocone::GEOCONE_DIM
     dealii::Point<dim>
     centre(const unsigned int cell) const;
 
-    /** Gradients of the barycentric coordinates of a cell (1/m). */
+    /** Gradients of the four barycentric coordinates of a tetrahedron (1/m). */
     std::array<dealii::Tensor<1, dim>, 4>
     gradients(const unsigned int cell) const;
 
     double
     area(const unsigned int facet) const;
 
-    /** Unit normal of a facet, outward from its first cell. */
+    /** Unit normal of a facet, outward from the first adjacent cell. */
     dealii::Tensor<1, dim>
     normal(const unsigned int facet) const;
 
-    /** Local index (0 to 3) in a cell of one of its vertices. */
+    /** Local index (0 to 3) of a vertex in a given tetrahedron. */
     unsigned int
     index_in_cell(const unsigned int cell, const unsigned int vertex) const;
   };

@@ -14,7 +14,7 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Triangular mesh in plain arrays of vertices, cells and edges. */
+  /** Triangular mesh, stored in plain arrays of vertices, cells and edges. */
   struct Triangles
   {
     explicit Triangles(const CoarseMesh &mesh);
@@ -34,7 +34,7 @@ namespace geocone::GEOCONE_DIM
 
     std::map<std::string, dealii::types::boundary_id> sides;
 
-    /** Boundary edges on which a condition acts.
+    /** Boundary edges on which a boundary condition acts.
      *  @throws InputError if there is none, or if one is partly in the box of
      *  the condition */
     struct HeldEdge
@@ -51,11 +51,11 @@ namespace geocone::GEOCONE_DIM
     double
     area(const unsigned int cell) const;
 
-    /** Centre of gravity of a cell. */
+    /** Centroid of a triangular cell (m). */
     dealii::Point<dim>
     centre(const unsigned int cell) const;
 
-    /** Gradients of the barycentric coordinates of a cell (1/m). */
+    /** Gradients of the three barycentric coordinates of a triangle (1/m). */
     std::array<dealii::Tensor<1, dim>, 3>
     gradients(const unsigned int cell) const;
   };
