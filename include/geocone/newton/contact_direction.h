@@ -9,8 +9,8 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Josephy-Newton direction (Josephy 1979): linearises the momentum balance
-   * only and retains the exact contact laws. The end point of the direction
+   * Josephy-Newton direction (Josephy 1979), which linearises the momentum
+   * balance but retains the exact contact laws. The end point of the direction
    * satisfies the contact laws exactly, whichever nodes are in contact, stick
    * or slide. The body is condensed to the potential contact nodes, with one
    * right-hand side per velocity component of these nodes (CondensedContact);
@@ -19,7 +19,7 @@ namespace geocone::GEOCONE_DIM
   class ContactDirection
   {
   public:
-    /** Maximum number of velocity components to be condensed. */
+    /** Maximum number of velocity components that can be condensed. */
     static constexpr unsigned int most_components = 1500;
 
     /**
@@ -29,33 +29,34 @@ namespace geocone::GEOCONE_DIM
      */
     explicit ContactDirection(const StepWorkspace &work);
 
-    /** Whether the contact direction applies: the number of components is
-     *  positive and at most most_components. */
+    /** Returns true if the contact direction is used. The number of velocity
+     *  components must be positive and at most most_components. */
     bool
     is_used() const
     {
       return n_components > 0;
     }
 
-    /** Computes the direction as StepWorkspace::solve(), with exact contact
-     *  laws, from the factorised Jacobian. Nodes not selected that would
-     *  penetrate an obstacle are added to the contact set. */
+    /** Computes the Newton direction with exact contact laws from the
+     *  factorised Jacobian. The arguments are those of StepWorkspace::solve().
+     *  Nodes not selected that would penetrate an obstacle are added to the
+     *  contact set. */
     void
     solve(const Vector          *prescribed,
           const Eigen::VectorXd &defect,
           Vector                &direction);
 
     /**
-     * Directional residual: R.d at the iterate minus the work of the contact
-     * forces at the end of the direction, which act as loads. For associated
-     * flow the derivative of a convex function, with its minimum at the end of
-     * the direction if the momentum balance is linear. Collective.
+     * Directional residual R.d at the iterate, minus the work of the contact
+     * forces. The contact forces at the end of the direction act as loads. For
+     * associated flow the derivative of a convex function, with its minimum at
+     * the end of the direction if the momentum balance is linear. Collective.
      */
     double
     slope(const Vector &direction) const;
 
   private:
-    /** Velocity component of a contact node of this rank. */
+    /** Velocity component of a contact node owned by this rank. */
     struct Component
     {
       unsigned int           node; ///< index in Contact::nodes()
@@ -65,21 +66,21 @@ namespace geocone::GEOCONE_DIM
       bool                   is_relaxed = false;
     };
 
-    /** Appends the velocity components of the chosen nodes of this rank.
-     *  Collective. */
+    /** Appends the velocity components of the selected contact nodes on this
+     *  rank. Collective. */
     void
     add(const std::vector<unsigned int> &chosen, const bool relaxed);
 
-    /** Solves the linear system with the contact forces subtracted from the
-     *  residuals at the nodes. */
+    /** Solves the linear system after subtracting the contact forces from the
+     *  nodal residuals. */
     void
     solve_with(const Eigen::VectorXd &force,
                const Vector          *prescribed,
                const Eigen::VectorXd &defect,
                Vector                &direction) const;
 
-    /** Contact forces for which the end of the direction satisfies the contact
-     *  laws, and increments of the motions of free obstacles. Collective.
+    /** Contact forces that satisfy the contact laws at the end of the
+     *  direction, and motion increments of free obstacles. Collective.
      *  @param without relative velocity increments du of the direction without
      *  contact forces */
     struct End
@@ -89,24 +90,24 @@ namespace geocone::GEOCONE_DIM
     End
     end(const Eigen::VectorXd &without) const;
 
-    /** Nodes of this rank that were not selected and would penetrate an
-     *  obstacle. */
+    /** Nodes on this rank that were not selected as contact nodes but would
+     *  penetrate an obstacle. */
     std::vector<unsigned int>
     entered(Vector &direction) const;
 
-    /** Increment of the relative velocity between a contact node of this rank
+    /** Increment of the relative velocity between a contact node on this rank
      *  and the obstacle. @param direction with ghost values */
     dealii::Tensor<1, dim>
     relative_change(const ContactNode &node, const Vector &direction) const;
 
-    /** Increments of the relative velocities of the contact nodes of this rank,
-     *  by component; zero for components of other ranks.
+    /** Increments of the relative velocities of all contact nodes, by velocity
+     *  component. Components on other ranks are zero.
      *  @param direction receives ghost values */
     Eigen::VectorXd
     relative_change(Vector &direction) const;
 
-    /** Compliance matrix of the contact nodes: relative velocity increments du
-     *  caused by unit contact forces. Collective. */
+    /** Compliance matrix of the contact nodes: increments of relative velocity
+     *  due to unit contact forces. Collective. */
     Eigen::MatrixXd
     compliance() const;
 

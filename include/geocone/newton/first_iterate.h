@@ -9,11 +9,11 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Fixed-point iterations v -= K^-1 R(v) for the initial guess, with the
-   * elastic Jacobian K factorised once. Each iteration is an elastic step with
-   * the plastic strain of the previous iterate. Prescribed velocities and H v =
-   * q are imposed at the end of the step.
-   * @return stresses of the return map at v (Pa)
+   * Computes the initial guess by fixed-point iterations v -= K^-1 R(v). The
+   * elastic Jacobian K is factorised once. Each iteration is an elastic step
+   * with the plastic strain of the previous iterate. Prescribed velocities and
+   * H v = q are imposed at the end of the step.
+   * @return stresses of the return mapping at v (Pa)
    */
   std::vector<Mandel>
   fixed_point_iterate(const unsigned int   n_iterations,

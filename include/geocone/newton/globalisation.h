@@ -9,26 +9,27 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Line v + x d from an iterate v along a Newton direction d. */
+  /** Search line v + x d from an iterate v along a Newton direction d. */
   class NewtonLine
   {
   public:
     NewtonLine(const StepWorkspace &work, const LocalLaw &law);
 
-    /** Sets the start v of the line to the current iterate. */
+    /** Sets the starting point v of the search line to the current iterate. */
     void
     begin()
     {
       start = work.v;
     }
 
-    /** Moves the iterate to v + x d and evaluates the residual there. */
+    /** Moves the iterate to v + x d and evaluates the residual at the new
+     *  iterate. */
     void
     move(const double x);
 
-    /** Directional residual R.d at the iterate; for associated flow the
-     *  derivative of a convex function along d. A ContactDirection defines its
-     *  own slope. */
+    /** Directional residual R.d at the current iterate. For associated flow it
+     *  is the derivative of a convex function along d. A ContactDirection
+     *  defines its own slope. */
     double
     slope() const
     {
@@ -37,8 +38,8 @@ namespace geocone::GEOCONE_DIM
                : work.problem.free_dot(work.residual, direction);
     }
 
-    /** Merit function sum R_i^2 / D_i at the iterate, D the diagonal of the
-     *  elastic Jacobian. */
+    /** Merit function sum R_i^2 / D_i at the current iterate, with the diagonal
+     *  D of the elastic Jacobian. */
     double
     merit() const
     {
@@ -56,9 +57,10 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Globalisation of Newton's method: step length along the Newton directions
-   * and fraction of the elastic stiffness blended into the tangent. This base
-   * class performs full steps with the unmodified tangent.
+   * Base class of globalisation strategies for Newton's method. A strategy
+   * selects the step length along a Newton direction and the fraction of
+   * elastic stiffness blended into the tangent. This base class performs full
+   * steps with the unmodified tangent.
    */
   class Globalisation
   {
@@ -66,19 +68,19 @@ namespace geocone::GEOCONE_DIM
     virtual ~Globalisation() = default;
 
     /**
-     * Fraction w of the elastic stiffness in the tangent (1 - w) C + w D used
+     * Weight w of the elastic stiffness in the blended tangent (1 - w) C + w D
      * for the next direction.
      * @param residual relative residual (by the norm of the forces)
      */
     virtual double
     blend(const double residual) const;
 
-    /** Moves the iterate along the line. @return the step length x */
+    /** Moves the iterate along the search line. @return the step length x */
     virtual double
     move(NewtonLine &line);
 
-    /** Whether only descent directions, NewtonLine::slope() < 0, are
-     *  acceptable. */
+    /** Returns true if only descent directions, with NewtonLine::slope() < 0,
+     *  are acceptable. */
     virtual bool
     needs_descent() const
     {
@@ -86,7 +88,7 @@ namespace geocone::GEOCONE_DIM
     }
   };
 
-  /** Globalisation by the line search line_search(). */
+  /** Globalisation by a line search, see line_search(). */
   class LineSearch : public Globalisation
   {
   public:
@@ -100,12 +102,13 @@ namespace geocone::GEOCONE_DIM
     }
   };
 
-  /** Globalisation by blending the tangent with the elastic stiffness, full
-   *  steps: w = min(1/2, c |R_free| / |B'V s|) vanishes with the residual. */
+  /** Globalisation by full steps with a blend of tangent and elastic stiffness.
+   *  The weight w = min(1/2, c |R_free| / |B'V s|) vanishes with the
+   *  residual. */
   class ElasticBlend : public Globalisation
   {
   public:
-    /** Values of the factor c that proved effective. */
+    /** Empirical values of the factor c in the blending weight. */
     static constexpr double with_return_map = 0.3, with_natural_map = 0.05;
 
     /** @param factor c */

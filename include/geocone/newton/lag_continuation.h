@@ -9,10 +9,11 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Continuation in the friction lag. A law with lagged friction is easier to
-   * solve (closer to associated flow; explicit friction at lag 1). The exact
-   * law is reached on a path of solutions with a lag that decreases to 0; each
-   * solution is the initial guess of the next, with the line search.
+   * Numerical continuation from lagged friction to the exact friction law. A
+   * law with lagged friction is easier to solve, since it is closer to
+   * associated flow; lag 1 is explicit friction. The exact law is reached on a
+   * path of solutions with a lag that decreases to 0; each solution is the
+   * initial guess of the next, with the line search.
    */
   struct LagContinuation
   {
@@ -22,19 +23,19 @@ namespace geocone::GEOCONE_DIM
     unsigned int allowed_on_path    = 60;    ///< iterations on the path
     bool         elastic_first      = false; ///< elastic tangent D first
 
-    /** Whether the smallest lag reached is accepted if the path ends before lag
-     *  0; otherwise the step fails. */
+    /** True if a path that ends before lag 0 is accepted, with the solution for
+     *  the smallest lag reached. Otherwise the step fails. */
     bool keeps_lag = true;
 
-    /** Solves the exact law with the solution for explicit friction, a convex
-     *  problem, as the initial guess. */
+    /** Solves the exact friction law with the solution for explicit friction as
+     *  the initial guess. Explicit friction is a convex problem. */
     void
     solve_from_explicit_friction(const StepWorkspace &work) const
     {
       from_explicit_friction(0., tolerance, work);
     }
 
-    /** Follows the path of solutions from first_lag towards 0, as far as the
+    /** Follows the solution path from first_lag towards lag 0, as long as the
      *  iterations converge. */
     void
     solve_on_path(const StepWorkspace &work) const;
@@ -47,12 +48,12 @@ namespace geocone::GEOCONE_DIM
                            const double         accuracy,
                            const StepWorkspace &work) const;
 
-    /** Solves the law with first_lag; if necessary, the initial guess is the
-     *  solution for explicit friction. */
+    /** Solves the problem with the friction lag first_lag. If necessary, the
+     *  initial guess is the solution for explicit friction. */
     void
     solve_first(const StepWorkspace &work) const;
 
-    /** Newton iteration with one friction lag. */
+    /** Creates the Newton iteration for a given friction lag. */
     NewtonLoop
     loop(const double       lag,
          const double       accuracy,

@@ -9,7 +9,7 @@
 namespace geocone
 {
   /**
-   * Finds the step length x in (0, 1] along a Newton direction d from the
+   * Computes the step length x in (0, 1] along a Newton direction d from the
    * directional residual G(x) = R(v + x d).d. For associated flow G is the
    * derivative of a convex function along d, and the root of G is the minimum,
    * needed only approximately:

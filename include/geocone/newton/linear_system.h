@@ -16,13 +16,13 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Linear systems of Newton's method,
-   *   [K -H'; H 0] (dv, dlambda) = (r, q),   K = dR/dv on the free dofs:
-   * matrix, factorisation and linear solver. The constraint rows H are
-   * eliminated by the Schur complement H K^-1 H', with one additional
-   * right-hand side per row. The contribution of free obstacles to K, U W' of
-   * low rank, is inverted by Woodbury's formula, with one additional right-hand
-   * side per column of U.
+   * Linear systems in Newton's method, with matrix, factorisation and linear
+   * solver. The systems are
+   *   [K -H'; H 0] (dv, dlambda) = (r, q),   K = dR/dv on the free dofs.
+   * The constraint rows H are eliminated by the Schur complement H K^-1 H',
+   * with one additional right-hand side per row. The contribution of free
+   * obstacles to K, U W' of low rank, is inverted by Woodbury's formula, with
+   * one additional right-hand side per column of U.
    */
   class LinearSystem
   {
@@ -31,15 +31,15 @@ namespace geocone::GEOCONE_DIM
                  const MPI_Comm                comm,
                  const bool                    symmetric);
 
-    /** Sets the sparsity pattern of the Jacobian of a problem; if the pattern
-     *  differs from the previous one, the unknowns are reordered.
-     *  Collective. */
+    /** Sets the sparsity pattern of the Jacobian of a problem. The unknowns are
+     *  reordered if the pattern has changed. Collective. */
     void
     set_pattern(IncrementalProblem &problem, dealii::TimerOutput &timer);
 
     /**
-     * Assembles and factorises dR/dv at the iterate of the last residual(),
-     * with a fraction of elastic stiffness blended in (elastic_blend).
+     * Assembles and factorises the Jacobian dR/dv at the iterate of the last
+     * residual(). The tangent contains a fraction elastic_blend of elastic
+     * stiffness.
      * @return whether the matrix is regular; the same on all ranks
      */
     [[nodiscard]] bool
@@ -57,7 +57,8 @@ namespace geocone::GEOCONE_DIM
           const Eigen::VectorXd &defect,
           std::vector<double>   &x);
 
-    /** Solves K X = B without the constraints H, low-rank part of K included.
+    /** Solves K X = B without the constraints H. The low-rank part of K is
+     *  included.
      *  @param columns B in, X out, n_owned_rows() entries per column */
     void
     solve_columns(std::vector<double> &columns, const unsigned int n_columns);
@@ -68,7 +69,7 @@ namespace geocone::GEOCONE_DIM
       return matrix.n_owned;
     }
 
-    /** Number of matrix entries stored on this rank. */
+    /** Number of matrix entries stored on this MPI rank. */
     std::size_t
     n_nonzeros() const
     {

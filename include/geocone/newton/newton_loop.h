@@ -11,10 +11,10 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Semismooth Newton iteration for R(v) = 0 with one local law and a
-   * generalised Jacobian. The change of the prescribed velocities and the
-   * defect of the constraints H v = q enter the first linear system, followed
-   * by a full step. Convergence criterion:
+   * Semismooth Newton iteration for R(v) = 0 with a generalised Jacobian. The
+   * change of the prescribed velocities and the defect of the constraints H v =
+   * q enter the first linear system, followed by a full step. Convergence
+   * criterion:
    *   |R_free| <= max(tolerance x largest norm of a term of R, absolute),
    * or StepWorkspace::is_balanced() up to rounding.
    */
@@ -22,7 +22,7 @@ namespace geocone::GEOCONE_DIM
   {
     /**
      * Relative residual below which an iterate is a useful initial guess for
-     * another law, or justifies iterations beyond the allowed number.
+     * another law. Iterations beyond the allowed number are then justified.
      */
     static constexpr double near = 1e-3;
 
@@ -34,7 +34,7 @@ namespace geocone::GEOCONE_DIM
     double       tolerance          = 1e-10; ///< relative, for |R_free|
     double       absolute_tolerance = 1e-12; ///< for |R_free| (N/m)
     unsigned int allowed            = 60;    ///< iterations; doubled if near
-    /** Allowed iterations while no point yields and only contact is
+    /** Allowed number of iterations while no point yields and only contact is
      *  nonlinear. */
     unsigned int allowed_without_flow =
       std::numeric_limits<unsigned int>::max();
@@ -46,19 +46,19 @@ namespace geocone::GEOCONE_DIM
     bool moves         = false; ///< performs at least one iteration
     bool exact_contact = false; ///< contact laws by ContactDirection
 
-    /** Iterates from the current iterate; adds iterations and factorisations to
-     *  the report. */
+    /** Performs Newton iterations from the current iterate. The numbers of
+     *  iterations and factorisations are added to the report. */
     void
     run(Globalisation &globalisation, const StepWorkspace &work) const;
 
   private:
-    /** Factorises the Jacobian with the wanted elastic blend, or the smallest
-     *  larger blend with a regular matrix.
+    /** Factorises the Jacobian with the wanted elastic blend. If the matrix is
+     *  singular, the smallest larger blend with a regular matrix is used.
      *  @return the blend used; empty if the matrix remains singular */
     static std::optional<double>
     factorise(const double wanted, const StepWorkspace &work);
 
-    /** Reports the reason for terminating the iteration without convergence. */
+    /** Reports why the iteration terminated without convergence. */
     static void
     give_up(const ResidualReport &state, const StepWorkspace &work);
   };

@@ -18,9 +18,10 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Nonsmooth Newton solver of a step: runs the attempts of the plan() until
-   * one converges. NewtonLoop is the iteration; Globalisation and
-   * LagContinuation extend the range of convergence.
+   * Nonsmooth Newton solver for the incremental problem of a step. The attempts
+   * of the plan() are executed until one converges. NewtonLoop is the
+   * iteration; Globalisation and LagContinuation extend the range of
+   * convergence.
    *
    * Values of the parameter for friction:
    * - exact: the law with friction at t_{n+1}; without convergence, the step
@@ -31,8 +32,8 @@ namespace geocone::GEOCONE_DIM
   class NonsmoothNewton : public dealii::ParameterAcceptor
   {
   public:
-    /** @param others additional formulations with stresses as the only
-     *  unknowns */
+    /** Declares the parameters of the solver. @param others additional
+     *  formulations with stresses as the only unknowns */
     explicit NonsmoothNewton(const StressMethods &others = {});
 
     /** Checks the parameters of the solver for consistency. */
@@ -40,14 +41,14 @@ namespace geocone::GEOCONE_DIM
     prepare();
 
     /**
-     * Checks that the formulation applies to the problem, before the first
-     * attempt at a step. Collective.
+     * Checks that the selected formulation applies to the problem. To be called
+     * before the first attempt at a step. Collective.
      * @throws InputError
      */
     void
     check(const IncrementalProblem &problem) const;
 
-    /** Hints of the time stepper for the solution of a step. */
+    /** Hints from the time stepper for the solution of a step. */
     struct Hints
     {
       bool elastic_first = false; ///< elastic tangent in iteration 1
@@ -58,7 +59,7 @@ namespace geocone::GEOCONE_DIM
     };
 
     /**
-     * Solves the problem of a step.
+     * Solves the incremental problem of a step.
      * @param[in,out] v in: initial guess, velocities of t_n; out: the solution
      * @param[out] residual R(v) at all degrees of freedom; at prescribed dofs
      * the reactions
@@ -71,7 +72,7 @@ namespace geocone::GEOCONE_DIM
           Vector              &residual,
           const Hints         &hints) const;
 
-    /** Tolerances and maximum number of iterations set by the parameters. */
+    /** Tolerances and maximum number of iterations from the parameter file. */
     StepLimits
     limits() const
     {
@@ -85,9 +86,9 @@ namespace geocone::GEOCONE_DIM
       return formulation.word();
     }
 
-    /** Whether lagged friction is excluded: by the parameter, or because a
-     *  formulation with stresses as the only unknowns admits the exact law
-     *  only. */
+    /** Returns true if lagged friction is excluded. Reasons are the parameter
+     *  for friction, or a formulation with stresses as the only unknowns, which
+     *  admits the exact law only. */
     bool
     wants_exact_friction() const
     {
@@ -131,7 +132,8 @@ namespace geocone::GEOCONE_DIM
 
     LinearSolverParameters linear;
 
-    /** Parameters of friction, in the section of the time discretisation. */
+    /** Parameters for the treatment of friction, in the section of the time
+     *  discretisation. */
     struct Friction : dealii::ParameterAcceptor
     {
       Friction();
@@ -145,13 +147,13 @@ namespace geocone::GEOCONE_DIM
     };
     Friction friction;
 
-    /** Selected formulation with stresses as the only unknowns; null for other
-     *  formulations. */
+    /** Selected formulation with stresses as the only unknowns; null if another
+     *  formulation is selected. */
     const StressFormulation *
     of_stresses() const;
 
-    /** Selected method for the first iterate with stresses as the only
-     *  unknowns; null for other methods. */
+    /** Selected first-iterate method with stresses as the only unknowns; null
+     *  if another method is selected. */
     const FirstIterate *
     first_iterate_of_stresses() const;
 

@@ -13,7 +13,8 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Formulation of the problem of a step, a value of 'Newton/Formulation'. */
+  /** Formulation of the incremental problem, selected by the parameter
+   *  'Newton/Formulation'. */
   enum class Formulation
   {
     automatic,
@@ -22,7 +23,7 @@ namespace geocone::GEOCONE_DIM
     of_stresses ///< the first of StressMethods::formulations; others follow
   };
 
-  /** Globalisation method of Newton's method, a value of
+  /** Globalisation method of Newton's method, selected by the parameter
    *  'Newton/Globalisation'. */
   enum class GlobalisationMethod
   {
@@ -44,7 +45,8 @@ namespace geocone::GEOCONE_DIM
     exact      ///< solved exactly in each ContactDirection
   };
 
-  /** Attempt at solving a step by a Newton iteration; a line of a plan. */
+  /** Attempt at solving a step by a Newton iteration, an entry of the
+   *  plan(). */
   struct Try
   {
     static constexpr unsigned int unlimited =
@@ -70,34 +72,36 @@ namespace geocone::GEOCONE_DIM
 
     bool prepares = false; ///< provides the next initial guess
     bool is_rough = false; ///< only to residual NewtonLoop::near
-    /** Uses the elastic tangent in the first iteration, if the hints of the
-     *  time stepper request it. */
+    /** True if the first iteration may use the elastic tangent, as requested by
+     *  the time stepper (NonsmoothNewton::Hints). */
     bool elastic_first = true;
   };
 
-  /** User parameters that determine a plan. */
+  /** User parameters that determine the sequence of attempts at a step. */
   struct PlanOptions
   {
     Formulation         formulation   = Formulation::automatic;
     GlobalisationMethod globalisation = GlobalisationMethod::automatic;
-    /** Maximum number of iterations of each attempt; 0: default of the plan. */
+    /** Maximum number of iterations of each attempt; 0 for the default of the
+     *  plan. */
     unsigned int max_iterations = 0;
   };
 
   /**
-   * Sequence of attempts at solving a step. The first converged attempt
-   * completes the step, unless the attempt only provides the initial guess of
-   * the next. A pure function. For theta >= phi/2 the return map with the line
-   * search is tried first. Otherwise, or if it fails, the natural map with the
-   * elastic blend follows: the stresses of the natural map satisfy the law only
-   * at convergence, which prevents points from cycling between modes. For
-   * non-associated flow the lag continuation is the last attempt.
+   * Creates the sequence of attempts at solving a step. The first converged
+   * attempt completes the step, unless the attempt only provides the initial
+   * guess of the next. A pure function. For theta >= phi/2 the return map with
+   * the line search is tried first. Otherwise, or if it fails, the natural map
+   * with the elastic blend follows: the stresses of the natural map satisfy the
+   * law only at convergence, which prevents points from cycling between modes.
+   * For non-associated flow the lag continuation is the last attempt.
    * doc/performance.md compares the attempts.
    */
   std::vector<Try>
   plan(const StepTraits &step, const PlanOptions &options = {});
 
-  /** Description of the plans of typical steps, one paragraph per plan. */
+  /** Text description of the attempts in typical steps, one paragraph per
+   *  plan. */
   std::string
   text_of_plans();
 } // namespace geocone::GEOCONE_DIM

@@ -12,8 +12,8 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Line of the table of Newton iterations: an iterate and the step that led
-   *  to this iterate. */
+  /** Entry in the table of Newton iterations: an iterate and the preceding
+   *  Newton step. */
   struct NewtonIteration
   {
     double       relative_residual = 0.; ///< residual norm / force norm
@@ -25,7 +25,7 @@ namespace geocone::GEOCONE_DIM
     unsigned int n_switched        = 0;
   };
 
-  /** Result of solving the problem of a step. */
+  /** Report on the solution of the incremental problem of a step. */
   struct SolverReport
   {
     bool         converged      = false;
@@ -35,22 +35,23 @@ namespace geocone::GEOCONE_DIM
     double       residual       = 0.; ///< relative, of the last iterate
     double       friction_lag   = 0.; ///< lag of the solved law; 0: exact
 
-    /** Share of the plastic work caused by lagged friction,
+    /** Share of the plastic work caused by lagged friction (-), see
      *  InternalForces::excess_share(). */
     double excess_share = 0.;
 
-    /** Whether the solved law with lagged friction differs too much from the
-     *  exact law. */
+    /** True if the solution with lagged friction differs too much from the
+     *  exact friction law. */
     bool exceeds = false;
 
-    /** Whether rounding prevents the residual from reaching the tolerance. */
+    /** True if rounding prevents the residual from reaching the tolerance. */
     bool at_rounding_floor = false;
 
     std::vector<NewtonIteration> table;
     std::string                  reason; ///< reason of failure
     std::string                  remedy; ///< remedy, if known
 
-    /** Reads or writes all members except the table of a checkpoint. */
+    /** Reads or writes all members except the iteration table, for
+     *  checkpoints. */
     void
     state(StateRow &row)
     {

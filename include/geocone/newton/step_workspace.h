@@ -28,7 +28,7 @@ namespace geocone::GEOCONE_DIM
     evaluate(const LocalLaw &law = {}) const;
 
     /**
-     * Appends a line to the table of iterations.
+     * Appends a line to the table of Newton iterations.
      * @param step length that led to this state
      * @param blend elastic blend in the tangent of the step
      */
@@ -39,23 +39,24 @@ namespace geocone::GEOCONE_DIM
            const double          friction_lag) const;
 
     /**
-     * Whether the momentum balance is satisfied: |R_free| <= max(tolerance x
-     * force norm, absolute, c N), with the estimate N of the rounding error,
-     * InternalForces::rounding_floor(); likewise at contact nodes relative to
-     * the contact forces. N is used only if it is small itself, and is
-     * reported.
+     * Returns true if the momentum balance is satisfied: |R_free| <=
+     * max(tolerance x force norm, absolute, c N). N is the estimated rounding
+     * error, InternalForces::rounding_floor(). At contact nodes the criterion
+     * is relative to the contact forces. N is used only if it is small itself,
+     * and is reported.
      */
     bool
     is_balanced(const ResidualReport &state,
                 const double          tolerance,
                 const double          absolute) const;
 
-    /** Reports a NaN in the residual or in the law, with a remedy. */
+    /** Reports a NaN in the residual or in the constitutive law, with a
+     *  remedy. */
     void
     report_not_a_number() const;
 
-    /** Increments of the iterate required by the prescribed velocities and by
-     *  the constraints H v = q. */
+    /** Increments of the iterate due to prescribed velocities and constraints H
+     *  v = q. */
     struct Jump
     {
       Vector          prescribed; ///< end values minus v
@@ -68,15 +69,16 @@ namespace geocone::GEOCONE_DIM
     jump() const;
 
     /**
-     * Factorises dR/dv with a fraction of elastic stiffness blended in.
+     * Factorises the Jacobian dR/dv with a fraction of elastic stiffness
+     * blended in.
      * @return whether the matrix is regular
      */
     bool
     factorise(const double elastic_blend) const;
 
     /**
-     * Solves [K -H'; H 0] (dv, dlambda) = (-R - K jump, defect) with the last
-     * factorisation.
+     * Solves the Newton system [K -H'; H 0] (dv, dlambda) = (-R - K jump,
+     * defect) with the last factorisation.
      * @param prescribed increment of the prescribed velocities, or null if zero
      * @param[out] direction dv at all degrees of freedom
      */

@@ -12,26 +12,26 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Tolerances and maximum number of iterations for a step. */
+  /** Tolerances and maximum number of iterations for the solution of a step. */
   struct StepLimits
   {
     double relative_tolerance = 1e-10; ///< on |R_free|
     double absolute_tolerance = 1e-12; ///< for |R_free| (N/m)
-    /** Maximum number of iterations or sweeps; 0: default of the
+    /** Maximum number of iterations or sweeps; 0 for the default of the
      *  formulation. */
     unsigned int max_iterations = 0;
   };
 
   /**
-   * Formulation of a step with stresses as the only unknowns, an alternative
-   * within NonsmoothNewton.
+   * Formulation of a step with stresses as the only unknowns, selectable in
+   * NonsmoothNewton.
    */
   struct StressFormulation
   {
     const char *name; ///< value of 'Newton/Formulation'
 
-    /** Rejects problems outside the scope of the formulation. @throws
-     *  InputError */
+    /** Rejects problems to which the formulation does not apply.
+     *  @throws InputError */
     std::function<void(const IncrementalProblem &problem)> check;
 
     std::function<void(const StepLimits &limits, const StepWorkspace &work)>
@@ -43,7 +43,8 @@ namespace geocone::GEOCONE_DIM
   {
     const char *name; ///< value of 'Newton/First iterate'
 
-    /** Rejects problems outside the scope of the method. @throws InputError */
+    /** Rejects problems to which the method does not apply.
+     *  @throws InputError */
     std::function<void(const IncrementalProblem &problem)> check;
 
     /** Computes the first iterate v in the workspace. @return the stresses at v
@@ -53,7 +54,8 @@ namespace geocone::GEOCONE_DIM
       make;
   };
 
-  /** Methods with stresses as the only unknowns, for a NonsmoothNewton. */
+  /** Available methods with stresses as the only unknowns, for
+   *  NonsmoothNewton. */
   struct StressMethods
   {
     std::vector<StressFormulation> formulations;
