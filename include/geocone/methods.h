@@ -13,16 +13,17 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** All numerical methods available in this space dimension. All are created, so that
-   *  a parameter file may contain the parameters of every method. */
+  /** Container of all numerical methods available in this space dimension. All methods
+   *  are created, so that a parameter file may contain the parameters of every
+   *  method. */
   class Methods
   {
   public:
     Methods(const ParameterFile &file, Log &log);
     ~Methods();
 
-    /** Simulation by the method that the parameter file selects. To be called after
-     *  ParameterFile::parse(). @throws InputError */
+    /** Simulation object of the numerical method selected in the parameter file. To be
+     *  called after ParameterFile::parse(). @throws InputError */
     Simulation &
     chosen();
 
