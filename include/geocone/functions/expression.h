@@ -48,7 +48,7 @@ namespace geocone::GEOCONE_DIM
       return number == 0.;
     }
 
-    /** Time (s) after which a time history remains at a non-zero last value;
+    /** Time (s) after which a time history stays at a constant non-zero value;
      *  infinite for other expressions. */
     double
     stays_from() const;

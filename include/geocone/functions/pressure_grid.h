@@ -33,8 +33,8 @@ namespace geocone::GEOCONE_DIM
     double
     value(const dealii::Point<dim> &x) const;
 
-    /** Gradient of the pore pressure (N/m^3); in three dimensions zero along
-     *  z. */
+    /** Gradient of the pore pressure (N/m^3). The z component is zero in three
+     *  dimensions. */
     dealii::Tensor<1, dim>
     gradient(const dealii::Point<dim> &x) const;
 
@@ -49,8 +49,9 @@ namespace geocone::GEOCONE_DIM
     extent() const;
 
   private:
-    /** Grid interval that contains a given coordinate. The relative position is
-     *  between 0 and 1; the length (m) is 0 outside the grid. */
+    /** Interval between two grid lines that contains a given coordinate. The
+     *  relative position is between 0 and 1; the length (m) is 0 outside the
+     *  grid. */
     struct At
     {
       std::size_t i;
