@@ -171,7 +171,8 @@ namespace geocone::GEOCONE_DIM
     void
     begin_to_follow();
 
-    /** Moves the grid lines with the followed boundary segment. Collective. */
+    /** Moves the grid lines together with a moving boundary segment.
+     *  Collective. */
     void
     follow_side();
 
@@ -308,7 +309,7 @@ namespace geocone::GEOCONE_DIM
              const Vector         &v_mean,
              const double          h);
 
-    /** Solves the incremental problem and tries the initial guesses in turn
+    /** Solves the incremental problem from one initial guess after another
      *  until convergence. */
     SolverReport
     solve(const TimeStep   &step,
@@ -317,8 +318,8 @@ namespace geocone::GEOCONE_DIM
           Vector           &v,
           Vector           &residual) override;
 
-    /** Work done in a step by the change of gravity on particles at rest
-     *  (J/m). */
+    /** Potential energy change due to a change of gravity in a step, for
+     *  particles at fixed positions (J/m). */
     double
     work_of_changing_gravity(const TimeStep       &step,
                              const MaterialPoints &points) const;
@@ -372,7 +373,7 @@ namespace geocone::GEOCONE_DIM
     double ghost_part             = 1e-5; ///< gamma of GhostStiffness
     double largest_move           = 3.;
 
-    std::string                  grid_follows; ///< condition, or empty
+    std::string                  grid_follows; ///< followed condition, or empty
     std::optional<FollowingGrid> following;
     bool        nodes_moved = false; ///< since constraints were set up
     std::string present_stage;       ///< active stage

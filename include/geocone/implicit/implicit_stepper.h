@@ -72,7 +72,7 @@ namespace geocone::GEOCONE_DIM
       : section(section)
     {}
 
-    /** Solver, timer and accepted lagged-friction error for the solution of a
+    /** Objects and tolerance used to solve the incremental problem of a
      *  step. */
     struct Solving
     {
@@ -198,8 +198,8 @@ namespace geocone::GEOCONE_DIM
                  const Vector   &v,
                  Kinematics     &kinematics) = 0;
 
-    /** Completes an accepted step. Material points may change cells or leave
-     *  the mesh. */
+    /** Completes an accepted time step. Material points may change cells or
+     *  leave the mesh. */
     virtual void
     finish(const TimeStep & /* step */,
            const NonsmoothNewton & /* newton */,
@@ -231,8 +231,8 @@ namespace geocone::GEOCONE_DIM
                  Vector                  &difference) const = 0;
     /** @} */
 
-    /** Initial velocity of the incremental problem: vL, or Newmark's
-     *  predictor. */
+    /** Initial velocity of the incremental problem: vL at the beginning of the
+     *  step, or Newmark's predictor. */
     const Vector &
     start_velocity() const
     {
@@ -277,9 +277,9 @@ namespace geocone::GEOCONE_DIM
                    const Vector   &v,
                    const Vector   &residual) const;
 
-    /** Adds the work contributions of a solved step and the defect of the
-     *  energy identity to the step report. Dissipation and contact are
-     *  excluded; the points are still at t_n. */
+    /** Adds the work contributions and the energy defect of a solved step to
+     *  the step report. Dissipation and contact are excluded; the points are
+     *  still at t_n. */
     void
     take_works(const TimeStep       &step,
                const MaterialPoints &points,

@@ -12,10 +12,10 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Loads F multiplied by a load factor in a stage with load stepping (FEM or
-   * MPM). During the solution a constraint represents the loads, with the load
-   * factor as multiplier (doc/theory/stages.md); after the solution F acts as
-   * an ordinary load.
+   * External loads F that are multiplied by a load factor in a stage with load
+   * stepping (FEM or MPM). During the solution a constraint represents the
+   * loads, with the load factor as multiplier (doc/theory/stages.md); after the
+   * solution F acts as an ordinary load.
    */
   class ScaledLoads
   {
@@ -38,8 +38,8 @@ namespace geocone::GEOCONE_DIM
             Constraints  &constraints);
 
     /**
-     * Adds the loads times the load factor to the nodal forces. The same forces
-     * are subtracted from the reactions of supports.
+     * Adds the loads, multiplied by the load factor, to the nodal forces. The
+     * same forces are subtracted from the reactions of supports.
      * @param lambda multipliers of the solved step
      * @return the load factor; 1 without load stepping
      */

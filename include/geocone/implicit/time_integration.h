@@ -110,13 +110,14 @@ namespace geocone::GEOCONE_DIM
     step(const double t, const double h) const;
 
     /** Lumped mass in the incremental problem: M/beta for Newmark schemes,
-     *  otherwise M. The scaled mass is stored in this object. */
+     *  otherwise the mass M. The scaled mass is stored in this object. */
     const Vector &
     mass_of_problem(const Vector &lumped_mass);
 
     /**
-     * Newmark's predictor v += h (1/2 - beta) a, with the accelerations a =
-     * M^-1 f. At prescribed dofs, a is the mean acceleration in the step.
+     * Applies Newmark's predictor to the nodal velocities: v += h (1/2 - beta)
+     * a, with a = M^-1 f. At prescribed dofs, a is the mean acceleration in the
+     * step.
      * @param net_force f at t_n, external minus internal forces, in rotated
      * dofs
      */
@@ -127,7 +128,9 @@ namespace geocone::GEOCONE_DIM
             const Constraints &constraints,
             Vector            &velocity);
 
-    /** Nodal velocities at t + h from the solution v: vL + e (v - vL) + h (1/2
+    /** Computes the nodal velocities at t + h from the solution v of the
+     *  incremental problem. They are vL + e (v - vL) + h (1/2 - gamma + beta)
+     *  a, with e = TimeStep::extrapolation.
      *  - gamma + beta) a, with e = TimeStep::extrapolation. */
     Vector
     end_velocity(const TimeStep &step,
@@ -162,7 +165,7 @@ namespace geocone::GEOCONE_DIM
     Mandel stress;
     Mandel plastic;     ///< plastic strain increment
     double slip;        ///< norm of plastic, with out-of-plane part
-    double dissipation; ///< dissipation per volume (J/m^3)
+    double dissipation; ///< dissipation density (J/m^3)
   };
 
   /**
