@@ -10,7 +10,7 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Material constants of advance_cone() in d dimensions. */
+  /** Material constants of the kernel advance_cone() in d dimensions. */
   struct ConeNumbers
   {
     double a, b;
@@ -47,8 +47,8 @@ namespace geocone::GEOCONE_DIM
 
     P m, trace, d[n], strain[n];
 
-    /** Loads the stresses and strain increments of consecutive points of a
-     *  block, from point p. */
+    /** Reads the stresses and strain increments of consecutive points from a
+     *  block, starting at point p. */
     TurnedStress(const PointBlock &block, const unsigned int p)
     {
       if constexpr (dim == 2)

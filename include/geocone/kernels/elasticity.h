@@ -37,8 +37,8 @@ namespace geocone::GEOCONE_DIM
       return two_G * (3. * lambda + two_G) / (2. * lambda + two_G);
     }
 
-    /** Stiffness along the cone axis, dim lambda + 2G (Pa), with the space
-     *  dimension dim. */
+    /** Elastic stiffness along the cone axis, dim lambda + 2G (Pa), with the
+     *  space dimension dim. */
     double
     normal_stiffness() const
     {

@@ -96,8 +96,8 @@ namespace geocone::GEOCONE_DIM
       s[1 - e] = s[2 - e] = mean;
     }
 
-    /** Indicator of the active edge for a trial stress: edge 0 if positive,
-     *  otherwise edge 1. */
+    /** Indicator of the pyramid edge onto which a trial stress is returned:
+     *  edge 0 if positive, otherwise edge 1. */
     template <typename V>
     P
     side(const V &t) const

@@ -8,7 +8,7 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Material constants of advance_pyramid(). */
+  /** Material constants of the kernel advance_pyramid(). */
   struct PyramidNumbers
   {
     double sine; ///< sin(phi) of f_ij = s_i - s_j + (s_i + s_j) sine - size

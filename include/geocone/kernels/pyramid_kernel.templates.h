@@ -163,9 +163,9 @@ namespace geocone::GEOCONE_DIM
   {
     std::array<P, n_spatial> s, strain;
 
-    /** Loads the stresses and strain increments of consecutive points of a
-     *  block, from point p. @param nu Poisson ratio, for s_zz in plane strain
-     *  (see Material) */
+    /** Reads the stresses and strain increments of consecutive points from a
+     *  block, starting at point p. @param nu Poisson ratio, for s_zz in plane
+     *  strain (see Material) */
     TurnedTensors(const PointBlock &block, const unsigned int p, const P &nu)
     {
       std::array<P, dim * dim> l;

@@ -12,9 +12,10 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Rotation of plane tensors by the spin increment w = (l_yx - l_xy)/2. The
-   * Cayley transform, tan(angle/2) = w/2, is exactly orthogonal, so that stress
-   * invariants are preserved.
+   * Rotation of plane tensors by a spin increment w. With the increment l of
+   * the displacement gradient, w = (l_yx - l_xy)/2. The Cayley transform,
+   * tan(angle/2) = w/2, is exactly orthogonal, so that stress invariants are
+   * preserved.
    * @tparam T double, or Pack for several points
    */
   template <typename T>

@@ -36,7 +36,7 @@ namespace geocone::GEOCONE_DIM
     return y;
   }
 
-  /** Sections of the yield surface and of the subloading surface by a plane in
+  /** Plane sections of the yield surface and of the subloading surface in
    *  stress space. */
   template <int n>
   std::vector<YieldCurve>

@@ -25,7 +25,7 @@ namespace geocone
     bool   is_done[size];        ///< if false, the state is unchanged
     /** @} */
 
-    /** Copies the state and the strain increment of a point into a lane.
+    /** Copies the state and the strain increment of a point into a SIMD lane.
      *  @param y a SubloadingState (a template argument, so that kernels need
      *  not include the class) */
     template <typename State, typename Strain>

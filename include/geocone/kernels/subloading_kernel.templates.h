@@ -108,7 +108,8 @@ namespace geocone
         to[i] = P::load(from[i]);
     }
 
-    /** Stores the values of the SIMD lanes for which good is 1. */
+    /** Stores the values of the accepted SIMD lanes, for which the mask good is
+     *  1. */
     static void
     store(const P &good, const P &end, double (&to)[4])
     {

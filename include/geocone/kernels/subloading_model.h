@@ -95,8 +95,9 @@ namespace geocone
     }
 
     /**
-     * Similarity ratio R of the subloading surface through the stress. R is the
-     * positive root of fbar(a + (sigma - a)/R) = 0, equations (20) and (21).
+     * Similarity ratio R of the subloading surface that passes through the
+     * current stress. R is the positive root of fbar(a + (sigma - a)/R) = 0,
+     * equations (20) and (21).
      */
     double
     ratio(const State &state) const;

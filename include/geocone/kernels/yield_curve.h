@@ -24,9 +24,10 @@ namespace geocone
   {
     Tensor6 stress; ///< a stress in the plane, tension positive (Pa)
 
-    /** Index of the normal stress component that determines the sign of q. For
-     *  0 to 2, q is positive where this component is the most compressive;
-     *  otherwise q is positive along the deviator of the stress. */
+    /** Index of the normal stress component that determines the sign of the
+     *  deviatoric stress q. For 0 to 2, q is positive where this component is
+     *  the most compressive; otherwise q is positive along the deviator of the
+     *  stress. */
     unsigned int axis;
 
     double largest_p; ///< end of the curve if the surface is open (Pa)
