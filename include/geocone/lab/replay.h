@@ -19,9 +19,9 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Solves a problem stored in a file again, on one MPI rank and without the scene. The
-   * file contains an incremental problem in HDF5 (FrozenProblem), or a reduced problem
-   * in the format of Siconos or FCLib (ReducedProblem).
+   * Repeats the solution of a problem stored in a file, on one MPI rank and without the
+   * scene. The file contains an incremental problem in HDF5 (FrozenProblem), or a
+   * reduced problem in the format of Siconos or FCLib (ReducedProblem).
    *
    * @param overrides parameters of the sections Newton, Linear solver, Time stepping
    * (friction), Materials and Output ('If folder exists', as for runs), as on the
@@ -38,7 +38,7 @@ namespace geocone::GEOCONE_DIM
 
   // Common parts of replays of incremental and of reduced problems.
 
-  /** Output folder of a replay, with the parameter 'If folder exists'. */
+  /** Output folder of a replay (repeated solution of a stored problem). */
   class ResultFolder : public dealii::ParameterAcceptor
   {
   public:
@@ -85,7 +85,8 @@ namespace geocone::GEOCONE_DIM
       }
   }
 
-  /** Result of a replay: summary for comparisons, and stresses (Pa). */
+  /** Result of a replay (repeated solution): summary for comparisons, and stresses
+   *  (Pa). */
   struct Outcome
   {
     nlohmann::json      summary;
@@ -97,7 +98,8 @@ namespace geocone::GEOCONE_DIM
   bool
   is_reduced_problem(const std::string &file_name);
 
-  /** Reads a reduced problem from a file and solves the problem. */
+  /** Reads a reduced problem (cone complementarity problem) from a file and solves
+   *  it. */
   Outcome
   replay_reduced(const std::string              &file_name,
                  const std::vector<std::string> &overrides,
