@@ -93,7 +93,7 @@ namespace geocone
                           {"Mumps", Name::mumps},
                           {"multigrid", Name::multigrid}}};
 
-    /** Integer size for the indices of Cholmod's factors, in bits. */
+    /** Size of the integer indices of Cholmod's factors (bits). */
     enum class IndexSize
     {
       automatic,
@@ -104,8 +104,8 @@ namespace geocone
                                      {"32", IndexSize::bits_32},
                                      {"64", IndexSize::bits_64}}};
 
-    /** Out-of-core factorisation by Mumps, and folder for the factors on
-     *  disk. */
+    /** Options of Mumps for the storage of factors on disk: switch and
+     *  folder. */
     bool        out_of_core = false;
     std::string folder      = "/tmp";
 
