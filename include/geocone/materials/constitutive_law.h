@@ -37,8 +37,8 @@ namespace geocone::GEOCONE_DIM
      *  in plane scenes. */
     using Components = std::array<double, n_mandel>;
 
-    /** Declares the common parameters of all laws. @param section name of the
-     *  parameter section, e.g. "Materials/soil" */
+    /** Declares the common parameters of all constitutive laws. @param section
+     *  name of the parameter section, e.g. "Materials/soil" */
     explicit ConstitutiveLaw(const std::string &section);
 
     /** Checks the material parameters and computes the derived constants. */
@@ -167,8 +167,8 @@ namespace geocone::GEOCONE_DIM
                   double * /*history*/) const
     {}
 
-    /** Name of the parameter given by a formula in the initial coordinates;
-     *  empty if there is none. */
+    /** Name of a material parameter given by a formula in the initial
+     *  coordinates; empty if there is none. */
     virtual std::string
     formula_of_place() const
     {

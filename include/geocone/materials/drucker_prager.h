@@ -93,7 +93,7 @@ namespace geocone::GEOCONE_DIM
                          const SpatialMandel &stress,
                          const OwnStrength   &own) const override;
 
-    /** Normal stress s_n, the component along the cone axis (Pa). */
+    /** Normal stress s_n, the stress component along the cone axis (Pa). */
     double
     normal_stress(const SpatialMandel &stress) const override
     {

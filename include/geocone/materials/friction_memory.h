@@ -74,8 +74,8 @@ namespace geocone::GEOCONE_DIM
       return part * p + (1. - part) * s_n;
     }
 
-    /** Returns true if the value "automatic" activates friction memory, because
-     *  the exact law is strongly non-associated. @param non_associativity (a -
+    /** Returns true for strongly non-associated laws, for which the value
+     *  "automatic" activates friction memory. @param non_associativity (a -
      *  b)/a
      *  @param aperture_left sin(phi) - sin(theta) */
     static bool

@@ -162,7 +162,7 @@ namespace geocone::GEOCONE_DIM
       return given.gradient != 0. || profile || ratio > 0.;
     }
 
-    /** Increase of the cohesion of a point above the parameter c (Pa).
+    /** Increase of the cohesion at a point above the parameter value c (Pa).
      *  @param history of the point; null: no increase */
     double
     grown_cohesion(const double *history) const
@@ -201,7 +201,7 @@ namespace geocone::GEOCONE_DIM
 
     std::string               profile_text;
     std::optional<Expression> profile;
-    double                    ratio = 0.; ///< of s_u to the vertical stress
+    double                    ratio = 0.; ///< s_u over the vertical stress (-)
   };
 } // namespace geocone::GEOCONE_DIM
 

@@ -48,7 +48,7 @@ namespace geocone
     void
     declare(dealii::ParameterAcceptor &law);
 
-    /** Declares the parameter for the cohesion only. */
+    /** Declares only the cohesion parameter. */
     void
     declare_cohesion(dealii::ParameterAcceptor &law,
                      const std::string         &documentation);

@@ -81,8 +81,8 @@ namespace geocone::GEOCONE_DIM
     std::optional<FlowCone>
     exact_end_cone(const double *history_n, const double slip) const override;
 
-    /** Maximum degree of non-associativity (a - b)/a along the hardening
-     *  curves. */
+    /** Maximum degree of non-associativity along the hardening curves, see
+     *  Material::non_associativity(). */
     double
     non_associativity() const override;
 

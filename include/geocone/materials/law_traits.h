@@ -23,7 +23,7 @@ namespace geocone
      *  (Material::hard_flow). */
     bool has_hard_flow = false;
 
-    double non_associativity = 0.; ///< largest (a - b)/a, 0 to 1
+    double non_associativity = 0.; ///< largest degree, from 0 to 1
     /** Shortest relaxation time of friction memory over all laws (s); infinite
      *  without friction memory. */
     double friction_memory = std::numeric_limits<double>::infinity();

@@ -103,11 +103,11 @@ namespace geocone::GEOCONE_DIM
     update(const Increment &increment, const Response &response) const = 0;
 
     /**
-     * Default earth pressure coefficient at rest K0: Jaky's formula 1 -
-     * sin(phi) for laws with a yield cone, otherwise nu/(1 - nu) for uniaxial
-     * strain. Jaky's value 1 - a = 1 - sin(phi) is admissible, since the cone
-     * sustains K0 >= (1 - a)/(1 + a) - 2 c cos(phi)/((1 + a) |s_yy|), Rankine's
-     * active pressure.
+     * Default earth pressure coefficient at rest K0 (-), by Jaky's formula or
+     * linear elasticity. Laws with a yield cone have K0 = 1 - sin(phi); other
+     * laws have K0 = nu/(1 - nu), uniaxial strain. Jaky's value 1 - a = 1 -
+     * sin(phi) is admissible, since the cone sustains K0 >= (1 - a)/(1 + a) - 2
+     * c cos(phi)/((1 + a) |s_yy|), Rankine's active pressure.
      */
     double
     earth_pressure_at_rest() const override;
@@ -201,7 +201,7 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * Yield and flow cone at t_n, for checks of solutions independent of
+     * Yield and flow cone at t_n, used to check solutions independently of
      * update(). No value for laws without a yield cone.
      * @param history of the point; null is allowed for laws without hardening
      */
@@ -230,9 +230,9 @@ namespace geocone::GEOCONE_DIM
               const StepLaw &step) const;
 
     /**
-     * Yield cones after hardening by the plastic shear |z_t| = slip of a step.
-     * Initial cones are step_cone() for end_cone() and flow_cone() for
-     * exact_end_cone().
+     * Yield cones at the end of a step, after hardening by the plastic shear
+     * |z_t| = slip. Initial cones are step_cone() for end_cone() and
+     * flow_cone() for exact_end_cone().
      */
     virtual std::optional<FlowCone>
     end_cone(const Mandel  &stress_n,
@@ -367,15 +367,17 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * Threshold of the non-associativity (a - b)/a up to which Newton's method
-     * with line search converged on most meshes. Dilatancy angles theta >=
-     * phi/2 correspond to values up to about 1/2.
+     * Threshold of the degree of non-associativity up to which Newton's method
+     * with line search converged on most meshes. The degree is (a - b)/a, with
+     * the apertures a of yield and b of flow. Dilatancy angles theta >= phi/2
+     * correspond to values up to about 1/2.
      */
     static constexpr double hard_flow = 0.51;
 
     /**
-     * Degree of non-associativity (a - b)/a of the initial yield cone, from 0
-     * (associated) to 1 (no dilatancy).
+     * Degree of non-associativity of the initial cone, from 0 (associated) to 1
+     * (no dilatancy). The degree is (a - b)/a, with the apertures a of yield
+     * and b of flow.
      */
     virtual double
     non_associativity() const;
@@ -428,7 +430,8 @@ namespace geocone::GEOCONE_DIM
     /** @} */
 
   protected:
-    /** Source of the elastic moduli of a law. */
+    /** Source of the elastic moduli: constant parameters, or a function of the
+     *  state. */
     enum class Stiffness
     {
       constant, ///< by parameters

@@ -187,7 +187,7 @@ namespace geocone::GEOCONE_DIM
       return SpatialLaw::n_history();
     }
 
-    /** Lower limit of the pressure P: 1 Pa, converted to the scaled unit of
+    /** Lower limit of the pressure P: 1 Pa in internal (scaled) units of
      *  stress. */
     static double
     lowest()

@@ -112,7 +112,7 @@ namespace geocone::GEOCONE_DIM
 
   protected:
     /** Returns true if the yield cone varies nonlinearly with the plastic shear
-     *  of a step, by end_cone(). */
+     *  of a step (end_cone()). */
     virtual bool
     varies() const
     {
@@ -154,7 +154,7 @@ namespace geocone::GEOCONE_DIM
     double   k_per_cohesion = 0.; ///< dk/dc after reduction (-)
 
     /**
-     * Return mapping of one point in a step, in cone axes.
+     * Return mapping of one material point, in the axes of the cone.
      * @param elastic of the point
      * @param trial s_n + D e @param[out] slip |z_t| of the step (-)
      * @param[out] tangent ds/de, or null

@@ -144,15 +144,17 @@ namespace geocone::GEOCONE_DIM
       }
     };
 
-    /** Pyramid after an increase of the cohesion by @p cohesion (Pa). */
+    /** Mohr-Coulomb pyramid after an increase of the cohesion by @p cohesion
+     *  (Pa). */
     Pyramid
     pyramid_with(const double cohesion) const
     {
       return {exact.sine, exact.size + size_per_cohesion * cohesion};
     }
 
-    /** Pyramid of a step with friction memory. Part of the normal stress in the
-     *  strength is the delayed normal stress, as in FlowCone::delayed(). */
+    /** Mohr-Coulomb pyramid of a step with friction memory. Part of the normal
+     *  stress in the strength is the delayed normal stress, as in
+     *  FlowCone::delayed(). */
     Pyramid
     delayed(const OwnStrength &own) const;
 

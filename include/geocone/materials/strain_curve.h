@@ -44,8 +44,8 @@ namespace geocone
     double
     least_slope() const;
 
-    /** Plastic strains at the points of the curve; for an exponential curve, at
-     *  sampling points. */
+    /** Plastic strains at the points of a piecewise linear curve, or at
+     *  sampling points of an exponential curve. */
     std::vector<double>
     places() const;
 

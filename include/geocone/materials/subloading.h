@@ -28,8 +28,8 @@ namespace geocone::GEOCONE_DIM
   class Subloading : public ConstitutiveLaw
   {
   public:
-    /** Declares the parameters of the model. @param section name of the
-     *  parameter section, e.g. "Materials/soil" */
+    /** Declares the parameters of the subloading model. @param section name of
+     *  the parameter section, e.g. "Materials/soil" */
     explicit Subloading(const std::string &section);
 
     void

@@ -84,15 +84,15 @@ namespace geocone::GEOCONE_DIM
       return Base::n_history();
     }
 
-    /** Delayed normal stress in the strength (Pa), with a weight (-). */
+    /** Delayed normal stress (Pa) and its weight (-) in the yield condition. */
     struct FrictionHistory
     {
       double part, stress;
     };
 
-    /** Computes the delayed part of the normal stress in a step. Lagged
-     *  friction of a solver increases the weight of this part, also without
-     *  friction memory.
+    /** Computes the delayed part of the normal stress for friction memory.
+     *  Lagged friction of a solver increases the weight of this part, also
+     *  without friction memory.
      *  @param s_n normal stress at the beginning of the step (Pa) */
     FrictionHistory
     friction_history_of(const StepLaw &step,
