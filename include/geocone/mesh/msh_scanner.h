@@ -220,7 +220,7 @@ namespace geocone::GEOCONE_DIM
                "it is not complete or damaged: copy or write it again");
     }
 
-    /** Skips @p n integers. */
+    /** Skips the next @p n integers of a .msh file. */
     template <typename Integer>
     void
     skip_integers(const std::uint64_t n, const char *name)
