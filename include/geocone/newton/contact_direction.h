@@ -19,7 +19,8 @@ namespace geocone::GEOCONE_DIM
   class ContactDirection
   {
   public:
-    /** Maximum number of velocity components that can be condensed. */
+    /** Maximum number of contact velocity components for static
+     *  condensation. */
     static constexpr unsigned int most_components = 1500;
 
     /**
@@ -79,8 +80,8 @@ namespace geocone::GEOCONE_DIM
                const Eigen::VectorXd &defect,
                Vector                &direction) const;
 
-    /** Contact forces that satisfy the contact laws at the end of the
-     *  direction, and motion increments of free obstacles. Collective.
+    /** Contact forces for which the full Newton step satisfies the contact
+     *  laws, with motion increments of free obstacles. Collective.
      *  @param without relative velocity increments du of the direction without
      *  contact forces */
     struct End

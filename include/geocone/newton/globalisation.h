@@ -47,7 +47,7 @@ namespace geocone::GEOCONE_DIM
     }
 
     Vector                  direction;         ///< d
-    const ContactDirection *contact = nullptr; ///< null unless exact
+    const ContactDirection *contact = nullptr; ///< null: linearised contact
     ResidualReport          state;             ///< R at the iterate
 
   private:
@@ -108,7 +108,8 @@ namespace geocone::GEOCONE_DIM
   class ElasticBlend : public Globalisation
   {
   public:
-    /** Empirical values of the factor c in the blending weight. */
+    /** Empirical values of the factor c in the weight of the elastic
+     *  stiffness. */
     static constexpr double with_return_map = 0.3, with_natural_map = 0.05;
 
     /** @param factor c */

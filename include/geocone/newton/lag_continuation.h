@@ -23,8 +23,9 @@ namespace geocone::GEOCONE_DIM
     unsigned int allowed_on_path    = 60;    ///< iterations on the path
     bool         elastic_first      = false; ///< elastic tangent D first
 
-    /** True if a path that ends before lag 0 is accepted, with the solution for
-     *  the smallest lag reached. Otherwise the step fails. */
+    /** True if a continuation path that ends before friction lag 0 is accepted.
+     *  The solution for the smallest lag is then used. Otherwise the step
+     *  fails. */
     bool keeps_lag = true;
 
     /** Solves the exact friction law with the solution for explicit friction as
@@ -48,8 +49,9 @@ namespace geocone::GEOCONE_DIM
                            const double         accuracy,
                            const StepWorkspace &work) const;
 
-    /** Solves the problem with the friction lag first_lag. If necessary, the
-     *  initial guess is the solution for explicit friction. */
+    /** Solves the problem with the first friction lag of the path, first_lag.
+     *  If necessary, the initial guess is the solution for explicit
+     *  friction. */
     void
     solve_first(const StepWorkspace &work) const;
 

@@ -16,8 +16,8 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Linear systems in Newton's method, with matrix, factorisation and linear
-   * solver. The systems are
+   * Matrix, factorisation and solver of the linear systems in Newton's method.
+   * The systems are
    *   [K -H'; H 0] (dv, dlambda) = (r, q),   K = dR/dv on the free dofs.
    * The constraint rows H are eliminated by the Schur complement H K^-1 H',
    * with one additional right-hand side per row. The contribution of free
@@ -38,8 +38,8 @@ namespace geocone::GEOCONE_DIM
 
     /**
      * Assembles and factorises the Jacobian dR/dv at the iterate of the last
-     * residual(). The tangent contains a fraction elastic_blend of elastic
-     * stiffness.
+     * residual evaluation. The tangent contains a fraction elastic_blend of
+     * elastic stiffness.
      * @return whether the matrix is regular; the same on all ranks
      */
     [[nodiscard]] bool
@@ -57,8 +57,8 @@ namespace geocone::GEOCONE_DIM
           const Eigen::VectorXd &defect,
           std::vector<double>   &x);
 
-    /** Solves K X = B without the constraints H. The low-rank part of K is
-     *  included.
+    /** Solves K X = B for several right-hand sides, without the constraints H.
+     *  The low-rank part of K is included.
      *  @param columns B in, X out, n_owned_rows() entries per column */
     void
     solve_columns(std::vector<double> &columns, const unsigned int n_columns);

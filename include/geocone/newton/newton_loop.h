@@ -22,7 +22,8 @@ namespace geocone::GEOCONE_DIM
   {
     /**
      * Relative residual below which an iterate is a useful initial guess for
-     * another law. Iterations beyond the allowed number are then justified.
+     * the next attempt or friction lag. Iterations beyond the allowed number are
+     * then justified.
      */
     static constexpr double near = 1e-3;
 
@@ -52,8 +53,9 @@ namespace geocone::GEOCONE_DIM
     run(Globalisation &globalisation, const StepWorkspace &work) const;
 
   private:
-    /** Factorises the Jacobian with the wanted elastic blend. If the matrix is
-     *  singular, the smallest larger blend with a regular matrix is used.
+    /** Factorises the Jacobian with a requested fraction of elastic stiffness.
+     *  If the matrix is singular, the smallest larger blend with a regular
+     *  matrix is used.
      *  @return the blend used; empty if the matrix remains singular */
     static std::optional<double>
     factorise(const double wanted, const StepWorkspace &work);

@@ -53,8 +53,8 @@ namespace geocone::GEOCONE_DIM
     {
       bool elastic_first = false; ///< elastic tangent in iteration 1
 
-      /** Largest SolverReport::excess_share accepted for a converged step with
-       *  lagged friction. */
+      /** Largest accepted share of the plastic work caused by lagged friction
+       *  in a converged step (SolverReport::excess_share). */
       double accepted_excess = std::numeric_limits<double>::infinity();
     };
 
@@ -157,7 +157,7 @@ namespace geocone::GEOCONE_DIM
     const FirstIterate *
     first_iterate_of_stresses() const;
 
-    /** Performs the Newton iterations of one attempt of the plan from the
+    /** Performs the Newton iterations for one attempt of the plan, from the
      *  current iterate.
      *  @param start_of_s initial stresses s of the natural map (Pa) */
     void
@@ -166,8 +166,8 @@ namespace geocone::GEOCONE_DIM
             const std::vector<Mandel> &start_of_s,
             const StepWorkspace       &work) const;
 
-    /** Performs the lag continuation of one attempt of the plan from the
-     *  current iterate.
+    /** Performs the continuation in the friction lag for one attempt of the
+     *  plan.
      *  @param accepted_excess see Hints */
     void
     continue_from_lag(const Try           &next,

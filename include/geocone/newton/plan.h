@@ -45,8 +45,7 @@ namespace geocone::GEOCONE_DIM
     exact      ///< solved exactly in each ContactDirection
   };
 
-  /** Attempt at solving a step by a Newton iteration, an entry of the
-   *  plan(). */
+  /** Attempt at solving a step by Newton's method, an entry of the plan(). */
   struct Try
   {
     static constexpr unsigned int unlimited =
@@ -100,8 +99,8 @@ namespace geocone::GEOCONE_DIM
   std::vector<Try>
   plan(const StepTraits &step, const PlanOptions &options = {});
 
-  /** Text description of the attempts in typical steps, one paragraph per
-   *  plan. */
+  /** Text description of typical plans (sequences of attempts), one paragraph
+   *  per plan. */
   std::string
   text_of_plans();
 } // namespace geocone::GEOCONE_DIM

@@ -47,8 +47,8 @@ namespace geocone::GEOCONE_DIM
      *  @throws InputError */
     std::function<void(const IncrementalProblem &problem)> check;
 
-    /** Computes the first iterate v in the workspace. @return the stresses at v
-     *  (Pa) */
+    /** Computes the first iterate v and stores it in the workspace. @return the
+     *  stresses at v (Pa) */
     std::function<std::vector<Mandel>(const unsigned int   n_iterations,
                                       const StepWorkspace &work)>
       make;
