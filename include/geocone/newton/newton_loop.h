@@ -22,8 +22,8 @@ namespace geocone::GEOCONE_DIM
   {
     /**
      * Relative residual below which an iterate is a useful initial guess for
-     * the next attempt or friction lag. Iterations beyond the allowed number are
-     * then justified.
+     * the next attempt or friction lag. Iterations beyond the allowed number
+     * are then justified.
      */
     static constexpr double near = 1e-3;
 
