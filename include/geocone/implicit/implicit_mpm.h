@@ -204,8 +204,8 @@ namespace geocone::GEOCONE_DIM
                    const Stage          *stage,
                    const bool            scaled) override;
 
-    /** Adds the nodal forces of hydrostatic water pressure on the soil to dst.
-     *  Collective. */
+    /** Adds the nodal forces of hydrostatic water pressure on the soil to the
+     *  vector dst. Collective. */
     void
     add_water(const MaterialPoints &points, const double t, Vector &dst) const;
 
@@ -283,7 +283,7 @@ namespace geocone::GEOCONE_DIM
                  Kinematics              &kinematics,
                  Vector                  &difference) const override;
 
-    /** Computes the initial nodal velocity vL from the nodal momentum by the
+    /** Computes the initial nodal velocity vL from the nodal momentum with the
      *  partly consistent mass matrix. */
     void
     solve_mass(Vector &velocity) const;

@@ -185,7 +185,7 @@ namespace geocone::GEOCONE_DIM
       return works.of_others;
     }
 
-    /** Updates the state variables of the points to the end of the step.
+    /** Updates the state variables at all points to the end of the step.
      *  @return the dissipation (J/m) */
     virtual double
     update_points(const TimeStep &step, MaterialPoints &points) = 0;

@@ -116,8 +116,8 @@ namespace geocone::GEOCONE_DIM
 
     /**
      * Applies Newmark's predictor to the nodal velocities: v += h (1/2 - beta)
-     * a, with a = M^-1 f. At prescribed dofs, a is the mean acceleration in the
-     * step.
+     * a, with the acceleration a = M^-1 f. At prescribed dofs, a is the mean
+     * acceleration in the step.
      * @param net_force f at t_n, external minus internal forces, in rotated
      * dofs
      */
