@@ -39,7 +39,8 @@ namespace geocone
       Number ph;     ///< shifted pressure of a (Pa)
       Number A, B, C;
 
-      /** Similarity ratio R, the positive root of A + B R + C R^2 = 0. */
+      /** Similarity ratio R: positive root of A + B R + C R^2 = 0 with the
+       *  coefficients A, B and C. */
       Number
       ratio() const
       {
