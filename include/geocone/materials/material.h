@@ -211,8 +211,8 @@ namespace geocone::GEOCONE_DIM
       return std::nullopt;
     }
 
-    /** Section of the yield cone flow_cone() by a plane in stress space. The
-     *  curve is the line |s_t| = a s_n + k with s_n = sqrt2 p and |s_t| =
+    /** Section curve of the yield cone flow_cone() in a plane of stress space.
+     *  The curve is the line |s_t| = a s_n + k with s_n = sqrt2 p and |s_t| =
      *  q/sqrt2. */
     std::vector<YieldCurve>
     yield_curves(const Components   &stress,
@@ -281,7 +281,8 @@ namespace geocone::GEOCONE_DIM
     }
     /** @} */
 
-    /** Value of the yield function of spatial laws (Pa), see overstress().
+    /** Value of the yield function of three-dimensional laws (Pa), see
+     *  overstress().
      *  @param history of the point */
     virtual std::optional<double>
     yield_function(const SpatialMandel & /*stress*/,
@@ -291,8 +292,8 @@ namespace geocone::GEOCONE_DIM
     }
 
     /** Plastic work density minus the dissipation density of the exact law
-     *  without memory, for spatial laws (J/m^3). The difference can be
-     *  negative.
+     *  without memory, for three-dimensional laws (J/m^3). The difference can
+     *  be negative.
      *  @param history of the point */
     virtual double
     power_beyond_strength(const SpatialMandel & /*plastic_strain*/,
@@ -397,9 +398,9 @@ namespace geocone::GEOCONE_DIM
       return non_associativity() == 0.;
     }
 
-    /** Elastic moduli of the law. For a stress-dependent stiffness, these are
-     *  the moduli at the pressure 100 kPa; for a stiffness formula, the moduli
-     *  for 'Young modulus'. */
+    /** Elastic moduli of the constitutive law. For a stress-dependent
+     *  stiffness, these are the moduli at the pressure 100 kPa; for a stiffness
+     *  formula, the moduli for 'Young modulus'. */
     const Elasticity &
     elasticity() const
     {

@@ -68,8 +68,8 @@ namespace geocone::GEOCONE_DIM
     void
     set_gravity(const double g);
 
-    /** Summary of the properties of all laws. Up to date after prepare() and
-     *  later changes of parameters. */
+    /** Summary of the properties of all constitutive laws. Up to date after
+     *  prepare() and later changes of parameters. */
     const LawTraits &
     traits() const
     {
@@ -145,7 +145,8 @@ namespace geocone::GEOCONE_DIM
     shown_names() const;
 
   private:
-    /** Collects the properties of all laws from the current parameters. */
+    /** Collects the properties of all constitutive laws from the current
+     *  parameters. */
     LawTraits
     gather() const;
 

@@ -52,8 +52,8 @@ namespace geocone::GEOCONE_DIM
             SpatialMandelMatrix *tangent) const = 0;
   };
 
-  /** Base class of spatial laws with linear elasticity and without internal
-   *  variables. */
+  /** Base class of three-dimensional laws with linear elasticity and without
+   *  internal variables. */
   class SpatialReturnMap : public SpatialLaw
   {
   public:
@@ -123,8 +123,9 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Base class of spatial laws with cohesion, friction and dilatancy. Options
-   * are friction memory (FrictionMemory) and a cohesion that varies in space.
+   * Base class of three-dimensional laws with cohesion, friction and dilatancy.
+   * Options are friction memory (FrictionMemory) and a cohesion that varies in
+   * space.
    */
   class FrictionalSpatialLaw : public Frictional<SpatialReturnMap>
   {

@@ -192,8 +192,8 @@ namespace geocone::GEOCONE_DIM
               SpatialMandel       &stress,
               SpatialMandelMatrix *tangent);
 
-    /** Projects a stress onto a pyramid by the associated return mapping with
-     *  unit stiffness. */
+    /** Projects a stress onto a Mohr-Coulomb pyramid by the associated return
+     *  mapping with unit stiffness. */
     static Mode
     project(const Pyramid       &pyramid,
             const SpatialMandel &x,

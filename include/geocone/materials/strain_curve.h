@@ -11,8 +11,8 @@
 namespace geocone
 {
   /**
-   * Variation of a strength parameter with plastic strain, parsed from a text.
-   * With the initial value y_0, the formats are
+   * Variation of a strength parameter with plastic strain, parsed from a
+   * string. With the initial value y_0, the formats are
    *   constant                    y_0,
    *   g_1: y_1, g_2: y_2, ...     linear from (0, y_0) to (g_1, y_1) and so on,
    *                               and constant beyond the last,
