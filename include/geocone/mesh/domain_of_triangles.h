@@ -22,9 +22,9 @@ namespace geocone::GEOCONE_DIM
   class DomainOfTriangles
   {
   public:
-    /** Constructs the domain of a triangular mesh. @param is_end whether a
-     *  vertex of the outline must be retained, e.g. where a condition ends on a
-     *  side */
+    /** Constructs the remeshing domain of a triangular mesh. @param is_end
+     *  whether a vertex of the outline must be retained, e.g. where a condition
+     *  ends on a side */
     DomainOfTriangles(
       const Triangles                                       &triangles,
       const std::function<bool(const dealii::Point<dim> &)> &is_end);

@@ -55,8 +55,8 @@ namespace geocone::GEOCONE_DIM
       , what(what)
     {}
 
-    /** Switches to binary numbers. If @p is_swapped is true, the byte order is
-     *  reversed. */
+    /** Switches to reading numbers in binary format. If @p is_swapped is true,
+     *  the byte order is reversed. */
     void
     set_binary(const bool is_swapped)
     {
@@ -90,7 +90,7 @@ namespace geocone::GEOCONE_DIM
       return position == text.size();
     }
 
-    /** Reads the next word. */
+    /** Reads the next word of the file. */
     std::string
     word(const char *name)
     {
@@ -166,7 +166,7 @@ namespace geocone::GEOCONE_DIM
     }
 
     /** Reads an integer of type int or std::uint64_t, the types used in binary
-     *  files. */
+     *  .msh files. */
     template <typename Integer>
     Integer
     integer(const char   *name,
