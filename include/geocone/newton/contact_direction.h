@@ -30,8 +30,8 @@ namespace geocone::GEOCONE_DIM
      */
     explicit ContactDirection(const StepWorkspace &work);
 
-    /** Returns true if the contact direction is used. The number of velocity
-     *  components must be positive and at most most_components. */
+    /** Returns true if the Josephy-Newton contact direction is used. The number
+     *  of velocity components must be positive and at most most_components. */
     bool
     is_used() const
     {

@@ -28,16 +28,16 @@ namespace geocone::GEOCONE_DIM
      *  fails. */
     bool keeps_lag = true;
 
-    /** Solves the exact friction law with the solution for explicit friction as
-     *  the initial guess. Explicit friction is a convex problem. */
+    /** Solves the step with the exact friction law, starting from the solution
+     *  for explicit friction. Explicit friction is a convex problem. */
     void
     solve_from_explicit_friction(const StepWorkspace &work) const
     {
       from_explicit_friction(0., tolerance, work);
     }
 
-    /** Follows the solution path from first_lag towards lag 0, as long as the
-     *  iterations converge. */
+    /** Follows the solution path from the friction lag first_lag towards 0, as
+     *  long as the iterations converge. */
     void
     solve_on_path(const StepWorkspace &work) const;
 

@@ -32,8 +32,8 @@ namespace geocone::GEOCONE_DIM
   class NonsmoothNewton : public dealii::ParameterAcceptor
   {
   public:
-    /** Declares the parameters of the solver. @param others additional
-     *  formulations with stresses as the only unknowns */
+    /** Declares the parameters of the nonsmooth Newton solver. @param others
+     *  additional formulations with stresses as the only unknowns */
     explicit NonsmoothNewton(const StressMethods &others = {});
 
     /** Checks the parameters of the solver for consistency. */
