@@ -56,7 +56,8 @@ namespace geocone::GEOCONE_DIM
 
     double step = 0.; ///< time step dt (s), for rate-dependent laws
 
-    /** Hoop strain increments of axisymmetric scenes; null in other scenes. */
+    /** Hoop strain increments in axisymmetric problems; null in other
+     *  problems. */
     const double *l_zz = nullptr;
 
     /** @name Access to one point */
