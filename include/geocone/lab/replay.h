@@ -94,7 +94,7 @@ namespace geocone::GEOCONE_DIM
   };
 
   /** Returns true if a file contains a reduced problem in the format of Siconos or
-   *  FCLib. Available in two-dimensional scenes only. */
+   *  FCLib. Available in two dimensions only. */
   bool
   is_reduced_problem(const std::string &file_name);
 
