@@ -34,7 +34,7 @@ namespace geocone::GEOCONE_DIM
     using Stress = std::array<double, n_spatial>;
 
     /** Stress components in the order of tensor_component (Pa); zz is omitted
-     *  in plane scenes. */
+     *  in plane problems. */
     using Components = std::array<double, n_mandel>;
 
     /** Declares the common parameters of all constitutive laws. @param section
@@ -183,7 +183,7 @@ namespace geocone::GEOCONE_DIM
       return 0.;
     }
 
-    /** Out-of-plane stress s_zz of plane scenes (Pa). */
+    /** Out-of-plane stress s_zz in plane problems (Pa). */
     virtual double
     stress_zz(const Components &stress, const double *history) const = 0;
 

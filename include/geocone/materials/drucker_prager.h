@@ -54,7 +54,7 @@ namespace geocone::GEOCONE_DIM
     }
 
     /** Yield cone of the exact law in three dimensions. No value in plane
-     *  scenes, where the law also determines s_zz. */
+     *  problems, where the law also determines s_zz. */
     std::optional<FlowCone>
     flow_cone(const double *history) const override
     {

@@ -44,8 +44,8 @@ namespace geocone::GEOCONE_DIM
 
     StepLaw step;
 
-    /** Out-of-plane strain increments in axisymmetric scenes; null in other
-     *  scenes. */
+    /** Out-of-plane strain increments in axisymmetric problems; null in other
+     *  problems. */
     const double *strain_zz = nullptr;
   };
 
@@ -66,7 +66,7 @@ namespace geocone::GEOCONE_DIM
     dealii::ArrayView<MandelMatrix> tangent; ///< ds/de, generalised (Pa)
     double *history = nullptr; ///< in: copy of history_n; out: at t_{n+1}
 
-    /** @name Output of spatial laws in plane scenes */
+    /** @name Output of three-dimensional laws in plane problems */
     /** @{ */
     double            *stress_zz  = nullptr; ///< at t_{n+1} (Pa)
     OutOfPlaneTangent *tangent_zz = nullptr; ///< if the tangent is computed
@@ -77,7 +77,7 @@ namespace geocone::GEOCONE_DIM
    * Base class of constitutive laws with a return mapping, available for all
    * numerical methods. The state at t_{n+1} is a function of the strain
    * increments and the state at t_n. Elasticity is isotropic, and linear by
-   * default (elasticity_at()). In plane scenes the out-of-plane stress is
+   * default (elasticity_at()). In plane problems the out-of-plane stress is
    *   s_zz = nu (s_xx + s_yy) + d,
    * where d (Pa) is the first history variable, followed by the history
    * variables of hardening laws. d is constant for plastic flow in the plane;
@@ -173,8 +173,8 @@ namespace geocone::GEOCONE_DIM
       return is_spatial();
     }
 
-    /** Full stress tensor of a point in a plane scene, in the order xx, yy, xy,
-     *  zz (Pa).
+    /** Full stress tensor of a point in a plane problem, in the order xx, yy,
+     *  xy, zz (Pa).
      *  @param history of the point */
     SpatialMandel
     whole_stress(const Mandel &stress, const double *history) const;
@@ -252,7 +252,7 @@ namespace geocone::GEOCONE_DIM
      *  NaturalMap */
     /** @{ */
     /** Returns true if the law has a natural map in this space dimension.
-     *  Spatial laws have no natural map in plane scenes, where s_zz is not an
+     *  Spatial laws have no natural map in plane problems, where s_zz is not an
      *  unknown. */
     virtual bool
     has_natural_map() const
