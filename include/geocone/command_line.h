@@ -35,9 +35,10 @@ namespace geocone
   };
 
   /**
-   * Parses the options FILE, --output, --set, --quiet, --dry-run, --picture, --check
-   * FILE..., --force, --run-gmsh-script, --load-library (may_load_libraries()),
-   * --resume, --defaults, --help [TOPIC], --schema and --version.
+   * Parses the command line of a program. The options are FILE, --output, --set,
+   * --quiet, --dry-run, --picture, --check FILE..., --force, --run-gmsh-script,
+   * --load-library (may_load_libraries()), --resume, --defaults, --help [TOPIC],
+   * --schema and --version.
    * @param lacking options that the program does not support
    * @param many whether the program accepts any number of parameter files
    * @throws InputError on any other argument
@@ -53,7 +54,7 @@ namespace geocone
   void
   print_version(const std::string &program);
 
-  /** Run options that correspond to a command line and its parameter file. */
+  /** Returns the run options given by a command line and its parameter file. */
   RunOptions
   run_options(const CommandLine &call, const ParameterFile &file);
 
@@ -66,9 +67,10 @@ namespace geocone
   };
 
   /**
-   * Main function of a program: initialises and finalises MPI, installs the signal
-   * handlers, executes @p run and prints the exceptions that it throws. Results are
-   * plotted after MPI has been finalised, because MPI processes must not be forked.
+   * Main function of a program: initialises MPI, executes @p run and finalises MPI.
+   * It also installs the signal handlers and prints the exceptions thrown by @p run.
+   * Results are plotted after MPI has been finalised, because MPI processes must not
+   * be forked.
    * @param argv arguments of the program; libraries receive only the program name
    * @param run returns the exit code
    * @return the exit code of the program: the exit code of @p run; 1 after an error;

@@ -17,22 +17,23 @@
 namespace geocone
 {
   /**
-   * Checkpoint of a run as named arrays in an HDF5 file, independent of the
-   * number of ranks. The first rank buffers the file in memory and writes it in
-   * one piece, with a checksum over all arrays, so that a damaged file is
-   * detected before any array is used. An archive without a file transfers
-   * state between the ranks of a run: each rank then stores all data written.
-   * All functions are collective.
+   * Checkpoint of a run, stored as named arrays in an HDF5 file. It can be read
+   * on any number of ranks. The first rank buffers the file in memory and
+   * writes it in one piece, with a checksum over all arrays, so that a damaged
+   * file is detected before any array is used. An archive without a file
+   * transfers state between the ranks of a run: each rank then stores all data
+   * written. All functions are collective.
    */
   class Archive
   {
   public:
-    /** A new archive for writing; @p run is the digest of the run. */
+    /** Creates an archive for writing. The digest @p run identifies the
+     *  parameters of the run. */
     Archive(const MPI_Comm     comm,
             const std::string &file_name,
             const std::string &run);
 
-    /** A new archive without a file, for reading by the ranks that wrote it. */
+    /** Creates an archive in memory, to be read by the ranks that wrote it. */
     explicit Archive(const MPI_Comm comm);
 
     /**
@@ -46,32 +47,33 @@ namespace geocone
          const std::string &run,
          std::string       &why_not);
 
-    /** Writes the arrays of all ranks, concatenated in the order of ranks. */
+    /** Writes an array, concatenated from the arrays of all ranks in rank
+     *  order. */
     void
     write(const std::string &name, const std::vector<double> &of_this_rank);
 
-    /** Writes variables that are equal on all ranks. */
+    /** Writes variables whose values are equal on all ranks. */
     void
     write_row(const std::string &name, const StateRow &row);
 
-    /** Writes the file to disk. @throws RunError on all ranks */
+    /** Writes the archive to its file on disk. @throws RunError on all ranks */
     void
     close();
 
     bool
     has(const std::string &name) const;
 
-    /** Array concatenated over all ranks, returned on every rank. */
+    /** Returns an array, concatenated over all ranks, on every rank. */
     std::vector<double>
     read(const std::string &name) const;
 
-    /** Entries of an array that this rank has written. If the number of ranks
-     *  has changed, an equal share of the array instead, in complete records of
-     *  @p size numbers each. */
+    /** Returns the entries of an array that this rank wrote. If the number
+     *  of ranks has changed, an equal share of the array is returned, in
+     *  complete records of @p size numbers each. */
     std::vector<double>
     read_part(const std::string &name, const std::size_t size) const;
 
-    /** Number of ranks that have written an array. */
+    /** Returns the number of ranks that wrote an array. */
     unsigned int
     n_ranks_of(const std::string &name) const;
 
@@ -89,10 +91,11 @@ namespace geocone
     std::string       names;
     unsigned long     checksum = 0;
 
-    /** HDF5 file, open on the first rank; for reading, on all ranks. */
+    /** HDF5 file of the archive. A new file is open on the first rank only,
+     *  a file to be read on all ranks. */
     std::unique_ptr<Hdf5File> file;
 
-    /** Arrays by their names, if the archive has no file. */
+    /** Named arrays of an archive without a file. */
     std::map<std::string, std::vector<double>> arrays;
   };
 } // namespace geocone

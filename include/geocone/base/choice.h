@@ -13,9 +13,9 @@
 namespace geocone
 {
   /**
-   * Parameter with a list of admissible words (selection), each of which
-   * represents a value of an enumeration or a pointer. The list of words begins
-   * the documentation of the parameter; any other word is rejected.
+   * Parameter whose admissible values are words. Each word represents an
+   * enumerator or a pointer. The list of words begins the documentation of the
+   * parameter; any other word is rejected.
    */
   template <typename Enum>
   class Choice
@@ -23,7 +23,8 @@ namespace geocone
   public:
     using Words = std::vector<std::pair<const char *, Enum>>;
 
-    /** @param words admissible words with their values; the first is the
+    /** Creates a parameter with its default value.
+     *  @param words admissible words with their values; the first is the
      *  default */
     Choice(const Words &words)
       : words(words)
@@ -48,7 +49,7 @@ namespace geocone
       return *this;
     }
 
-    /** Sets the value that corresponds to the word @p given. */
+    /** Selects the value that corresponds to the word @p given. */
     void
     set(const std::string &given)
     {
@@ -57,7 +58,8 @@ namespace geocone
           value = meant;
     }
 
-    /** Word that represents the present value in the parameter file. */
+    /** Returns the word for the current value, as used in the parameter
+     *  file. */
     std::string
     word() const
     {

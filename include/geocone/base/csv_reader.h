@@ -11,15 +11,15 @@
 namespace geocone
 {
   /**
-   * Row-by-row reader of a file of comma-separated values whose first line
-   * contains the column names. Byte-order marks, CR LF line ends, quoted
-   * values, spaces around values and blank lines at the end are accepted.
+   * Row-by-row reader of CSV files whose first line contains the column names.
+   * Byte-order marks, CR LF line ends, quoted values, spaces around values and
+   * blank lines at the end are accepted.
    * @throws RunError with the number of the faulty line
    */
   class CsvReader
   {
   public:
-    /** Opens the file and reads the column names. */
+    /** Opens a CSV file and reads the column names. */
     explicit CsvReader(const std::string &file);
 
     const std::vector<std::string> &
@@ -28,13 +28,13 @@ namespace geocone
       return columns;
     }
 
-    /** Reads the next row. @return false at the end of the file
+    /** Reads the next row of the file. @return false at the end of the file
      *  @throws RunError if the row does not have one value per column */
     bool
     next_row(std::vector<std::string> &values);
 
-    /** Numeric value of one column of a row. @param otherwise error text if
-     *  the value is not a number */
+    /** Returns the numeric value in one column of a row. @param otherwise
+     *  error text if the value is not a number */
     double
     number(const std::vector<std::string> &values,
            const std::size_t               column,

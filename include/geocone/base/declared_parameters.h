@@ -12,8 +12,8 @@
 
 namespace geocone
 {
-  /** Section of the tree of declared parameters (dealii::ParameterAcceptor),
-   *  with its entries and subsections. */
+  /** Section of the parameter tree of dealii::ParameterAcceptor, with its
+   *  entries and subsections. */
   struct Declared
   {
     struct Entry
@@ -38,17 +38,17 @@ namespace geocone
     }
   };
 
-  /** Tree of all declared parameters, with their present values. */
+  /** Returns the tree of all declared parameters with their current values. */
   Declared
   all_declared();
 
-  /** Section in the syntax of a parameter file, with all its values. */
+  /** Formats a section and all its values in the syntax of a parameter file. */
   std::string
   as_text(const std::string &name,
           const Declared    &section,
           const std::string &indent = "");
 
-  /** Keys of a map. */
+  /** Returns the keys of a map. */
   template <typename T>
   std::vector<std::string>
   keys(const std::map<std::string, T> &map)
@@ -59,12 +59,12 @@ namespace geocone
     return all;
   }
 
-  /** Lower and upper bounds stated by a deal.II pattern such as "[Double
+  /** Parses the lower and upper bounds in a deal.II pattern such as "[Double
    *  0...1 (inclusive)]". */
   std::pair<std::optional<std::string>, std::optional<std::string>>
   bounds_of(const std::string &pattern);
 
-  /** Values that a deal.II pattern allows, in words. */
+  /** Describes in words the values that a deal.II pattern admits. */
   std::string
   allowed_by(const std::string &pattern);
 

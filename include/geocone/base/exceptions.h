@@ -11,8 +11,8 @@
 
 namespace geocone
 {
-  /** Text from outside the program in printable form: control characters as
-   *  \xNN, cut after 200 bytes. */
+  /** Converts untrusted text to printable form. Control characters are
+   *  replaced by \xNN, and the text is truncated after 200 bytes. */
   inline std::string
   printable(const std::string &text)
   {
@@ -27,7 +27,8 @@ namespace geocone
     return text.size() > 200 ? shown + "..." : shown;
   }
 
-  /** Message of an exception; for `std::bad_alloc`, with a remedy. */
+  /** Returns the message of an exception. For `std::bad_alloc`, the message
+   *  includes a remedy. */
   inline std::string
   text_of(const std::exception &error)
   {
@@ -77,9 +78,9 @@ namespace geocone
   };
 
   /**
-   * Exception for a computation that cannot continue, e.g. because a step fails
-   * at the smallest step size, a file cannot be written or a value is not a
-   * number. Results written before the error are kept.
+   * Exception for a computation that cannot continue. Examples are a step that
+   * fails at the smallest step size, a file that cannot be written, and a value
+   * that is not a number. Results written before the error are kept.
    */
   class RunError : public std::runtime_error
   {
@@ -87,7 +88,7 @@ namespace geocone
     using std::runtime_error::runtime_error;
   };
 
-  /** RunError that all ranks detect at the same point of the program, so that
+  /** Exception thrown by all ranks at the same point of the program, so that
    *  all ranks terminate normally. */
   class StepFailure : public RunError
   {

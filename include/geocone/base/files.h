@@ -15,20 +15,21 @@
 
 namespace geocone
 {
-  /** File name of the list of files that a run has written to its folder. */
+  /** Name of the file that lists all files written by a run. */
   constexpr const char *list_of_files = "files.txt";
 
   /**
-   * Sets the folder of the run and starts its list of files (list_of_files).
-   * Each file that the functions below create in the folder is first entered in
-   * the list, one name per line. A later run may delete the listed files only.
+   * Sets the output folder of the run and creates the list of its files
+   * (list_of_files). Each file that the functions below create in the folder is
+   * first entered in the list, one name per line. A later run may delete the
+   * listed files only.
    */
   void
   keep_list_of_files(const std::string &folder);
 
   /**
-   * Enters a file of the run's folder in the list of files; ignores files of
-   * other folders.
+   * Adds a file in the output folder to the list of files written by the run.
+   * Files in other folders are ignored.
    * @return whether the file was listed before
    * @throws RunError for a symbolic link, or an existing file that is not in
    * the list
@@ -36,19 +37,19 @@ namespace geocone
   bool
   enter_in_list(const std::string &file_name);
 
-  /** Whether a file of the run's folder is in the list of files. */
+  /** Returns true if a file is in the list of files written by the run. */
   bool
   is_in_list(const std::string &name);
 
-  /** Waits until a file, or the entries of a folder, are on disk (fsync).
+  /** Waits until a file or directory has been written to disk (fsync).
    *  @throws RunError */
   void
   sync_to_disk(const std::string &path);
 
   /**
-   * Writes a file atomically: under a temporary name, renamed when it is
-   * complete, so that readers never see an incomplete file. Symbolic links are
-   * not followed.
+   * Writes a file atomically: to a temporary file that is renamed when
+   * complete. Other processes therefore never read an incomplete file. Symbolic
+   * links are not followed.
    * @param is_durable whether the file must survive a power failure: its
    * content is on disk before it is renamed, and its name before this function
    * returns
@@ -59,13 +60,13 @@ namespace geocone
              const std::function<void(std::ostream &)> &write,
              const bool                                 is_durable = false);
 
-  /** Error text for a failed write, with cause and remedy. @param error value
-   *  of errno; 0: unknown */
+  /** Returns the error message for a failed write operation, with cause and
+   *  remedy. @param error value of errno; 0: unknown */
   std::string
   cause_and_remedy(const int error);
 
   /**
-   * Table of comma-separated values, written line by line (CSV file). Each line
+   * Table of comma-separated values (CSV file), written row by row. Each line
    * is on disk when add_line() returns. Column names include the unit; names
    * with a comma, a quote or a line break are quoted (RFC 4180).
    */
@@ -80,14 +81,14 @@ namespace geocone
          const std::vector<std::string> &columns,
          const bool                      goes_on = false);
 
-    /** Writes or reads the length of the table, for checkpoints. Before
+    /** Saves or restores the length of the CSV file in a checkpoint. Before
      *  writing, the table is synchronised to disk; after reading, it is
      *  truncated to the stored length. @throws RunError if the table is
      *  shorter */
     void
     state(StateRow &row);
 
-    /** Appends a line of values.
+    /** Appends a row of values to the table.
      *  @throws RunError if it cannot be written; a partial line is removed */
     void
     add_line(const std::vector<double> &values);
@@ -103,8 +104,8 @@ namespace geocone
   };
 
   /**
-   * Path of an existing input file, which is searched for in the folder of the
-   * parameter file and then in the working directory.
+   * Returns the path of an existing input file. The file is searched for in the
+   * folder of the parameter file and then in the working directory.
    * @throws InputError if the file does not exist
    */
   std::string

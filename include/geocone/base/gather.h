@@ -13,8 +13,8 @@
 namespace geocone
 {
   /**
-   * Concatenates the arrays of all ranks on the first rank; returns an empty
-   * array on the others. Collective. Only the first rank stores more than its
+   * Concatenates the arrays of all ranks on the first rank. On all other ranks,
+   * the result is empty. Collective. Only the first rank stores more than its
    * own part.
    */
   template <typename T>

@@ -52,7 +52,7 @@ namespace geocone
     write(const std::string &name, const std::string &text);
     /** @} */
 
-    /** Writes a one-dimensional array uncompressed, for speed. */
+    /** Writes a one-dimensional array without compression, for speed. */
     void
     write_plain(const std::string &name, const std::vector<double> &values);
 
@@ -68,8 +68,8 @@ namespace geocone
                 const unsigned int               n_columns);
     /** @} */
 
-    /** Table in another file of the same folder, as a part of a joined
-     *  array. */
+    /** Table in another file of the same folder, whose rows are part of a
+     *  virtual dataset. */
     struct Part
     {
       std::string file, name;
@@ -77,10 +77,10 @@ namespace geocone
     };
 
     /**
-     * Writes an HDF5 virtual dataset that joins the rows of tables in other
-     * files, part after part. The dataset has @p n_columns columns (0 in
-     * columns missing in a part) or, for @p n_columns = 0, is one-dimensional,
-     * with the rows concatenated.
+     * Writes an HDF5 virtual dataset that concatenates the rows of tables
+     * stored in other files. The dataset has @p n_columns columns (0 in columns
+     * missing in a part) or, for @p n_columns = 0, is one-dimensional, with the
+     * rows concatenated.
      * @tparam T number type of readers: double or long long
      */
     template <typename T>
@@ -107,11 +107,11 @@ namespace geocone
     void
     close(const bool is_durable = false);
 
-    /** Whether the file contains an object of this name. */
+    /** Returns true if the file contains an object with the given name. */
     bool
     has(const std::string &name) const;
 
-    /** Number of entries of a one-dimensional array. */
+    /** Returns the number of entries of a one-dimensional array. */
     std::size_t
     length(const std::string &name) const;
 
@@ -137,7 +137,8 @@ namespace geocone
                 const std::size_t  n,
                 const std::size_t  n_columns,
                 const bool         compressed = true);
-    /** Creates an array and all groups on its path. @return HDF5 identifier */
+    /** Creates an array and all HDF5 groups on its path. @return HDF5
+     *  identifier */
     long long
     create_array(const std::string &name,
                  const long long    type,
@@ -154,7 +155,8 @@ namespace geocone
     std::vector<T>
     read_array(const std::string &name) const;
 
-    /** Opens an array to read, if it is safe to read (see the class).
+    /** Opens an array for reading after the safety checks described for
+     *  Hdf5File.
      *  @param[out] size number of entries
      *  @return HDF5 identifier */
     long long

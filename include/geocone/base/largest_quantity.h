@@ -6,8 +6,8 @@
 
 namespace geocone
 {
-  /** Largest admissible magnitude of an input quantity (SI units), chosen so
-   *  that the square of a quantity is finite. */
+  /** Largest admissible magnitude of an input quantity (SI units). The
+   *  square of this value is still finite. */
   constexpr double largest_quantity = 1e30;
 } // namespace geocone
 

@@ -11,11 +11,12 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Multi-index of a structured grid, or its number of entries in each
-   *  direction; the first direction varies fastest. */
+  /** Multi-index of a structured grid, or number of grid entries per
+   *  direction. The first direction varies fastest. */
   using GridIndex = std::array<unsigned int, dim>;
 
-  /** Grid sizes with the same number of entries in each direction. */
+  /** Returns the sizes of a structured grid with n entries in each
+   *  direction. */
   inline GridIndex
   equal_sizes(const unsigned int n)
   {
@@ -24,7 +25,7 @@ namespace geocone::GEOCONE_DIM
     return sizes;
   }
 
-  /** Grid multi-index of a lexicographic number, for given grid sizes. */
+  /** Converts a lexicographic index to the multi-index of a structured grid. */
   inline GridIndex
   index_in_grid(std::size_t number, const GridIndex &sizes)
   {
@@ -37,7 +38,8 @@ namespace geocone::GEOCONE_DIM
     return index;
   }
 
-  /** Lexicographic number of a grid multi-index; inverse of index_in_grid(). */
+  /** Converts a multi-index of a structured grid to its lexicographic index.
+   *  Inverse of index_in_grid(). */
   inline std::size_t
   number_in_grid(const GridIndex &index, const GridIndex &sizes)
   {
@@ -47,7 +49,7 @@ namespace geocone::GEOCONE_DIM
     return number;
   }
 
-  /** Total number of entries of a grid of given sizes. */
+  /** Total number of entries of a structured grid. */
   inline std::size_t
   grid_volume(const GridIndex &sizes)
   {

@@ -14,9 +14,10 @@
 namespace geocone
 {
   /**
-   * Log of a run: prints messages on the screen (unless quiet) and to the file
-   * log.txt in the folder of the run, from rank 0 only. On a terminal, progress
-   * is shown in one line that is overwritten; elsewhere, in plain lines.
+   * Log of a run: rank 0 prints messages on the screen and to the file log.txt
+   * in the output folder. In quiet runs, messages are written to the file only.
+   * On a terminal, progress is shown in one line that is overwritten;
+   * elsewhere, in plain lines.
    */
   class Log
   {
@@ -24,12 +25,12 @@ namespace geocone
     Log(const MPI_Comm comm, const bool quiet);
     ~Log();
 
-    /** Copies all messages, including earlier ones, to the file @p file_name;
-     *  appends to the file if @p goes_on. */
+    /** Opens the log file and writes all messages to it, including earlier
+     *  ones. If @p goes_on, the messages are appended to an existing file. */
     void
     open(const std::string &file_name, const bool goes_on = false);
 
-    /** Inserts the warnings of an earlier process of the same run (resumed
+    /** Prepends the warnings of an earlier process of the same run (resumed
      *  run). */
     void
     add_earlier_warnings(const std::vector<std::string> &earlier)
@@ -37,23 +38,24 @@ namespace geocone
       all_warnings.insert(all_warnings.begin(), earlier.begin(), earlier.end());
     }
 
-    /** Prints one or several complete lines. */
+    /** Prints one or more complete lines. */
     void
     print(const std::string &text);
 
-    /** Prints a warning; in quiet runs, on the error stream. */
+    /** Prints a warning. In quiet runs, the warning is printed on stderr. */
     void
     warn(const std::string &text);
 
-    /** All warnings printed so far, including those of earlier processes. */
+    /** Returns all warnings printed so far, including warnings from before a
+     *  restart. */
     const std::vector<std::string> &
     warnings() const
     {
       return all_warnings;
     }
 
-    /** Prints a progress line, which the next progress line overwrites on a
-     *  terminal. */
+    /** Prints a progress line. On a terminal, the next progress line
+     *  overwrites it. */
     void
     progress(const std::string &text);
 
@@ -71,12 +73,12 @@ namespace geocone
     std::ofstream      file;
   };
 
-  /** String formatted as by printf(). */
+  /** Formats a string as printf() does. */
   std::string
   format(const char *pattern, ...) __attribute__((format(printf, 1, 2)));
 
-  /** First non-empty text in the order of ranks, returned on all ranks; empty
-   *  if there is none. Collective. */
+  /** Returns the first non-empty string, in rank order, on all ranks. Empty
+   *  if the strings of all ranks are empty. Collective. */
   std::string
   text_of_any_rank(const MPI_Comm comm, const std::string &text);
 } // namespace geocone

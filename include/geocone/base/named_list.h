@@ -16,14 +16,14 @@
 namespace geocone
 {
   /**
-   * List of named objects of a section, "SECTION/Names = a, b". Each object
-   * declares a subsection of its own name.
+   * List of named objects, declared in the parameter file as "SECTION/Names =
+   * a, b". Each object declares a subsection of its own name.
    */
   template <typename Member>
   class NamedList : public dealii::ParameterAcceptor
   {
   public:
-    /** Members in the order of their names in the parameter file. */
+    /** List members, in the order of their names in the parameter file. */
     std::vector<std::unique_ptr<Member>> list;
 
     const std::vector<std::string> &
@@ -32,7 +32,7 @@ namespace geocone
       return all_names;
     }
 
-    /** Calls prepare() of all members. */
+    /** Calls prepare() on each member of the list. */
     void
     prepare()
     {
@@ -40,7 +40,7 @@ namespace geocone
         member->prepare();
     }
 
-    /** Rejects a non-empty list.
+    /** Throws InputError if the list of objects is not empty.
      *  @param what method or option that does not support the list
      *  @throws InputError if the list is not empty */
     void
@@ -54,7 +54,7 @@ namespace geocone
     }
 
   protected:
-    /** Declares the parameter @p entry that lists the names.
+    /** Declares the parameter @p entry, which contains the list of names.
      *  @param otherwise default list of names */
     NamedList(const ParameterFile &file,
               const std::string   &section,
@@ -68,7 +68,7 @@ namespace geocone
       add_parameter(entry, all_names, documentation);
     }
 
-    /** Constructs each member from its name and @p arguments. */
+    /** Constructs each list member from its name and @p arguments. */
     template <typename... Arguments>
     void
     make(const Arguments &...arguments)
@@ -77,7 +77,7 @@ namespace geocone
         list.push_back(std::make_unique<Member>(name, arguments...));
     }
 
-    /** Rejects an empty list.
+    /** Throws InputError if the list of objects is empty.
      *  @param example name suggested in the error message
      *  @throws InputError if the list is empty */
     void
@@ -90,7 +90,8 @@ namespace geocone
                          "set " + entry + " = " + example);
     }
 
-    /** Full path of the parameter that lists the names. */
+    /** Full path of the parameter that contains the list of names, e.g.
+     *  "Materials/Names". */
     std::string
     parameter() const
     {

@@ -10,7 +10,7 @@
 
 namespace geocone
 {
-  /** Number represented by a text; no value if the text is not a number. */
+  /** Converts a string to a number. Empty if the string is not a number. */
   inline std::optional<double>
   number_in(const std::string &text)
   {

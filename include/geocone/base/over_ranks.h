@@ -30,8 +30,8 @@ namespace geocone
         dealii::ArrayView<Number>(x.data(), x.size()));
   }
 
-  /** Load imbalance: maximum load of a rank over the mean; 1 if there is no
-   *  load. Collective. */
+  /** Load imbalance: maximum load divided by mean load over all ranks. The
+   *  imbalance is 1 if all loads are zero. Collective. */
   inline double
   imbalance(const double of_this_rank, const MPI_Comm comm)
   {
@@ -42,9 +42,9 @@ namespace geocone
              : 1.;
   }
 
-  /** Sums the state variables of all members of a list over all ranks, in
-   *  place. State variables are listed by state(); their number must be equal
-   *  on all ranks. Collective. */
+  /** Sums the state variables of each object in a list over all ranks, in
+   *  place. State variables are listed by state(); their number must be
+   *  equal on all ranks. Collective. */
   template <typename Class>
   void
   sum_states_over_ranks(std::vector<Class> &list, const MPI_Comm comm)

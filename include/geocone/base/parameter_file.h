@@ -15,9 +15,9 @@
 namespace geocone
 {
   /**
-   * Text of a parameter file, with its `include` lines expanded and the
-   * overrides of the command line appended. Included files are found relative
-   * to the file with the `include` line.
+   * Contents of a parameter file, with included files expanded and command-line
+   * overrides appended. Included files are found relative to the file with the
+   * `include` line.
    *
    * Named objects (materials, boundary conditions, stages) are sections whose
    * names are listed in the parameter file. named_sections() reads these names
@@ -30,12 +30,13 @@ namespace geocone
   class ParameterFile
   {
   public:
-    /** Kind of object by section of the list (e.g. "Materials") and parameter
-     *  name, for parameters of kinds that the file may not use. */
+    /** Map from section (e.g. "Materials") and parameter name to the types of
+     *  objects with this parameter. If the file uses no object of these
+     *  types, parse() skips the parameter. */
     using OfOthers = std::map<std::string, std::map<std::string, std::string>>;
 
-    /** A parameter that the file sets; if it is set repeatedly, the last
-     *  line. */
+    /** A parameter set in the parameter file. If the parameter is set
+     *  repeatedly, the last value applies. */
     struct Setting
     {
       std::string path;  ///< "Section/Subsection/Name"
@@ -62,7 +63,7 @@ namespace geocone
                   const std::string              &original = "");
 
     /**
-     * Creates a parameter file from a text without `include` lines.
+     * Creates a parameter file from a string without `include` lines.
      * @param name name of the file in error messages
      */
     static ParameterFile
@@ -70,14 +71,15 @@ namespace geocone
               const std::string              &name,
               const std::vector<std::string> &overrides);
 
-    /** Value of a single parameter, e.g. "Materials/Names", before parse(). */
+    /** Returns the value of a single parameter, e.g. "Materials/Names",
+     *  before parse() is called. */
     std::string
     peek(const std::string &path, const std::string &default_value) const;
 
     /**
-     * Names in the list SECTION/LIST, each of which denotes a subsection of
-     * SECTION. A subsection is skipped if an earlier line (of an included file)
-     * lists its name and the last line does not.
+     * Returns the names in the list SECTION/LIST, each of which denotes a
+     * subsection of SECTION. A subsection is skipped if an earlier line (of an
+     * included file) lists its name and the last line does not.
      * @throws InputError if a name occurs twice, is not admissible as a section
      * name or (if the file contains the list) has no section, or if the name of
      * a subsection is never listed
@@ -99,8 +101,8 @@ namespace geocone
     std::vector<Setting>
     parse(const OfOthers &of_others = {}) const;
 
-    /** Absolute path of the parameter file; name() omits folder and
-     *  extension. */
+    /** Absolute path of the parameter file. The file name without folder and
+     *  extension is returned by name(). */
     const std::string &
     path() const
     {
@@ -109,18 +111,19 @@ namespace geocone
     std::string
     name() const;
 
-    /** Folder of the parameter file; empty: the working directory. */
+    /** Folder of the parameter file; empty for the working directory. */
     const std::string &
     folder() const
     {
       return folder_of_file;
     }
 
-    /** Present value of a declared parameter, after parse(). */
+    /** Returns the current value of a declared parameter. To be called after
+     *  parse(). */
     static std::string
     value(const std::string &path);
 
-    /** Names of all declared parameters of a section. */
+    /** Returns the names of all declared parameters of a section. */
     static std::vector<std::string>
     declared_in(const std::string &section);
 
@@ -154,30 +157,32 @@ namespace geocone
          const std::string &shown_name,
          const int          depth);
 
-    /** Appends the lines of a stream. @param depth nesting depth of includes;
-     *  -1: includes are rejected */
+    /** Appends the lines of an input stream to the parameter file. @param
+     *  depth nesting depth of includes; -1: includes are rejected */
     void
     read_lines(std::istream      &in,
                const std::string &file_name,
                const std::string &shown_name,
                const int          depth);
 
-    /** Position of the equals sign that follows the parameter name in an
-     *  override. Section names can contain equals signs as well. */
+    /** Position of the equals sign that follows the parameter name in a
+     *  command-line override. Section names can contain equals signs as
+     *  well. */
     std::size_t
     equals_sign(const std::string &override_text) const;
 
-    /** Appends the overrides of the command line as lines of the file. */
+    /** Appends the command-line overrides as lines of the parameter file. */
     void
     append(const std::vector<std::string> &overrides);
 
-    /** Lines that set parameters, except in subsections removed from their
-     *  lists. @throws InputError for invalid lines and unknown sections, if
-     *  @p checks */
+    /** Returns all lines of the form "set NAME = VALUE". Lines in
+     *  subsections that are no longer listed are skipped. @throws InputError
+     *  for invalid lines and unknown sections, if @p checks */
     std::vector<SetLine>
     set_lines(const bool checks) const;
 
-    /** Subsections of a section by name, with the first line of each. */
+    /** Returns the subsections of a section by name, each with its first
+     *  line in the parameter file. */
     std::map<std::string, const Line *>
     subsections_of(const std::string &section) const;
 
@@ -187,15 +192,17 @@ namespace geocone
     unsigned int      n_files          = 0;
     bool              has_strict_lists = true;
 
-    /** Names of the listed objects, by section with a list of names. */
+    /** Names of all listed objects (e.g. materials), by section. */
     mutable std::map<std::string, std::vector<std::string>> lists;
   };
 
-  /** Splits a list, e.g. "a, b, c", into its trimmed, non-empty parts. */
+  /** Splits a list such as "a, b, c" into its non-empty items, without
+   *  surrounding blanks. */
   std::vector<std::string>
   split_names(const std::string &list, const char separator = ',');
 
-  /** Known name nearest to a misspelt name; empty if none is near. */
+  /** Returns the known name most similar to a misspelt name. Empty if no
+   *  known name is similar. */
   std::string
   nearest_name(const std::string &name, const std::vector<std::string> &known);
 } // namespace geocone

@@ -24,34 +24,36 @@ namespace geocone
     path() const;
   };
 
-  /** Placeholder for the name of a listed object in the path of a parameter. */
+  /** Placeholder in a parameter path for the name of an object, e.g. a
+   *  material. */
   extern const char *const any_name;
 
-  /** All declared parameters with their present values. Sections are in the order in
-   *  which a model is defined. */
+  /** Returns all declared parameters with their current values. Sections are in
+   *  the order in which a model is defined. */
   std::vector<DocumentedParameter>
   documented_parameters();
 
-  /** Text that lists the top-level sections in the order of documented_parameters(),
-   *  each with a one-line description. */
+  /** Returns a list of the top-level parameter sections, each with a one-line
+   *  description. The order is the same as in documented_parameters(). */
   std::string
   list_of_sections();
 
   /**
-   * Parameters selected by the topic of --help, e.g. "Materials", "Cohesion",
-   * "materials/cohesion" or "all": a section, a subsection or a parameter name.
+   * Selects the parameters that match a topic of --help. A topic is a section, a
+   * subsection or a parameter name, e.g. "Materials", "Cohesion" or
+   * "materials/cohesion", or "all".
    * @throws InputError if no parameter matches
    */
   std::vector<DocumentedParameter>
   on_topic(const std::vector<DocumentedParameter> &all,
            const std::string                      &topic);
 
-  /** Prints parameters as lines of a parameter file, with their documentation
-   *  and a one-line description of each section. */
+  /** Prints parameters and their documentation in the syntax of a parameter file.
+   *  Each section is preceded by a one-line description. */
   void
   print(std::ostream &out, const std::vector<DocumentedParameter> &parameters);
 
-  /** JSON Schema (draft 2020-12) of the tree of parameters in sections. */
+  /** Returns the JSON Schema (draft 2020-12) of a parameter file. */
   std::string
   json_schema(const std::vector<DocumentedParameter> &parameters);
 } // namespace geocone

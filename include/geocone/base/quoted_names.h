@@ -12,8 +12,8 @@
 
 namespace geocone
 {
-  /** Normalises a name as by reading it from a list: each comma is followed by
-   *  one blank. */
+  /** Normalises the commas in a name, each of which is then followed by
+   *  exactly one blank. Names read from a list have this form. */
   inline std::string
   name_in_list(const std::string &name)
   {
@@ -23,8 +23,8 @@ namespace geocone
     return all;
   }
 
-  /** Name as an item of a comma-separated list: in double quotes if it contains
-   *  a comma. */
+  /** Encloses a name in double quotes if it contains a comma, for use in a
+   *  comma-separated list. */
   inline std::string
   quoted_if_needed(const std::string &name)
   {
@@ -32,7 +32,8 @@ namespace geocone
   }
 
   /**
-   * Names of a comma-separated list with optional double quotes around names.
+   * Extracts the names from a comma-separated list. Names may be enclosed in
+   * double quotes.
    * @param parts parts of the list between commas
    * @param parameter path of the list, for error messages
    * @throws InputError if a quote is not closed

@@ -12,25 +12,28 @@
 namespace geocone
 {
   /**
-   * Renamed parameter, whose former name is still accepted with a warning until the next
-   * release but one. Declared next to the parameter, as a constant outside of functions.
+   * Renamed parameter, whose former name is still accepted with a warning. The
+   * former name is rejected from the next release but one. Declared next to the
+   * parameter, as a constant outside of functions.
    */
   struct RenamedParameter
   {
-    /** @param section path of the section; a '*' stands for any name
+    /** Declares that a parameter has been renamed.
+     *  @param section path of the section; a '*' stands for any name
      *  @param before, now former and present names without the section */
     RenamedParameter(const char *section, const char *before, const char *now);
 
     std::string section, before, now;
   };
 
-  /** Present name of a parameter given by its present or former name. */
+  /** Converts a former parameter name to the present one. Present names are
+   *  returned unchanged. */
   std::string
   present_name(const std::vector<std::string> &sections,
                const std::string              &name);
 
-  /** Warning that lists the former parameter names used in a file with the present
-   *  names; empty if the file uses no former names. */
+  /** Returns a warning that lists the former parameter names in a file and their
+   *  present names. Empty if the file contains no former names. */
   std::string
   former_names(const std::vector<ParameterFile::Setting> &settings);
 } // namespace geocone

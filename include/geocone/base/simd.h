@@ -8,7 +8,7 @@
 
 namespace geocone
 {
-  /** SIMD instruction set that every supported machine has. */
+  /** Baseline SIMD instruction set, available on all supported processors. */
 #if XSIMD_WITH_SSE2
   using BaselineArch = xsimd::sse2;
 #else
@@ -128,7 +128,7 @@ namespace geocone
       return p;
     }
 
-    /** Whether a > b in at least one component. */
+    /** Returns true if a > b in at least one component. */
     friend bool
     any_greater(const Pack &a, const Pack &b)
     {
@@ -138,7 +138,7 @@ namespace geocone
       return any;
     }
 
-    /** Whether lower <= a <= upper in all components. */
+    /** Returns true if lower <= a <= upper in all components. */
     friend bool
     all_between(const Pack &a, const Pack &lower, const Pack &upper)
     {
@@ -149,8 +149,8 @@ namespace geocone
       return all;
     }
 
-    /** Integer parts of values between 0 and 2^31 - 1, as doubles and as
-     *  @p integers. */
+    /** Integer parts of vector components between 0 and 2^31 - 1. They are
+     *  returned as doubles and stored as integers in @p integers. */
     friend Pack
     whole_part(const Pack &a, int *integers)
     {

@@ -7,9 +7,9 @@
 namespace geocone
 {
   /**
-   * Whether kernels use AVX2 and FMA instructions: the machine supports them
-   * and the environment variable GEOCONE_SIMD is not "baseline" (for
-   * comparisons).
+   * Returns true if the kernels use AVX2 and FMA instructions. The processor
+   * must support these instructions, and the environment variable GEOCONE_SIMD
+   * must not be "baseline" (for comparisons).
    */
   bool
   machine_has_avx2();

@@ -24,17 +24,18 @@ namespace geocone
   {
     MPI_Comm comm = MPI_COMM_SELF;
 
-    /** Whether only the lower triangle, column <= row (local numbers), is
-     *  stored. */
+    /** True if only the lower triangle of the matrix is stored. Its entries
+     *  have column <= row in local numbering. */
     bool symmetric = false;
 
     int n_global = 0; ///< number of rows on all ranks
     int n_owned  = 0; ///< number of rows owned by this rank
 
-    /** Global number of each local row. */
+    /** Global index of each local row of the matrix. */
     std::vector<int> global_index;
 
-    /** Compressed-row format (CSR), columns sorted within each row. */
+    /** Matrix in compressed-row format (CSR), with sorted column indices in
+     *  each row. */
     std::vector<int>    row_start = {0};
     std::vector<int>    column;
     std::vector<double> value;
@@ -45,11 +46,12 @@ namespace geocone
       return row_start.size() - 1;
     }
 
-    /** Index in `column` and `value` of an entry of the sparsity pattern. */
+    /** Returns the position of a matrix entry in the arrays `column` and
+     *  `value`. The entry must be in the sparsity pattern. */
     int
     entry(const int row, const int col) const;
 
-    /** Memory used by the arrays (bytes). */
+    /** Memory used by the matrix arrays (bytes). */
     std::size_t
     memory() const;
   };

@@ -15,22 +15,22 @@
 namespace geocone
 {
   /**
-   * Serialises variables to an array of numbers, e.g. for a checkpoint. The
-   * same list of variables is used for writing and reading:
+   * Serialises variables to an array of numbers and restores them, e.g. for a
+   * checkpoint. The same list of variables is used for writing and reading:
    *   void state(StateRow &row) { row(time, step, records); }
    * Supported are numbers that a double represents exactly, texts, arrays,
-   * vectors and tensors of numbers, and classes with a function
-   * state(StateRow &).
+   * vectors and tensors of numbers, and classes with a function state(StateRow
+   * &).
    */
   class StateRow
   {
   public:
-    /** An empty row for writing. */
+    /** Creates a serialiser with an empty array. */
     StateRow()
       : reads(false)
     {}
 
-    /** A row for reading. */
+    /** Creates a deserialiser that reads an array. */
     explicit StateRow(std::vector<double> values)
       : reads(true)
       , row(std::move(values))
@@ -74,7 +74,7 @@ namespace geocone
     struct IsClass<T, std::void_t<HasState<T>>> : std::true_type
     {};
 
-    /** Number of components of a tensor, a point or a Mandel vector. */
+    /** Number of components of a tensor, point or Mandel vector. */
     template <typename T>
     static constexpr auto
     n_components() -> decltype(int(T::dimension))

@@ -29,28 +29,31 @@ namespace geocone
   void
   watch_for_signals();
 
-  /** Signal number of a stop request received by any rank; 0: none.
-   *  Collective. */
+  /** Returns the signal number of a stop request received by any rank, or 0
+   *  if there is none. Collective. */
   int
   stop_request(const MPI_Comm comm);
 
-  /** Signal number of a stop request received by this rank; 0: none. */
+  /** Returns the signal number of a stop request received by this rank, or 0
+   *  if there is none. */
   int
   stop_request_of_rank();
 
-  /** Ends the run if any rank has received a stop request. Collective.
+  /** Throws an exception that ends the run if any rank has received a stop
+   *  request. Collective.
    *  @throws Stopped */
   void
   stop_if_asked(const MPI_Comm comm);
 
-  /** Prints an error message on the error stream. */
+  /** Prints an error message on stderr. */
   void
   say_error(const std::string &what);
 
   /**
-   * Prints an error detected by this rank only, and terminates all ranks.
-   * Otherwise the other ranks would wait for this rank forever, as would the
-   * destructors of its distributed objects.
+   * Prints an error message of this rank and terminates all ranks. To be called
+   * for errors that only this rank detects. Otherwise the other ranks would
+   * wait for this rank forever, as would the destructors of its distributed
+   * objects.
    */
   [[noreturn]] void
   end_all_ranks(const std::string &what);

@@ -8,8 +8,8 @@
 
 namespace geocone
 {
-  /** Scoped timer: adds the wall time from construction to destruction to @p
-   *  seconds. */
+  /** Scoped timer: adds the wall time between construction and destruction
+   *  to @p seconds. */
   class Stopwatch
   {
   public:

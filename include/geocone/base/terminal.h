@@ -11,15 +11,16 @@
 
 namespace geocone
 {
-  /** Terminal colours, by their numbers in ANSI escape sequences. */
+  /** Terminal colours, with the colour codes of ANSI escape sequences. */
   enum class Colour
   {
     red    = 31,
     yellow = 33
   };
 
-  /** Word with escape sequences for bold coloured text, if the stream is a
-   *  colour terminal and colours are not disabled (https://no-color.org).
+  /** Encloses a word in ANSI escape sequences for bold coloured text. The word
+   *  is returned unchanged if the stream is not a colour terminal or if colours
+   *  are disabled (https://no-color.org).
    *  @param stream STDOUT_FILENO or STDERR_FILENO */
   inline std::string
   coloured(const std::string &word, const Colour colour, const int stream)

@@ -13,8 +13,8 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Comma-separated components of a vector in the printf() format @p
-   *  number. */
+  /** Formats the components of a vector as a comma-separated list, with the
+   *  printf() format @p number for each. */
   inline std::string
   text_of_vector(const dealii::Tensor<1, dim> &x, const char *number)
   {
@@ -24,7 +24,8 @@ namespace geocone::GEOCONE_DIM
     return text;
   }
 
-  /** Comma-separated coordinates of a point, e.g. "0.5, -2". */
+  /** Formats the coordinates of a point as a comma-separated list, e.g.
+   *  "0.5, -2". */
   inline std::string
   text_of_place(const dealii::Point<dim> &x)
   {

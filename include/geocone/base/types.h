@@ -13,11 +13,11 @@
 #include <string>
 
 /**
- * Space dimension of a scene, set by the build. All dimension-dependent code is
- * compiled once for each dimension, in the namespaces geocone::dim2 and
- * geocone::dim3, so that one program supports both without a run-time cost. The
- * namespaces are inline: only main.cc has to name them. CONTRIBUTING.md explains
- * how dimension-dependent code is written.
+ * Space dimension, set at compile time. All dimension-dependent code is compiled
+ * once for each dimension, in the namespaces geocone::dim2 and geocone::dim3, so
+ * that one program supports both without a run-time cost. The namespaces are inline:
+ * only main.cc has to name them. CONTRIBUTING.md explains how dimension-dependent
+ * code is written.
  */
 #ifndef GEOCONE_DIMENSION
 #define GEOCONE_DIMENSION 2
@@ -51,8 +51,8 @@ namespace geocone::GEOCONE_DIM
   constexpr unsigned int dim = GEOCONE_DIMENSION;
   static_assert(dim == 2 || dim == 3);
 
-  /** Number of Mandel components of the strain tensor, in-plane components only
-   *  in two dimensions. */
+  /** Number of components of a Mandel vector: 3 in two dimensions (in-plane
+   *  components only), 6 in three. */
   constexpr int n_mandel = dim == 2 ? 3 : 6;
 
   /** Mandel vector of a symmetric tensor: (t11, t22, sqrt(2) t12) in two dimensions,
@@ -63,17 +63,18 @@ namespace geocone::GEOCONE_DIM
   using MandelMatrix =
     Eigen::Matrix<double, n_mandel, n_mandel, Eigen::RowMajor>;
 
-  /** Number of stress components that can be non-zero. In two dimensions the
-   *  spatial Mandel vector (t11, t22, sqrt(2) t12, t33) includes the
-   *  out-of-plane (z) or hoop component t33; in three dimensions it equals the
-   *  Mandel vector. */
+  /** Number of stress components that can be nonzero: 4 in two dimensions, 6 in
+   *  three. In two dimensions the spatial Mandel vector (t11, t22, sqrt(2) t12,
+   *  t33) includes the out-of-plane (z) or hoop component t33; in three
+   *  dimensions it equals the Mandel vector. */
   constexpr int n_spatial = dim == 2 ? 4 : 6;
   using SpatialMandel     = Eigen::Matrix<double, n_spatial, 1>;
   using SpatialMandelMatrix =
     Eigen::Matrix<double, n_spatial, n_spatial, Eigen::RowMajor>;
 
-  /** Indices of the normal components in Mandel vectors, and of the shear
-   *  components with their two directions. */
+  /** Indices of the normal components t11, t22 and t33 in a Mandel vector. For
+   *  each shear component t_ij, `shears` contains the index in a Mandel vector
+   *  and the directions i and j. */
   constexpr int index_of_normal[3] = {0, 1, 3};
   struct ShearPlace
   {
@@ -82,10 +83,10 @@ namespace geocone::GEOCONE_DIM
   constexpr ShearPlace shears[3] = {{2, 0, 1}, {4, 1, 2}, {5, 2, 0}};
   constexpr int        n_shears  = dim == 2 ? 1 : 3;
 
-  /** Index of t_ij in the order of Mandel vectors. */
+  /** Index of the tensor component t_ij in a Mandel vector. */
   constexpr int index_of_component[3][3] = {{0, 2, 5}, {2, 1, 4}, {5, 4, 3}};
 
-  /** Trace of a tensor given as a plane or spatial Mandel vector. */
+  /** Trace of a tensor given as an in-plane or spatial Mandel vector. */
   template <int n>
   double
   trace(const Eigen::Matrix<double, n, 1> &t)
@@ -96,7 +97,7 @@ namespace geocone::GEOCONE_DIM
       return t[0] + t[1] + t[3];
   }
 
-  /** Unit tensor as a plane or spatial Mandel vector. */
+  /** Second-order unit tensor as an in-plane or spatial Mandel vector. */
   template <int n>
   Eigen::Matrix<double, n, 1>
   unit_tensor()
@@ -108,13 +109,13 @@ namespace geocone::GEOCONE_DIM
     return I;
   }
 
-  /** Number of rotational degrees of freedom: about z and, in three dimensions,
-   *  about x and y. A positive rotation turns the first axis of its plane towards
-   *  the second. */
+  /** Number of rotational degrees of freedom: one in two dimensions (about z),
+   *  three in three. A positive rotation turns the first axis of its plane
+   *  towards the second. */
   constexpr unsigned int n_rotations             = dim == 2 ? 1 : 3;
   constexpr unsigned int plane_of_rotation[3][2] = {{0, 1}, {1, 2}, {2, 0}};
 
-  /** Name of the rotation axis: "x", "y" or "z". */
+  /** Returns the name of a rotation axis: "x", "y" or "z". */
   inline std::string
   axis_of_rotation(const unsigned int rotation)
   {
@@ -129,7 +130,8 @@ namespace geocone::GEOCONE_DIM
     return dim == 2 ? std::sqrt(volume) : std::cbrt(volume);
   }
 
-  /** Names of the coordinates, as characters and as a list for messages. */
+  /** Names of the coordinates, as single characters and as a comma-separated
+   *  list. */
   constexpr char        coordinate[3] = {'x', 'y', 'z'};
   constexpr const char *coordinates   = dim == 2 ? "x, y" : "x, y, z";
 
@@ -137,14 +139,16 @@ namespace geocone::GEOCONE_DIM
   constexpr const char *tensor_component[6] = {
     "xx", "yy", "xy", "zz", "yz", "zx"};
 
-  /** Whether a Mandel component is a shear component, scaled by sqrt(2). */
+  /** Returns true for the shear components of a Mandel vector, which are scaled
+   *  by sqrt(2). */
   constexpr bool
   is_shear(const int component)
   {
     return component == 2 || component > 3;
   }
 
-  /** Mandel vector from tensor components in the order of tensor_component. */
+  /** Converts tensor components, in the order of tensor_component, to a Mandel
+   *  vector. */
   inline Mandel
   mandel_of_components(const std::array<double, n_mandel> &values)
   {
@@ -154,7 +158,8 @@ namespace geocone::GEOCONE_DIM
     return t;
   }
 
-  /** Tensor components of a Mandel vector, in the order of tensor_component. */
+  /** Converts a Mandel vector to tensor components, in the order of
+   *  tensor_component. */
   inline std::array<double, n_mandel>
   components_of(const Mandel &t)
   {
@@ -164,8 +169,9 @@ namespace geocone::GEOCONE_DIM
     return values;
   }
 
-  /** Strain or strain rate sym(l) from a displacement or velocity gradient l,
-   *  with l_ij stored at index dim i + j. */
+  /** Returns the Mandel vector of the strain or strain rate sym(l) = (l + l')/2.
+   *  The component l_ij of the displacement or velocity gradient is stored at
+   *  index dim i + j. */
   inline Mandel
   symmetric_part(const std::array<double, dim * dim> &l)
   {
@@ -214,8 +220,8 @@ namespace geocone::GEOCONE_DIM
     return t;
   }
 
-  /** Spatial Mandel vector from a Mandel vector and the component @p zz, which
-   *  is ignored in three dimensions. */
+  /** Extends a Mandel vector by the out-of-plane component @p zz. In three
+   *  dimensions, @p zz is ignored. */
   inline SpatialMandel
   extended(const Mandel &t, const double zz)
   {

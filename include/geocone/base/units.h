@@ -10,42 +10,43 @@
 namespace geocone
 {
   /**
-   * Systems of units of a scene: SI (kg, N, Pa, J) or kN-m (t, kN, kPa, kJ). Both are
-   * consistent and use metres and seconds, so that formulas hold in both and values are
-   * never converted. They differ in the unit of mass and hence in the units of force,
-   * stress and energy.
+   * Supported systems of units: SI (kg, N, Pa, J) and kN-m (t, kN, kPa, kJ). Both
+   * are consistent and use metres and seconds, so that formulas hold in both and
+   * values are never converted. They differ in the unit of mass and hence in the
+   * units of force, stress and energy.
    */
 
-  /** Selects the system of units used in all texts. @param word value of the
-   *  parameter 'Analysis/Units' */
+  /** Selects the system of units of the run (SI or kN-m). @param word value of
+   *  the parameter 'Analysis/Units' */
   void
   choose_units(const std::string &word);
 
-  /** Unit of mass of the selected system (kg): 1 or 1000. */
+  /** Unit of mass in the selected system of units (kg): 1 or 1000. */
   double
   mass_unit();
 
-  /** Replaces SI units in a text or column name by units of the selected system.
-   *  Units must follow a number or a parenthesis: "12 Pa", "load (N/m)". */
+  /** Replaces the SI units in a text or column name by units of the selected
+   *  system. Units must follow a number or a parenthesis: "12 Pa", "load (N/m)". */
   std::string
   in_units(const std::string &text);
 
-  /** Counterpart of an SI unit in the selected system, e.g. "kN/m" for "N/m". */
+  /** Converts the name of an SI unit to the selected system of units, e.g. "N/m"
+   *  to "kN/m". */
   std::string
   present_unit(const std::string &unit);
 
-  /** Key of summary.json with the unit of the selected system, e.g. "p_kPa" for
-   *  "p_Pa". */
+  /** Replaces the SI unit in a key of summary.json by the selected unit, e.g.
+   *  "p_Pa" by "p_kPa". */
   std::string
   key_in_units(const std::string &key);
 
-  /** Unit of a parameter, given in brackets in its documentation; empty if the
-   *  documentation states none. */
+  /** Extracts the unit of a parameter from its documentation, where the unit is
+   *  given in brackets. Empty if no unit is given. */
   std::string
   unit_in(const std::string &documentation);
 
-  /** Converts the default values of all declared parameters to the selected
-   *  system of units, except for parameters set by the parameter file.
+  /** Converts the default values of declared parameters to the selected system of
+   *  units. Parameters set by the parameter file are excluded.
    *  @param is_set whether the file sets the parameter "Section/Name" */
   void
   convert_defaults(const std::function<bool(const std::string &)> &is_set);

@@ -12,14 +12,16 @@
 namespace geocone
 {
   /**
-   * Condition of use: the parameter is used only if another parameter (the
-   * chooser) has certain values. Declared next to the parameter, as a constant
-   * outside of functions. A '*' stands for any name, the same in all paths of
-   * a condition.
+   * Declares that a parameter is used only if another parameter, the chooser,
+   * has certain values. Declared next to the parameter, as a constant outside
+   * of functions. A '*' stands for any name, the same in all paths of a
+   * condition.
    */
   struct UsedWhere
   {
-    /** @param values values of @p chooser for which @p parameter is used;
+    /** Declares that @p parameter is used only for certain values of @p
+     *  chooser.
+     *  @param values values of @p chooser for which @p parameter is used;
      *  empty: any non-empty value
      *  @param other another parameter that activates @p parameter if set */
     UsedWhere(const char                     *parameter,
@@ -33,15 +35,17 @@ namespace geocone
   };
 
   /**
-   * Warning that lists unused parameters: set to a value other than the
-   * default, but not used by the selected method, mesh, material law etc. Empty
-   * if there are none. To be called after ParameterFile::parse().
+   * Returns a warning that lists all parameters that have been set but are not
+   * used. A parameter is listed if its value differs from the default and the
+   * selected method, mesh, material law etc. does not use it. Empty if there
+   * are none. To be called after ParameterFile::parse().
    */
   std::string
   unused_parameters(const std::vector<ParameterFile::Setting> &settings);
 
-  /** Conditions of use of a parameter in words, e.g. "Mesh/Type = graded or
-   *  unstructured", for its section and for the parameter itself. */
+  /** Conditions under which a parameter is used, in words, e.g. "Mesh/Type =
+   *  graded or unstructured". Separate lists apply to the section and to the
+   *  parameter itself. */
   struct Conditions
   {
     std::vector<std::string> of_section, own;
