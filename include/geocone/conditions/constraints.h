@@ -42,8 +42,8 @@ namespace geocone::GEOCONE_DIM
   {
   public:
     /**
-     * Collects the conditions imposed on nodes, and activates the conditions of a
-     * stage.
+     * Collects the boundary conditions on nodes and activates the conditions of the
+     * given stage.
      * @throws InputError if a condition selects no node
      */
     Constraints(const Scene          &scene,
@@ -51,15 +51,15 @@ namespace geocone::GEOCONE_DIM
                 const Space          &space,
                 const std::string    &stage);
 
-    /** Activates the conditions of a stage. Thereafter the unknowns must be
+    /** Activates the boundary conditions of a stage. Thereafter the unknowns must be
      *  numbered and incremental problems created again. Collective.
      *  @return whether the set of active conditions has changed */
     bool
     begin_stage(const BackgroundMesh &mesh, const std::string &stage);
 
     /**
-     * Checks that the prescribed dofs support every connected part of the body
-     * against translation and rotation, as required without inertia.
+     * Checks that the prescribed dofs prevent every rigid-body motion of each
+     * connected part of the body. Required for analyses without inertia.
      * @param points in the cells of the body
      * @throws InputError naming the free rigid motion and the dofs
      */
@@ -68,24 +68,26 @@ namespace geocone::GEOCONE_DIM
                   const Space          &space,
                   const MaterialPoints &points) const;
 
-    /** Checks that the nodes on the axis of an axisymmetric body cannot leave the
-     *  axis. @throws InputError if a node can */
+    /** Checks that nodes on the axis of an axisymmetric body cannot move away
+     *  from the axis. @throws InputError if a node can */
     void
     check_axis(const BackgroundMesh &mesh, const Space &space) const;
 
-    /** Returns a warning for prescribed velocities that are not linear in space, if
-     *  coefficients of shape functions are not nodal values (Bernstein, splines):
-     *  the velocities are then only as accurate as with linear functions. Empty
+    /** Returns a warning if prescribed velocities are nonlinear in space and the
+     *  shape functions are not interpolatory (Bernstein polynomials, splines).
+     *  Such velocities are only as accurate as with linear shape functions. Empty
      *  otherwise. Collective. */
     std::string
     warn_of_bent_values() const;
 
-    /** Sets the prescribed components of v to the values at time t. */
+    /** Sets the prescribed components of the velocity vector v to their values at
+     *  time t. */
     void
     set_values(Vector &v, const double t) const;
 
     /**
-     * Numbers the unknowns: the dofs that are not prescribed and have mass.
+     * Numbers the unknowns, i.e. the dofs of nodes with mass that are not
+     * prescribed.
      * @param mass lumped mass with ghosts; null if all nodes have mass. Without
      * inertia any positive value marks a node with mass
      * @throws InputError if there are no unknowns
@@ -94,7 +96,7 @@ namespace geocone::GEOCONE_DIM
     number_unknowns(const Vector *mass);
 
     /**
-     * Support reaction of each condition. Collective.
+     * Computes the support reaction of each boundary condition. Collective.
      * @param residual residual of the momentum balance in all rows
      * @param stress of the points, to divide the forces of shared nodes
      * @param t time of the prescribed velocities (s)
@@ -105,13 +107,14 @@ namespace geocone::GEOCONE_DIM
               const std::vector<Mandel> &stress,
               const double               t) const;
 
-    /** Mean of a component of a nodal field over the nodes of a condition. */
+    /** Averages a component of a nodal field over the nodes of a boundary
+     *  condition. */
     double
     mean(const Vector      &field,
          const unsigned int condition,
          const unsigned int component) const;
 
-    /** Reference point of the moment of a condition's reaction. */
+    /** Reference point for the reaction moment of a boundary condition. */
     const dealii::Point<dim> &
     centre(const unsigned int condition) const
     {
@@ -127,8 +130,8 @@ namespace geocone::GEOCONE_DIM
     turn_back(Vector &v) const;
     /** @} */
 
-    /** Prescribed nodes of this rank, with ghosts, except nodes with oblique
-     *  directions. */
+    /** Nodes of this rank, including ghosts, with velocity components prescribed
+     *  along the coordinate axes. */
     const std::vector<PrescribedNode> &
     prescribed_nodes() const
     {
@@ -136,7 +139,8 @@ namespace geocone::GEOCONE_DIM
     }
 
   private:
-    /** A direction in which a condition prescribes the velocity of a node. */
+    /** A direction in which a boundary condition prescribes the velocity of a
+     *  node. */
     struct Direction
     {
       unsigned int           condition;
@@ -144,18 +148,19 @@ namespace geocone::GEOCONE_DIM
       dealii::Tensor<1, dim> d;
     };
 
-    /** A node with prescribed directions that are not along the coordinate axes.
-     *  Fewer than dim directions are the first axes of the node's rotated dofs;
-     *  dim independent directions fix the node completely. */
+    /** A node at which the velocity is prescribed in directions other than the
+     *  coordinate axes. Fewer than dim directions are the first axes of the
+     *  node's rotated dofs; dim independent directions fix the node completely. */
     struct Oblique
     {
       unsigned int           node;
       std::vector<Direction> directions;
-      /** Orthonormal axes, by rows; the first i + 1 axes span the first i + 1
-       *  directions. */
+      /** Orthonormal axes, stored by rows. The first i + 1 axes span the first i
+       *  + 1 prescribed directions. */
       dealii::Tensor<2, dim> axes;
 
-      /** Whether a velocity normal to the boundary is prescribed. */
+      /** Returns true if a velocity normal to the boundary is prescribed at the
+       *  node. */
       bool
       has_normal() const
       {
@@ -172,7 +177,7 @@ namespace geocone::GEOCONE_DIM
       }
     };
 
-    /** A velocity component of a node prescribed by several conditions. */
+    /** A nodal velocity component prescribed by several boundary conditions. */
     struct Shared
     {
       std::vector<unsigned int> conditions; ///< the last one governs
@@ -180,8 +185,8 @@ namespace geocone::GEOCONE_DIM
       unsigned int              first = 0;  ///< offset of Part::place
     };
 
-    /** Integral int N_i n dA over the faces of a cell that belong to a
-     *  condition. */
+    /** Integral int N_i n dA over the faces of a cell on which a boundary
+     *  condition acts. */
     struct Part
     {
       unsigned int           place; ///< number, starts at Shared::first
@@ -189,15 +194,16 @@ namespace geocone::GEOCONE_DIM
       dealii::Tensor<1, dim> weight; ///< int N_i n dA (m)
     };
 
-    /** Mean unit normals of a condition's boundary, by node. Collective.
+    /** Computes the mean unit normal at each node of the boundary on which a
+     *  condition acts. Collective.
      *  @throws InputError if faces of the condition meet in a sharp corner */
     std::map<unsigned int, dealii::Tensor<1, dim>>
     normals_of(const BoundaryCondition         &condition,
                const BackgroundMesh            &mesh,
                const std::vector<unsigned int> &nodes) const;
 
-    /** Selects the independent directions prescribed at a node; later directions
-     *  take precedence. */
+    /** Selects the linearly independent directions of the prescribed velocities
+     *  at a node. Later directions take precedence. */
     static Oblique
     independent(const unsigned int            node,
                 const std::vector<Direction> &directions);
@@ -209,25 +215,27 @@ namespace geocone::GEOCONE_DIM
       const BackgroundMesh                              &mesh,
       std::map<unsigned int, std::vector<unsigned int>> &of_dof);
 
-    /** Finds the dofs prescribed by the active conditions. Collective. */
+    /** Finds the dofs prescribed by the boundary conditions of the current stage.
+     *  Collective. */
     void
     find_prescribed(const BackgroundMesh &mesh);
 
-    /** Finds the velocity components prescribed by several conditions, and numbers
-     *  these conditions. Collective. */
+    /** Finds and numbers the velocity components that several boundary conditions
+     *  prescribe. Collective. */
     void
     number_shared(
       const std::map<unsigned int, std::vector<unsigned int>> &of_dof);
 
-    /** Finds the faces adjacent to nodes with components prescribed by several
-     *  conditions. Collective. */
+    /** Finds the boundary faces at nodes where several boundary conditions
+     *  prescribe the same velocity component. Collective. */
     void
     find_shared(
       const BackgroundMesh                                    &mesh,
       const std::map<unsigned int, std::vector<unsigned int>> &of_dof);
 
-    /** Nodal forces of the adjacent stress on the faces of conditions that share
-     *  nodes, by Part::place. Collective. */
+    /** Computes the nodal forces exerted by the adjacent stress on the faces of
+     *  boundary conditions that share nodes. The forces are ordered by
+     *  Part::place. Collective. */
     std::vector<double>
     exerted_on_faces(const MaterialPoints      &points,
                      const std::vector<Mandel> &stress) const;
@@ -242,7 +250,8 @@ namespace geocone::GEOCONE_DIM
            const double               t,
            std::vector<Reaction>     &result) const;
 
-    /** Adds a component of a nodal force to the reaction of a condition. */
+    /** Adds a component of a nodal force to the support reaction of a boundary
+     *  condition. */
     void
     add_force(const unsigned int     condition,
               const unsigned int     node,
@@ -250,7 +259,8 @@ namespace geocone::GEOCONE_DIM
               const double           force,
               std::vector<Reaction> &result) const;
 
-    /** Velocity component prescribed by a condition at a node at time t (m/s). */
+    /** Velocity component that a boundary condition prescribes at a node at time
+     *  t (m/s). */
     double
     value(const unsigned int condition,
           const unsigned int component,
@@ -272,13 +282,14 @@ namespace geocone::GEOCONE_DIM
     std::vector<unsigned int>              n_nodes;     ///< over all ranks
     std::vector<dealii::Point<dim>>        centres;     ///< per condition
 
-    /** Shared components by global dof, and total number of conditions over all
-     *  shared components; the same on all ranks. */
+    /** Velocity components prescribed by several boundary conditions, by global
+     *  dof. The total number of conditions over all shared components is
+     *  n_shares, the same on all ranks. */
     std::map<dealii::types::global_dof_index, Shared> shared;
     unsigned int                                      n_shares = 0;
 
-    /** Parts, ordered by active cell index: parts of cell c begin at
-     *  first_part[c]. */
+    /** Face integrals (Part), ordered by active cell index. The integrals of cell
+     *  c begin at first_part[c]. */
     std::vector<unsigned int> first_part;
     std::vector<Part>         parts;
   };

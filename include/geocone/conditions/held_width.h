@@ -13,9 +13,9 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Returns warnings for nodal conditions whose nodes do not cover the complete
-   *  boundary segment in the condition's box: the velocity is then applied to a
-   *  narrower strip. Collective. */
+  /** Returns a warning for each velocity condition whose nodes cover only part of
+   *  the boundary segment in the box of the condition. The velocity is then
+   *  prescribed on a narrower strip. Collective. */
   std::vector<std::string>
   warn_of_held_width(const Scene          &scene,
                      const BackgroundMesh &mesh,

@@ -14,18 +14,18 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Sparsity pattern of the Jacobian on the free dofs: two nodes are coupled if
-   * they share a cell with points. Stores the positions of the entries of cell
+   * Sparsity pattern of the Jacobian on the free dofs. Two nodes are coupled if they
+   * share a cell with material points. Stores the positions of the entries of cell
    * matrices and of the diagonal in the array of values.
    */
   class JacobianPattern
   {
   public:
-    /** Creates an empty pattern. */
+    /** Creates an empty sparsity pattern. */
     JacobianPattern() = default;
 
     /**
-     * Creates the pattern and a zero matrix.
+     * Creates the sparsity pattern and a zero matrix.
      * @param groups groups of nodes that are coupled without sharing a cell
      * @param links lists of a node, followed by nodes to whose rows the row of the
      * first one is added (Contact::links())
@@ -41,16 +41,16 @@ namespace geocone::GEOCONE_DIM
                     const bool                                    one_triangle,
                     SparseMatrix                                 &matrix);
 
-    /** Whether only the entries i <= j of a cell matrix are used, as one triangle of
-     *  a symmetric Jacobian is stored. */
+    /** Returns true if only one triangle of a symmetric Jacobian is stored. Only
+     *  the entries i <= j of a cell matrix are then used. */
     bool
     is_one_triangle() const
     {
       return one_triangle;
     }
 
-    /** Adds a cell's matrix K to the Jacobian; K is row-major (dim n)^2, with rows
-     *  interleaved as v_x, v_y, ... */
+    /** Adds the matrix K of a cell to the Jacobian. K has (dim n)^2 entries in
+     *  row-major order, with rows interleaved as v_x, v_y, ... */
     template <int n>
     void
     add_cell(const unsigned int c, const double *K, SparseMatrix &matrix) const
@@ -63,8 +63,8 @@ namespace geocone::GEOCONE_DIM
             matrix.value[*place] += K[m * i + j];
     }
 
-    /** Adds a value to the entry of a free row and column. If one triangle is
-     *  stored, entries of the upper triangle are skipped. */
+    /** Adds a value to the Jacobian entry of a pair of free dofs. If one triangle
+     *  is stored, entries of the upper triangle are skipped. */
     void
     add_entry(const int     row,
               const int     column,
@@ -75,7 +75,7 @@ namespace geocone::GEOCONE_DIM
         matrix.value[matrix.entry(row, column)] += value;
     }
 
-    /** Adds a value to the diagonal entry of a free row. */
+    /** Adds a value to the diagonal entry of a free dof in the Jacobian. */
     void
     add_diagonal(const int row, const double value, SparseMatrix &matrix) const
     {
@@ -86,14 +86,15 @@ namespace geocone::GEOCONE_DIM
     bool one_triangle = false;
 
     /**
-     * Positions of the (dim n_nodes)^2 entries of each cell matrix in the Jacobian,
-     * or of one entry per symmetric pair if one triangle is stored; -1 for dofs
-     * that are not free.
+     * Positions of the entries of each cell matrix in the array of Jacobian values.
+     * A cell has (dim n_nodes)^2 entries, or one entry per symmetric pair if one
+     * triangle is stored; -1 for dofs that are not free.
      */
     std::vector<int> places;
     std::size_t      places_of_cell = 0;
 
-    /** Position of the diagonal entry of each free row. */
+    /** Position of the diagonal entry of each free dof in the array of Jacobian
+     *  values. */
     std::vector<int> diagonal;
   };
 } // namespace geocone::GEOCONE_DIM

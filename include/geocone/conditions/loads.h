@@ -13,8 +13,8 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Computes nodal integrals of the mass density over the cells with points; each
-   * integral is stored for all components:
+   * Computes nodal integrals of the mass density over the cells with points. Each
+   * integral is stored for all components of a node.
    * @param[out] weight_per_g  int rho N_i, which times g is the weight (kg/m)
    * @param[out] lumped_mass  diagonal mass: the row sums int rho N_i, which are
    * positive for P1, P3, Q1, Q2, Q3 (vertex, edge, centre of P3: 1/30, 3/40,
@@ -30,20 +30,21 @@ namespace geocone::GEOCONE_DIM
                     Vector               &lumped_mass);
 
   /**
-   * External nodal forces F(t) on the cells with points: self-weight, surface
-   * tractions and hydrostatic water forces. Only loads of the scene are stored.
+   * External nodal forces F(t): self-weight, surface tractions and hydrostatic water
+   * forces. Forces act on the cells with points. Only loads of the scene are stored.
    */
   class Loads
   {
   public:
-    /** Collects the loads of the scene. @param points in the loaded cells */
+    /** Collects the loads that the scene defines. @param points in the loaded
+     *  cells */
     Loads(const Scene          &scene,
           const BackgroundMesh &mesh,
           const Space          &space,
           const MaterialPoints &points);
 
     /**
-     * Evaluates the nodal forces F at time t (N/m).
+     * Evaluates the external nodal forces F at time t (N/m).
      * @param stage null: all loads; otherwise, loads that the load factor of the
      * stage scales, if @p scaled, or all other loads
      */
@@ -70,7 +71,7 @@ namespace geocone::GEOCONE_DIM
 
     const Scene             &scene;
     std::vector<LoadedPoint> loaded;
-    /** Nodal forces of each water surface at full gravity (N/m). */
+    /** Nodal forces due to each water surface at full gravity (N/m). */
     std::vector<Vector> of_water;
   };
 } // namespace geocone::GEOCONE_DIM

@@ -15,40 +15,42 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Conditions on moving particles and moving boundary segments: prescribed
-   * velocities, imposed as rows H v = q with multipliers, and tractions.
+   * Boundary conditions on particles and on boundary segments that move with the
+   * body. Prescribed velocities are imposed as constraints H v = q with Lagrange
+   * multipliers, tractions as nodal forces.
    */
   class MovingConditions
   {
   public:
-    /** Collects the conditions with their boundary segments.
+    /** Collects all boundary conditions that act on moving boundary segments.
      *  @throws InputError if the body has no boundary segment for a condition */
     MovingConditions(const Scene          &scene,
                      const BackgroundMesh &mesh,
                      const Space          &space);
 
-    /** Activates the conditions of a stage. Boundary segments of inactive conditions
-     *  move with the body. */
+    /** Activates the boundary conditions of a stage. Boundary segments of
+     *  inactive conditions move with the body. */
     void
     begin_stage(const std::string &stage)
     {
       acts = scene.dirichlet.acting_in(stage);
     }
 
-    /** Whether a condition is active in the current stage. */
+    /** Returns true if a boundary condition is active in the current stage. */
     bool
     is_acting(const unsigned int condition) const
     {
       return acts[condition];
     }
 
-    /** Checks that each condition on particles selects particles. Collective.
+    /** Checks that each boundary condition on particles selects at least one
+     *  particle. Collective.
      *  @throws InputError if a condition selects none */
     void
     check_held_particles(const MaterialPoints &points) const;
 
     /**
-     * Adds the nodal forces of the tractions at time t to @p force. Collective.
+     * Adds the nodal forces of all tractions at time t to @p force. Collective.
      * @param stage,scaled as in Loads::evaluate()
      * @throws StepFailure if a boundary segment has left the mesh
      */
@@ -58,9 +60,9 @@ namespace geocone::GEOCONE_DIM
                   const Stage *stage  = nullptr,
                   const bool   scaled = false) const;
 
-    /** Transfer of velocities from nodes to particles in a step. The step is solved
-     *  for v = v^L + part (v_end - v^L); the particle velocity at the end of the
-     *  step is f (v_p + N (v_end - v^L)) + (1 - f) N v_end. */
+    /** Parameters of the velocity transfer from nodes to particles in a step. The
+     *  step is solved for v = v^L + part (v_end - v^L); the particle velocity at
+     *  the end of the step is f (v_p + N (v_end - v^L)) + (1 - f) N v_end. */
     struct Transfer
     {
       const Vector &velocity_L; ///< v^L, with ghosts (m/s)
@@ -70,7 +72,7 @@ namespace geocone::GEOCONE_DIM
     };
 
     /**
-     * Assembles the constraints H v = q, with q at time t. Collective.
+     * Assembles the velocity constraints H v = q at time t. Collective.
      * @throws StepFailure if a boundary segment has left the mesh
      * @throws InputError for rows without nodes with mass, and for contradictory
      * rows
@@ -83,42 +85,44 @@ namespace geocone::GEOCONE_DIM
               Constraints          &constraints) const;
 
     /**
-     * Moves the boundary segments over a step h: segments with prescribed velocity
-     * by the velocity at time t, all others by the nodal velocities v. Collective.
+     * Moves the boundary segments over a step h. Segments with prescribed velocity
+     * move with this velocity at time t, all other segments with the nodal
+     * velocities v. Collective.
      */
     void
     move(const Vector &v, const double h, const double t);
 
-    /** Boundary segments with prescribed normal velocity at which the soil ends;
-     *  only segments normal to a coordinate axis. */
+    /** Boundary segments with prescribed normal velocity that limit the soil
+     *  domain. Only segments normal to a coordinate axis are included. */
     std::vector<SoilLimit>
     soil_limits() const;
 
-    /** Corners of the bounding box of the boundary segments of a condition.
+    /** Lower and upper corners of the box around the boundary segments of a
+     *  condition.
      *  @pre the condition has boundary segments */
     std::pair<dealii::Point<dim>, dealii::Point<dim>>
     box_of(const BoundaryCondition &condition) const;
 
-    /** For each local node, whether its shape function is nonzero on a loaded or
-     *  prescribed boundary segment; empty without such segments. Collective. */
+    /** Marks the local nodes whose shape functions are nonzero on a loaded or
+     *  prescribed boundary segment. Empty without such segments. Collective. */
     std::vector<bool>
     loaded_nodes() const;
 
     /**
      * Corrected position of a point that has crossed a boundary segment with
-     * prescribed normal velocity in the last move(); a point can cross because the
-     * condition is imposed in the mean only. The corrected position is on the
-     * segment, or at its end if the point came from beside it. Empty for points
-     * that crossed no segment.
+     * prescribed normal velocity in the last move(). Points can cross the segment
+     * because the condition is imposed in the mean only. The corrected position is
+     * on the segment, or at its end if the point came from beside it. Empty for
+     * points that crossed no segment.
      * @param before,after position of the point before and after the step
      */
     std::optional<dealii::Point<dim>>
     return_to_boundary(const dealii::Point<dim> &before,
                        const dealii::Point<dim> &after) const;
 
-    /** Number of points, over all ranks, that have penetrated a boundary segment
-     *  with prescribed normal velocity by more than a tenth of the point size.
-     *  Collective. */
+    /** Number of points that have penetrated a boundary segment with prescribed
+     *  normal velocity, summed over all ranks. Penetrations below a tenth of the
+     *  point size are ignored. Collective. */
     unsigned int
     n_behind(const MaterialPoints &points) const;
 
@@ -128,7 +132,7 @@ namespace geocone::GEOCONE_DIM
     state(StateRow &row);
 
   private:
-    /** A condition with prescribed velocity, and its boundary segments. */
+    /** A boundary condition with prescribed velocity, and its boundary segments. */
     struct HeldSide
     {
       unsigned int          condition;
@@ -136,21 +140,21 @@ namespace geocone::GEOCONE_DIM
       std::vector<SidePart> before = {}; ///< panels before the last move()
     };
 
-    /** A traction condition and its boundary segments. */
+    /** A traction boundary condition and its boundary segments. */
     struct LoadedSide
     {
       unsigned int  condition;
       MovingSurface surface;
     };
 
-    /** Number of prescribed particles of each condition over all ranks; in
-     *  axisymmetric problems, the sum of the circumferences of the particles (m).
-     *  Collective. */
+    /** Number of prescribed particles of each boundary condition over all ranks.
+     *  In axisymmetric problems, the sum of the circumferences of the particles
+     *  (m). Collective. */
     std::vector<double>
     sum_held(const MaterialPoints &points) const;
 
-    /** Shortens the boundary segments of a condition by the parameter 'Segment
-     *  shortening'. */
+    /** Shortens the boundary segments of a condition as given by the parameter
+     *  'Segment shortening'. */
     void
     shorten(const BoundaryCondition &condition,
             std::vector<SidePart>   &panels) const;
@@ -165,8 +169,8 @@ namespace geocone::GEOCONE_DIM
                           const Transfer       &transfer,
                           Multipliers          &rows) const;
 
-    /** Adds the velocity at a position x, i.e. the values of the nonzero shape
-     *  functions, to the row of each prescribed component of a condition. */
+    /** Adds the shape function values at a position x to the constraint rows of a
+     *  condition. There is one row per prescribed velocity component. */
     void
     add_to_row(const unsigned int                                  condition,
                const Imposition::Share                            &share,
@@ -176,9 +180,10 @@ namespace geocone::GEOCONE_DIM
                const double                                       *values,
                Multipliers                                        &rows) const;
 
-    /** Adds an offset to the right-hand side of a particle's row: the difference
-     *  between N v and the prescribed velocity for which the particle has this
-     *  velocity after the FLIP transfer. */
+    /** Corrects the right-hand side of the constraint row of a particle for the
+     *  FLIP transfer. The offset is the difference between N v and the prescribed
+     *  velocity for which the particle has the prescribed velocity after the
+     *  transfer. */
     void
     add_flip_offsets(const MaterialPoints                               &points,
                      const unsigned int                                  p,
@@ -200,8 +205,8 @@ namespace geocone::GEOCONE_DIM
                  Vector                       &force) const;
 
     /**
-     * Rejects a condition with boundary segments outside the mesh, where it would
-     * have no effect. Collective.
+     * Checks that the boundary segments of a condition are inside the mesh. Outside
+     * the mesh, the condition would have no effect. Collective.
      * @param middles midpoints of the segments @param in_mesh fraction of each
      * segment found on this rank
      * @throws StepFailure if a segment is outside the mesh

@@ -18,16 +18,17 @@ namespace geocone::GEOCONE_DIM
   struct Unknowns;
 
   /**
-   * Linear constraints H v = q on the free dofs, with Lagrange multipliers
-   * lambda: H' lambda are the constraint forces on the body. The rows prescribe
-   * velocities at points, H = A N, and may be linearly dependent (more points
-   * than basis functions): a pivoted QR factorisation of H' selects independent
-   * rows, and all other rows must be consistent with these.
+   * Linear constraints H v = q on the free dofs, imposed by Lagrange multipliers
+   * lambda. The constraint forces on the body are H' lambda. The rows prescribe
+   * velocities at points, H = A N, and may be linearly dependent (more points than
+   * basis functions): a pivoted QR factorisation of H' selects independent rows, and
+   * all other rows must be consistent with these.
    */
   class Multipliers
   {
   public:
-    /** Key of a row: condition, velocity component, and a number within both. */
+    /** Key of a constraint row: boundary condition, velocity component and
+     *  consecutive number. */
     struct Key
     {
       unsigned int condition;
@@ -46,7 +47,7 @@ namespace geocone::GEOCONE_DIM
 
     Multipliers() = default;
 
-    /** Creates constraints on one rank from given H and q. */
+    /** Creates constraints H v = q on one rank from given H and q. */
     Multipliers(const std::vector<unsigned int> &dofs,
                 const Eigen::MatrixXd           &H,
                 const Eigen::VectorXd           &q)
@@ -59,25 +60,26 @@ namespace geocone::GEOCONE_DIM
     void
     clear();
 
-    /** Adds the coefficient of a node, e.g. weight x N_i(x), to a row of H. */
+    /** Adds a coefficient for a node, e.g. weight x N_i(x), to a row of the
+     *  constraint matrix H. */
     void
     add_coefficient(const Key                            &key,
                     const dealii::types::global_dof_index node,
                     const double                          value);
 
-    /** Adds a prescribed velocity to the right-hand side q of a row. */
+    /** Adds a prescribed velocity to the right-hand side q of a constraint row. */
     void
     add_target(const Key &key, const double value);
 
-    /** Adds a term that is not a prescribed velocity to the right-hand side q of a
-     *  row; mean_target() excludes the term. */
+    /** Adds a term other than a prescribed velocity to the right-hand side q of a
+     *  constraint row. The term is excluded from mean_target(). */
     void
     add_offset(const Key &key, const double value);
 
     /**
-     * Assembles the rows from the contributions of all ranks. Prescribed dofs
-     * move to the right-hand side. Basis functions without mass are omitted, and
-     * the remaining coefficients of a row are scaled to preserve their sum.
+     * Assembles the constraint rows from the contributions of all ranks. Prescribed
+     * dofs move to the right-hand side. Basis functions without mass are omitted,
+     * and the remaining coefficients of a row are scaled to preserve their sum.
      * @param prescribed a vector that contains the values of prescribed dofs
      * @return the first row that cannot be satisfied, the same on all ranks, or
      * nothing. Collective.
@@ -88,9 +90,9 @@ namespace geocone::GEOCONE_DIM
              const Vector      &prescribed);
 
     /**
-     * Appends the row F.v/sum |F_i| = velocity, which controls the load factor in
-     * load stepping. The multiplier of this row is the load factor times the sum
-     * of the magnitudes |F_i| of the nodal forces.
+     * Appends the constraint row F.v/sum |F_i| = velocity, which controls the load
+     * factor in load stepping. The multiplier of this row is the load factor times
+     * the sum of the magnitudes |F_i| of the nodal forces.
      * @param force F, including prescribed dofs @param prescribed as in
      * assemble()
      * @return whether the loads can move the body. Collective.
@@ -101,21 +103,24 @@ namespace geocone::GEOCONE_DIM
               const Unknowns &unknowns,
               const Vector   &prescribed);
 
-    /** Whether the last row controls the load factor, see add_loads(). */
+    /** Returns true if the last constraint row controls the load factor, see
+     *  add_loads(). */
     bool
     has_loads() const
     {
       return sum_of_loads > 0.;
     }
 
-    /** Load factor, from the multiplier of the last row. */
+    /** Load factor, computed from the Lagrange multiplier of the last constraint
+     *  row. */
     double
     load_factor(const Eigen::VectorXd &lambda) const
     {
       return lambda[lambda.size() - 1] / sum_of_loads;
     }
 
-    /** Number of independent rows; n_given() is the number of all rows. */
+    /** Number of linearly independent constraint rows. The number of all
+     *  constraint rows is n_given(). */
     unsigned int
     n_rows() const
     {
@@ -131,7 +136,7 @@ namespace geocone::GEOCONE_DIM
     Eigen::VectorXd
     defect(const Vector &v) const;
 
-    /** Matrix-vector product H f. Collective. */
+    /** Matrix-vector product H f with the constraint matrix H. Collective. */
     Eigen::VectorXd
     multiply(const Vector &f) const;
 
@@ -143,10 +148,10 @@ namespace geocone::GEOCONE_DIM
                    const Eigen::VectorXd &lambda) const;
 
     /**
-     * QR factorisation D^{-1/2} H' = Q U over all ranks, Q with orthonormal
-     * columns, U upper triangular. Nearly dependent rows make U
-     * ill-conditioned, but not Q: H D^{-1} H' = U'U would lose twice as many
-     * digits.
+     * QR factorisation D^{-1/2} H' = Q U of the scaled constraint matrix. Q has
+     * orthonormal columns, distributed over all ranks, and U is upper triangular.
+     * Nearly dependent rows make U ill-conditioned, but not Q: H D^{-1} H' = U'U
+     * would lose twice as many digits.
      */
     struct Factors
     {
@@ -161,8 +166,8 @@ namespace geocone::GEOCONE_DIM
     factorise(const Vector *scale) const;
 
     /**
-     * Removes from a residual R the constraint forces H' lambda, with lambda that
-     * minimises
+     * Subtracts the constraint forces H' lambda from a residual R. The multipliers
+     * lambda minimise
      *   sum_i (R - H' lambda)_i^2 / D_i over dofs().
      * The result is accurate to the rounding of R, however large the
      * multipliers of nearly dependent rows.
@@ -171,22 +176,23 @@ namespace geocone::GEOCONE_DIM
     Eigen::VectorXd
     remove(Vector &residual, const Factors &factors) const;
 
-    /** Resultant of a condition's constraint forces H' lambda, for a component
-     *  (N/m). */
+    /** Resultant constraint force of a boundary condition in one coordinate
+     *  direction (N/m). */
     double
     resultant(const Eigen::VectorXd &lambda,
               const unsigned int     condition,
               const unsigned int     component) const;
 
-    /** Moment of a condition's constraint forces H' lambda about a point (N m/m).
-     *  Collective. */
+    /** Resultant moment of the constraint forces of a boundary condition about a
+     *  given point (N m/m). Collective. */
     dealii::Tensor<1, n_rotations>
     moment(const Eigen::VectorXd    &lambda,
            const unsigned int        condition,
            const dealii::Point<dim> &centre,
            const Space              &space) const;
 
-    /** Largest relative contribution of low-mass basis functions to a row. */
+    /** Largest relative contribution of low-mass basis functions to a constraint
+     *  row. */
     struct LowMassShare
     {
       double             largest   = 0.; ///< maximum over all rows (-)
@@ -195,23 +201,24 @@ namespace geocone::GEOCONE_DIM
     };
 
     /**
-     * Relative contribution of low-mass basis functions in the worst row:
-     * |sum_light H_i v_i|, divided by sum_i H_i times the larger of the velocities
-     * that the condition prescribes along x and y. Basis functions with less than
-     * 1e-3 of the largest mass in the row are low-mass. The ratio is 0.02 in sound
-     * steps, and above 1 if spurious velocities satisfy the row. Collective.
+     * Returns the largest relative contribution of low-mass basis functions to a
+     * constraint row. The contribution is |sum_light H_i v_i|, divided by sum_i H_i
+     * times the larger of the velocities that the condition prescribes along x and
+     * y. Basis functions with less than 1e-3 of the largest mass in the row are
+     * low-mass. The ratio is 0.02 in sound steps, and above 1 if spurious velocities
+     * satisfy the row. Collective.
      */
     LowMassShare
     light_share(const Vector &v, const Vector &mass, const Space &space) const;
 
-    /** Mean prescribed velocity of a condition, for a component (m/s); 0 if none is
-     *  prescribed. */
+    /** Mean velocity component prescribed by a boundary condition (m/s). Zero if
+     *  none is prescribed. */
     double
     mean_target(const unsigned int condition,
                 const unsigned int component) const;
 
-    /** Owned local dofs with nonzero coefficients, in the order of the columns of
-     *  coefficients(). */
+    /** Owned local dofs with nonzero constraint coefficients, in the column order
+     *  of coefficients(). */
     const std::vector<unsigned int> &
     dofs() const
     {
@@ -223,7 +230,8 @@ namespace geocone::GEOCONE_DIM
       return H;
     }
 
-    /** Right-hand side q minus the contributions of prescribed dofs (m/s). */
+    /** Right-hand side q of the constraints minus the contributions of prescribed
+     *  dofs (m/s). */
     const Eigen::VectorXd &
     targets() const
     {
@@ -234,8 +242,8 @@ namespace geocone::GEOCONE_DIM
     void
     contribute(const Key &key, const double node, const double value);
 
-    /** Contributions to the rows: condition, component, number, node (-1: target,
-     *  -2: offset), value. */
+    /** Contributions to the constraint rows: condition, component, number, node
+     *  (-1: target, -2: offset), value. */
     std::vector<std::array<double, 5>> contributions;
 
     MPI_Comm         comm         = MPI_COMM_SELF;
@@ -247,8 +255,8 @@ namespace geocone::GEOCONE_DIM
     Eigen::VectorXd           q; ///< minus terms of prescribed dofs (m/s)
     Eigen::VectorXd           row_sum;
 
-    /** Right-hand side of a row without offset, and the sum of the row's
-     *  coefficients. */
+    /** Prescribed velocity, without offset, and sum of the coefficients of a
+     *  constraint row. */
     struct Asked
     {
       Key    key;

@@ -12,7 +12,7 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** A velocity component of a node, prescribed by a condition. */
+  /** A nodal velocity component prescribed by a boundary condition. */
   struct PrescribedNode
   {
     unsigned int       node; ///< number, as defined by the list's owner
@@ -22,8 +22,8 @@ namespace geocone::GEOCONE_DIM
     bool               mine;      ///< whether this rank includes it in sums
   };
 
-  /** Lever arm: moment of a unit force along a coordinate axis about a rotation
-   *  axis. */
+  /** Lever arm: moment about a rotation axis due to a unit force along a
+   *  coordinate axis. */
   inline double
   lever(const dealii::Tensor<1, dim> &arm,
         const unsigned int            component,
@@ -33,8 +33,8 @@ namespace geocone::GEOCONE_DIM
     return component == b ? arm[a] : component == a ? -arm[b] : 0.;
   }
 
-  /** Resultant force and moment of the nodal forces f_i, or impulses, exerted on
-   *  the body by a support. */
+  /** Support reaction: resultant force and moment of the nodal forces f_i, or
+   *  nodal impulses, on the body. */
   struct Reaction
   {
     dealii::Tensor<1, dim> force; ///< resultant sum f_i (N/m)
@@ -43,7 +43,8 @@ namespace geocone::GEOCONE_DIM
      *  (N m/m). */
     dealii::Tensor<1, n_rotations> moment;
 
-    /** Adds a component of a nodal force f_i. @param arm x_i - c (m) */
+    /** Adds one component of a nodal force f_i to the reaction. @param arm x_i -
+     *  c (m) */
     void
     add(const dealii::Tensor<1, dim> &arm,
         const unsigned int            component,

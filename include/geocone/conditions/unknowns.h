@@ -13,9 +13,10 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Unknowns of an incremental problem: the free dofs, i.e. the dofs of nodes with
-   * mass that are not prescribed, and linear constraints on the free dofs. The
-   * incremental problem depends on the supports through this class only.
+   * Unknowns of an incremental problem: the free dofs and the linear constraints on
+   * the free dofs. Free dofs are the dofs of nodes with mass that are not
+   * prescribed. The incremental problem depends on the supports through this class
+   * only.
    */
   struct Unknowns
   {
@@ -25,7 +26,7 @@ namespace geocone::GEOCONE_DIM
       return free_row[local_dof] >= 0;
     }
 
-    /** Whether the node of a local dof has nonzero mass. */
+    /** Returns true if the node of a local dof has nonzero mass. */
     bool
     has_mass(const unsigned int local_dof) const
     {
@@ -39,15 +40,17 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * Local number of each free dof (row), by local dof; prescribed_row for
-     * prescribed dofs, massless_row for dofs of nodes without mass.
+     * Local row number of each free dof, indexed by local dof number. The value is
+     * prescribed_row for prescribed dofs and massless_row for dofs of nodes without
+     * mass.
      */
     std::vector<int>     free_row;
     static constexpr int prescribed_row = -1, massless_row = -2;
 
     std::vector<bool> with_mass; ///< has_mass(), by local dof
 
-    /** Global row number of each local free row; owned rows are first. */
+    /** Global row number of each free dof, by local row number. Rows owned by
+     *  this rank are first. */
     std::vector<int> global_row;
     int              n_owned_rows = 0;
     int              n_rows       = 0; ///< number over all ranks
@@ -56,9 +59,9 @@ namespace geocone::GEOCONE_DIM
     Multipliers multipliers;
 
     /**
-     * A node with rotated dofs: vectors of the incremental problem contain the
-     * components along these axes, the first of which span the prescribed
-     * directions.
+     * A node whose dofs are rotated to the directions of its prescribed velocities.
+     * Vectors of the incremental problem contain the components along the axes of
+     * the node, the first of which span the prescribed directions.
      */
     struct TurnedNode
     {
@@ -67,7 +70,7 @@ namespace geocone::GEOCONE_DIM
     };
     std::vector<TurnedNode> turned_nodes;
 
-    /** Positions of the local nodes; null in a problem read from a file
+    /** Positions of the local nodes; null if the problem was read from a file
      *  (FrozenProblem). */
     const std::vector<dealii::Point<dim>> *node_positions = nullptr;
   };

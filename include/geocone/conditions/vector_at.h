@@ -10,7 +10,8 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Reads a vector from an array that begins at an address; put() writes it. */
+  /** Reads the dim components of a vector from consecutive memory locations. The
+   *  inverse is put(). */
   inline dealii::Tensor<1, dim>
   taken(const double *at)
   {
