@@ -14,10 +14,10 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Residuals of a plastic flow law at the end of a step, at one point or as maxima
-   * over several points; all residuals are zero if and only if the law is
-   * satisfied. The law has a change of variable y that maps plastic flow to normals
-   * of the yield surface. Residuals are dimensional; reference scales are included.
+   * Residuals of a plastic flow law at the end of a step, which are zero if and only
+   * if the law is satisfied. They refer to one point or are maxima over several
+   * points. The law has a change of variable y that maps plastic flow to normals of
+   * the yield surface. Residuals are dimensional; reference scales are included.
    */
   struct FlowCheck
   {
@@ -33,7 +33,8 @@ namespace geocone::GEOCONE_DIM
     double flow       = 0.; ///< scale |y| (-)
     double compliance = 0.; ///< scale 1/2G (1/Pa)
 
-    /** Number of members, each reduced over points and ranks by its maximum. */
+    /** Number of residuals and scales in FlowCheck. Each is reduced over points
+     *  and ranks by its maximum. */
     static constexpr std::size_t n_numbers = 10;
     static constexpr std::array<double FlowCheck::*, n_numbers>
     numbers()
@@ -58,9 +59,10 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * Evaluates the residuals of a cone law. The complementarity law assumes a cone
-     * without a cut-off: at a cut-off of the normal stress only the strength is checked;
-     * at Rankine's cut-off also the plastic strain, see flow_at_cut_off().
+     * Evaluates the residuals of a cone law at a point. The complementarity law
+     * assumes a cone without a cut-off: at a cut-off of the normal stress only the
+     * strength is checked; at Rankine's cut-off also the plastic strain, see
+     * flow_at_cut_off().
      * @param solved,exact cones of the solved and the exact law at the end of the step
      * @param z,s negative plastic strain increment, and stress, in cone axes
      */
@@ -97,8 +99,8 @@ namespace geocone::GEOCONE_DIM
 
   private:
     /**
-     * Violation of the flow rule by z at a stress s on Rankine's cut-off (-): the sum of
-     * negative plastic multipliers of the cone and of the cut-off,
+     * Violation of the flow rule by z at a stress s on Rankine's cut-off (-). It is the
+     * sum of negative plastic multipliers of the cone and of the cut-off,
      *   g_1 + g_2 = -z_t.u,  b g_1 + g_2 = z_n,  u = s_t/|s_t|,
      * of a nonzero multiplier of the cone if s is inside the cone, and of strain
      * increments orthogonal to u; at the tip of the cut-off, |z_t| - z_n.
@@ -125,7 +127,7 @@ namespace geocone::GEOCONE_DIM
     }
   };
 
-  /** Stresses and strain increment of one point in a step, as full tensors. */
+  /** Stresses and strain increment of a point in one step, as full tensors. */
   struct PointStep
   {
     SpatialMandel strain;    ///< strain increment (-)

@@ -13,7 +13,7 @@ namespace geocone::GEOCONE_DIM
 {
   /**
    * Transforms a Mandel vector to cone axes, in which the yield surface is a
-   * circular cone: a vector x is split into x[0] = x.n along the axis n, the
+   * circular cone. A vector x is split into x[0] = x.n along the axis n, the
    * direction of isotropic compression, and the tangential part x_t = x[1..]. In
    * plane strain
    *   n = -(1, 1, 0)/sqrt2, t1 = (1, -1, 0)/sqrt2, t2 = (0, 0, 1);
@@ -26,9 +26,9 @@ namespace geocone::GEOCONE_DIM
   inline Mandel
   from_cone_axes(const Mandel &x);
 
-  /** Cone axes of three-dimensional Mandel vectors, by rows: n = -(1, 1, 0, 1)/sqrt3,
-   *  then (1, -1, 0, 0)/sqrt2, (0, 0, 1, 0) and (1, 1, 0, -2)/sqrt6; all other shear
-   *  components are unchanged. */
+  /** Cone axes of three-dimensional Mandel vectors, stored by rows. The first row
+   *  is n = -(1, 1, 0, 1)/sqrt3, followed by (1, -1, 0, 0)/sqrt2, (0, 0, 1, 0)
+   *  and (1, 1, 0, -2)/sqrt6; all other shear components are unchanged. */
   inline const SpatialMandelMatrix &
   spatial_axes()
   {
@@ -66,7 +66,7 @@ namespace geocone::GEOCONE_DIM
     return s;
   }
 
-  /** Transforms the matrix of a linear map, e.g. a tangent, from cone axes to Mandel
+  /** Transforms a tangent or another linear map from cone axes to Mandel
    *  components. */
   inline MandelMatrix
   from_cone_axes(const MandelMatrix &C)
@@ -80,7 +80,8 @@ namespace geocone::GEOCONE_DIM
     return result;
   }
 
-  /** Plastic mode of a point: region of the yield cone in which the return map ends. */
+  /** Plastic mode of a material point: region of the yield cone to which the
+   *  stress is returned. */
   enum class Mode : unsigned char
   {
     elastic, ///< inside the cone
@@ -88,13 +89,13 @@ namespace geocone::GEOCONE_DIM
     apex     ///< at the apex
   };
 
-  /** Tensile strength that represents a cone without a cut-off (Pa). */
+  /** Infinite tensile strength, which denotes a cone without a cut-off (Pa). */
   constexpr double infinite_tension = std::numeric_limits<double>::infinity();
 
   /**
-   * Admissible set of a cone law and its flow rule, in cone axes:
+   * Yield cone and flow rule of a cone law, in cone axes. The admissible set is
    *   C = { s : |s_t| <= a s_n + k },   a >= 0, k >= 0,
-   * with flow aperture b, 0 <= b <= a (b = a: associated). With z = -(plastic
+   * and the flow aperture is b, 0 <= b <= a (b = a: associated). With z = -(plastic
    * strain increment), mu = a - b and Psi(z) = z + mu |z_t| n, the law reads
    * K* contains Psi(z), orthogonal to s + (k/a) n in K, where K = {|x_t| <= a
    * x_n} and K* = {a |y_t| <= y_n} (Guillet et al. 2025, eqs 22, 25-27, 85-91;
@@ -107,17 +108,18 @@ namespace geocone::GEOCONE_DIM
     double b = 0.; ///< aperture of the flow cone, e.g. sin(theta)
     double k = 0.; ///< radius of the yield surface at s_n = 0 (Pa)
 
-    /** Tensile cut-off s_n >= -tension (Pa), effective if the apex is beyond it. */
+    /** Tensile strength in the cut-off s_n >= -tension (Pa). The cut-off is
+     *  effective if the apex of the cone is beyond it. */
     double tension = infinite_tension;
 
-    /** Linear hardening modulus h (Pa): the radius at s_n = 0 is k at t_n and
-     *  k + h |z_t| at the end of the step. */
+    /** Linear hardening modulus h (Pa). In a step, the radius of the yield
+     *  surface at s_n = 0 increases from k to k + h |z_t|. */
     double hardening = 0.;
 
     /**
-     * Rankine's cut-off |s_t| <= s_n + opening (Pa), in addition to the cone, with
-     * associated flow. In plane strain it limits the largest principal stress to
-     * opening/sqrt2.
+     * Strength parameter of Rankine's cut-off |s_t| <= s_n + opening (Pa). The
+     * cut-off applies in addition to the cone and has associated flow. In plane
+     * strain it limits the largest principal stress to opening/sqrt2.
      */
     double opening = infinite_tension;
 
@@ -127,8 +129,8 @@ namespace geocone::GEOCONE_DIM
       return opening < infinite_tension;
     }
 
-    /** Returns the cone at the end of a step with |z_t| = slip, without further
-     *  hardening. */
+    /** Returns the hardened cone at the end of a step with plastic shear strain
+     *  |z_t| = slip. The hardening modulus of the returned cone is zero. */
     FlowCone
     hardened(const double slip) const
     {
@@ -138,8 +140,8 @@ namespace geocone::GEOCONE_DIM
       return end;
     }
 
-    /** Yield function: excess of s over the cone or Rankine's cut-off (Pa), the
-     *  larger one; negative inside both. */
+    /** Yield function (Pa): maximum of the yield functions of the cone and of
+     *  Rankine's cut-off. Negative inside both. */
     template <typename V>
     double
     yield_function(const V &s) const
@@ -166,7 +168,7 @@ namespace geocone::GEOCONE_DIM
       return y;
     }
 
-    /** Returns an element of the generalised Jacobian of psi(). */
+    /** Returns an element of the generalised Jacobian of De Saxce's map psi(). */
     MandelMatrix
     psi_slope(const Mandel &z) const
     {
@@ -178,11 +180,12 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * Returns the cone with delayed friction, whose strength takes a part lambda of
-     * the normal stress from t_n,
-     *   |s_t| <= a ((1 - m) s_n + m s_n^n) + k,   m = lambda (a - b)/a,
-     * with the aperture a - lambda (a - b) >= b, the same flow rule, and no larger
-     * tensile strength. lambda = 0 is the exact law; associated laws do not change.
+     * Returns the cone with delayed friction, whose strength depends in part on the
+     * normal stress s_n^n at t_n. For a fraction lambda,
+     *   |s_t| <= a ((1 - m) s_n + m s_n^n) + k,   m = lambda (a - b)/a.
+     * The aperture is a - lambda (a - b) >= b; the flow rule is the same, and the
+     * tensile strength is not larger. For lambda = 0 the law is exact; associated
+     * laws do not change.
      * The plastic work remains non-negative, because the radius of each
      * cross-section does.
      */
@@ -209,8 +212,9 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * Complementarity product <y, s + (k/a) n> (J/m^3), in a form that includes the
-     * limit a = 0 for y on the boundary of K* (there (k/a) y_n = k |y_t|).
+     * Complementarity product <y, s + (k/a) n> of flow and stress (J/m^3). The form
+     * used includes the limit a = 0 for y on the boundary of K* (there (k/a) y_n = k
+     * |y_t|).
      */
     template <typename V>
     double
@@ -228,7 +232,7 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Return map of a cone without Rankine's cut-off, in closed form.
+   * Closed-form return mapping for a cone without Rankine's cut-off.
    *
    * Solution of the one-point problem
    *   s = t + D z with D = diag(K, 2G, ..., 2G),  z from the law of FlowCone
@@ -336,10 +340,10 @@ namespace geocone::GEOCONE_DIM
   }
 
   /**
-   * Return map to Rankine's cut-off, for trial stresses that are beyond it after the
-   * return to the cone. The stress is returned to the cut-off, which is an associated
-   * cone of aperture 1, or, if that stress is outside the cone, to the circle in which
-   * cone and cut-off intersect,
+   * Return mapping to Rankine's cut-off, for stresses that violate the cut-off after
+   * the return to the cone. The stress is returned to the cut-off, which is an
+   * associated cone of aperture 1, or, if that stress is outside the cone, to the
+   * circle in which cone and cut-off intersect,
    *   s_n = (k + q T - (1 + q) opening)/(1 - a + q),  |s_t| = s_n + opening,
    * with q = h/2G.
    */
@@ -376,7 +380,7 @@ namespace geocone::GEOCONE_DIM
     return Mode::cone;
   }
 
-  /** Return map of a cone with all cut-offs, see return_map_uncut() and
+  /** Return mapping for a cone with all cut-offs. Combines return_map_uncut() and
    *  return_to_cut_off(). */
   template <typename V, typename M>
   Mode
@@ -393,7 +397,7 @@ namespace geocone::GEOCONE_DIM
              : mode;
   }
 
-  /** Euclidean projection onto the admissible set of a cone with cut-offs; the flow
+  /** Euclidean projection onto the admissible set of a cone with cut-offs. The flow
    *  rule has no influence.
    *  @param[out] jacobian element of the generalised Jacobian, if not null */
   template <typename V,
@@ -411,7 +415,7 @@ namespace geocone::GEOCONE_DIM
   }
 
   /**
-   * Euclidean projection onto C = {|s_t| <= a s_n + k}.
+   * Euclidean projection onto the cone C = {|s_t| <= a s_n + k}.
    * @param[out] jacobian an element of Clarke's generalised Jacobian (Guillet et al.
    * 2025, appendix C, with the polar cone as the third case), if not null
    */
@@ -436,8 +440,9 @@ namespace geocone::GEOCONE_DIM
   }
 
   /**
-   * Natural map F(s, y) = s - P_C(s - rho y) with y = Psi(z), zero if and only if
-   * (s, z) satisfies the cone law, for any rho > 0 (Guillet et al. 2025, eqs 58, 59).
+   * Natural map F(s, y) = s - P_C(s - rho y) with y = Psi(z). For any rho > 0, F is
+   * zero if and only if (s, z) satisfies the cone law (Guillet et al. 2025, eqs 58,
+   * 59).
    */
   template <typename V>
   V
