@@ -18,10 +18,10 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Contact between deformable bodies by mortar elements with dual basis
-   * functions psi_i (Wohlmuth 2000; Hueeber and Wohlmuth 2005), which transmit a
-   * uniform pressure between non-matching meshes. The contact pressure is
-   * sum_i psi_i r_i/D_i on the faces of the first body, where on each face
+   * Contact between deformable bodies by the mortar method with dual basis functions
+   * psi_i (Wohlmuth 2000; Hueeber and Wohlmuth 2005). A uniform pressure is
+   * transmitted between non-matching meshes. The contact pressure is sum_i psi_i
+   * r_i/D_i on the faces of the first body, where on each face
    *   int psi_i N_j = delta_ij int N_j  over the part facing the other body.
    * With D_i = int psi_i and M_ij = int psi_i N_j of the other body, node i is
    * in contact with a surface that moves by sum_j P_ij v_j, P = M/D; its gap is
@@ -43,12 +43,12 @@ namespace geocone::GEOCONE_DIM
                 const BackgroundMesh &mesh,
                 const Space          &space);
 
-    /** Current position of a local node. */
+    /** Function that returns the current position of a local node. */
     using Positions = std::function<dealii::Point<dim>(unsigned int)>;
 
     /**
-     * Finds the potential contact nodes, the same on all ranks. Each node appears
-     * once, in the first contact of the list that contains it.
+     * Finds the potential contact nodes. The result is the same on all ranks. Each
+     * node appears once, in the first contact of the list that contains it.
      * @param reach maximum distance of facing faces, in addition to the size of a
      * face (m)
      * @throws StepFailure if a node of the first body of one contact also
@@ -57,7 +57,7 @@ namespace geocone::GEOCONE_DIM
     std::vector<FacingNode>
     find(const Positions &place, const double reach) const;
 
-    /** Checks that bodies do not overlap in the initial state.
+    /** Checks that the bodies do not overlap in the initial state.
      *  @throws InputError if bodies overlap */
     void
     check_start(const Positions &place) const;
@@ -78,7 +78,7 @@ namespace geocone::GEOCONE_DIM
       double size = 0.; ///< initial length (m) or area (m^2), without 2 pi r
     };
 
-    /** Boundary faces of the cells with selected materials.
+    /** Finds the boundary faces of all cells with selected materials.
      *  @param materials selection by material index */
     std::vector<Face>
     faces_of(const std::vector<bool> &materials) const;
@@ -93,8 +93,8 @@ namespace geocone::GEOCONE_DIM
     static std::vector<PlacedFace>
     placed(const std::vector<Face> &faces, const Positions &place);
 
-    /** Evaluates the shape functions N of a face's nodes at a point s in unit
-     *  coordinates of the face. */
+    /** Evaluates the shape functions N of the nodes on a face, at unit
+     *  coordinates s of the face. */
     void
     evaluate(const Face                   &face,
              const dealii::Point<dim - 1> &s,
@@ -125,8 +125,8 @@ namespace geocone::GEOCONE_DIM
       std::map<unsigned int, double> M;
     };
 
-    /** Adds the contributions of a face to D, M and the normals of the face's
-     *  nodes. */
+    /** Adds the contributions of a face to D, M and the normals of the nodes on
+     *  the face. */
     void
     integrate(const PlacedFace              &placed_face,
               const std::vector<PointAhead> &points,

@@ -12,7 +12,7 @@ namespace geocone
 {
   /**
    * Frictional contact problem of n nodes of a linear body, after static
-   * condensation of all other unknowns: find u and r = K u + c with
+   * condensation of all other unknowns. Find u and r = K u + c with
    *   0 <= r_N + tension _|_ u_N - least >= 0,
    *   |r_T| <= mu r_N + adhesion, u_T against r_T where it slides,
    * in the axes n and t of each node, or in n alone if it has no friction. K
@@ -50,13 +50,13 @@ namespace geocone
     bool
     solve(Eigen::VectorXd &u) const;
 
-    /** Largest nodal residual of the contact laws, i.e. of the root functions F of
-     *  Contact, divided by the largest force. */
+    /** Largest nodal residual of the contact laws, divided by the largest contact
+     *  force. The residual is the function F of Contact. */
     double
     error(const Eigen::VectorXd &u) const;
 
   private:
-    /** Estimated rounding error of K u, as a contribution to error(). */
+    /** Estimates the contribution of rounding errors in K u to error(). */
     double
     rounding(const Eigen::VectorXd &u) const;
 
@@ -70,13 +70,13 @@ namespace geocone
     {
       Contact contact = Contact::open;
 
-      /** Slip direction d of r_T, and the derivative of d, times the friction
-       *  bound, with respect to r_T - rho u_T; the derivative is zero for one
+      /** Slip direction d of r_T. The matrix `turn` is the derivative of d with
+       *  respect to r_T - rho u_T, times the friction bound; it is zero for one
        *  tangent. */
       Eigen::VectorXd direction;
       Eigen::MatrixXd turn;
 
-      /** Whether both contact states lead to the same linear equations. */
+      /** Returns true if both contact states lead to the same linear equations. */
       bool
       operator==(const State &other) const
       {
@@ -85,11 +85,11 @@ namespace geocone
       }
     };
 
-    /** Contact states of all nodes, as predicted from u and r = K u + c. */
+    /** Predicts the contact states of all nodes from u and r = K u + c. */
     std::vector<State>
     states(const Eigen::VectorXd &u) const;
 
-    /** Solves the linear equations of given contact states for u. */
+    /** Solves the linear system of given contact states for the velocities u. */
     Eigen::VectorXd
     solve_for(const std::vector<State> &state) const;
 
@@ -98,15 +98,16 @@ namespace geocone
     double
     sweep(Eigen::VectorXd &u) const;
 
-    /** Nodal vector: a normal component and at most two tangential ones. */
+    /** Nodal vector with one normal and at most two tangential components. */
     using OfNode = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3, 1>;
 
-    /** Augmentation parameter rho of the tangential equations: the mean tangential
-     *  stiffness. */
+    /** Augmentation parameter rho of the friction equations: mean tangential
+     *  stiffness of the node. */
     double
     tangential_rho(const Node &node) const;
 
-    /** Solves the contact problem of one node, with u of all other nodes fixed.
+    /** Solves the contact problem of one node, with the velocities of all other
+     *  nodes fixed.
      *  @param b force r at the node for u = 0 at the node
      *  @return u at the node */
     OfNode

@@ -21,43 +21,42 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Gap below which a contact is considered closed, divided by the cell
-   *  size. */
+  /** Gap, divided by the cell size, below which a contact is considered closed. */
   constexpr double closed_gap = 1e-9;
 
-  /** Distance below which the boundaries of two obstacles are considered
+  /** Distance below which the boundaries of two obstacles are treated as
    *  continuous, divided by the cell size. */
   constexpr double meeting = 1e-3;
 
   /** Cosine above which two normals are considered parallel (10 degrees). */
   const double parallel = std::cos(radians(10.));
 
-  /** Contact of a partially supported node requires that the component of the unit
-   *  normal in the free directions has at least this length (10 degrees). */
+  /** Smallest length of the unit normal, projected onto the free directions, for
+   *  contact of a partially supported node (cosine of 10 degrees). */
   const double along_support = std::cos(radians(10.));
 
-  /** Potential contact node: a node that may be in contact with an obstacle or
-   *  another body in a step. */
+  /** Potential contact node, which may be in contact with an obstacle or another
+   *  body in a step. */
   struct ContactNode
   {
     unsigned int node; ///< local number, owned or ghost
 
-    /** Number of the obstacle, or of the contact pair; pairs are numbered after
-     *  obstacles. */
+    /** Number of the obstacle or contact pair. Contact pairs are numbered after
+     *  the obstacles. */
     unsigned int           obstacle;
     dealii::Tensor<1, dim> normal; ///< out of the obstacle or other body
     dealii::Tensor<1, dim> arm;    ///< from the obstacle's centre (m)
 
-    /** Tangential unit vectors along which the node can slide: orthogonal to the
-     *  normal and to each other, in free directions only. */
+    /** Orthonormal tangents of the contact surface along which the node can
+     *  slide, in free directions only. */
     std::array<dealii::Tensor<1, dim>, dim - 1> tangents;
     unsigned int                                n_tangents = 0;
 
     dealii::Tensor<1, dim>
       velocity; ///< of the obstacle or other body at the node (m/s)
 
-    /** A node of the other body, and its weight P_ij in the velocity of the other
-     *  body at the contact node. */
+    /** Node j of the other body, with the weight P_ij of its velocity at contact
+     *  node i. */
     struct Partner
     {
       unsigned int node; ///< local number, owned or ghost
@@ -65,25 +64,26 @@ namespace geocone::GEOCONE_DIM
     };
     std::vector<Partner> partners; ///< empty for obstacles
 
-    /** Whether the contact node and the node of the other body coincide, as nodes
-     *  of two layers of the mesh; supports then act on both in the same way. */
+    /** True if the contact node coincides with the node of the other body. Both
+     *  are then nodes of two layers of the mesh, and supports act on both in the
+     *  same way. */
     bool is_twin = false;
 
     double length = 0.; ///< tributary length of the boundary (m), or 0
 
-    /** Lower bound of the relative normal velocity u_N (m/s): -g/h for a gap g, or
-     *  -e times the initial u_N, with the coefficient of restitution e, if the node
-     *  rebounds. */
+    /** Lower bound of the relative normal velocity u_N (m/s). The bound is -g/h
+     *  for a gap g, or -e times the initial u_N if the node rebounds with a
+     *  coefficient of restitution e. */
     double least    = 0.;
     bool   rebounds = false; ///< whether the node rebounds (e > 0)
 
-    /** Initial relative normal velocity u_N of a node that impacts and rebounds in
-     *  this step (m/s). */
+    /** Relative normal velocity u_N before impact of a node that rebounds in this
+     *  step (m/s). */
     double impact = 0.;
 
-    /** Matrix that selects the share of this contact in the force of a corner node,
-     *  which has two contacts with normals n and m: n k' with k.n = 1, k.m = 0;
-     *  otherwise the identity. */
+    /** Matrix that extracts the share of this contact from the total force of a
+     *  corner node. For contact normals n and m the matrix is n k' with k.n = 1,
+     *  k.m = 0; for nodes with a single contact it is the identity. */
     dealii::Tensor<2, dim> share =
       dealii::Tensor<2, dim>(dealii::unit_symmetric_tensor<dim>());
     bool is_corner = false;
@@ -102,9 +102,10 @@ namespace geocone::GEOCONE_DIM
     double tension  = 0.; ///< tensile strength, if initially closed (N/m)
   };
 
-  /** A node of the first body of a contact pair that may come into contact with the
-   *  other body, with the gap and, for body-fitted meshes, the size of adjacent
-   *  faces (m). Members of ContactNode that depend on the step are not set. */
+  /** A node of the first body of a contact pair that may come into contact with
+   *  the other body. Includes the gap and, for body-fitted meshes, the size of
+   *  adjacent faces (m). Members of ContactNode that depend on the step are not
+   *  set. */
   struct FacingNode
   {
     ContactNode node;
@@ -115,8 +116,8 @@ namespace geocone::GEOCONE_DIM
   /** Potential contacts of a step. */
   struct ContactStep
   {
-    /** Contact nodes of this rank, with ghosts. A corner node has two
-     *  consecutive entries with non-parallel normals, the nearer contact
+    /** Potential contact nodes of this rank, including ghosts. A corner node has
+     *  two consecutive entries with non-parallel normals, the nearer contact
      *  first. */
     std::vector<ContactNode>  nodes;
     std::vector<ObstacleBody> bodies; ///< obstacles
@@ -179,14 +180,14 @@ namespace geocone::GEOCONE_DIM
     void
     begin_step(ContactStep step);
 
-    /** Couplings of contact nodes with nodes of other bodies in the Jacobian: lists
-     *  of a contact node, followed by its partners. */
+    /** Groups of nodes that contact between bodies couples in the Jacobian. Each
+     *  group is a contact node, followed by its partners. */
     std::vector<std::vector<unsigned int>>
     links() const;
 
     /**
-     * Replaces the forces r in the rows of contact nodes by the contact equations
-     * F, and stores both. Collective.
+     * Replaces the residual rows of contact nodes by the contact equations F. Forces
+     * r and residuals F are stored. Collective.
      * @param[in,out] residual in owned rows
      * @param scale the diagonal of the elastic Jacobian (kg/(m s))
      * @param with_friction whether friction is included
@@ -199,14 +200,16 @@ namespace geocone::GEOCONE_DIM
             const bool    with_friction,
             const bool    holds);
 
-    /** Transforms the rows of contact nodes in the Jacobian by A and B of the last
-     *  replace(). Collective if obstacles are free.
+    /** Replaces the Jacobian rows of contact nodes by the linearised contact
+     *  equations. The matrices A and B are from the last replace(). Collective if
+     *  obstacles are free.
      *  @return low-rank contribution of free obstacles */
     LowRank
     linearise(const JacobianPattern &pattern, SparseMatrix &matrix) const;
 
-    /** Transforms a Jacobian-vector product by A and B of the last replace():
-     *  dst = A dst + B dv, in owned rows. Collective. @param dv with its ghosts */
+    /** Computes dst = A dst + B dv in owned rows, where dst is the product of the
+     *  Jacobian and dv. The matrices A and B are from the last replace().
+     *  Collective. @param dv with its ghosts */
     void
     apply_tangent(Vector &dst, const Vector &dv) const;
 
@@ -250,14 +253,14 @@ namespace geocone::GEOCONE_DIM
 
     /** @name Functions for ContactDirection */
     /** @{ */
-    /** Selects the owned nodes that are in contact at the last replace(), or so
-     *  close to contact that the largest contact force could close them.
-     *  Collective. */
+    /** Selects the owned nodes that are in contact at the last replace() or close
+     *  to contact. A node is close to contact if the largest contact force could
+     *  close its gap. Collective. */
     std::vector<unsigned int>
     choose(const MPI_Comm comm) const;
 
-    /** Replaces dF by dr + rho du in linearise() for the chosen nodes, and fixes the
-     *  motions of the obstacles. Collective. */
+    /** Replaces the linearised contact equations of the chosen nodes by dr + rho
+     *  du in linearise(). The motions of the obstacles are fixed. Collective. */
     void
     relax(const std::vector<unsigned int> &chosen);
 
@@ -267,8 +270,8 @@ namespace geocone::GEOCONE_DIM
       return dim * node.node < row_A[0].locally_owned_size();
     }
 
-    /** Adds a change to the initial guess of the velocities of free obstacles for
-     *  the next replace(). */
+    /** Adds a correction to the initial guess of the velocities of free obstacles
+     *  in the next replace(). */
     void
     change_motions(const Eigen::VectorXd &change)
     {
@@ -276,7 +279,7 @@ namespace geocone::GEOCONE_DIM
     }
 
     /** Calls f(number, G) for each free motion of the obstacle in contact with a
-     *  node; G is the velocity of the node due to a unit motion. */
+     *  node. G is the velocity of the node due to a unit motion. */
     template <typename Function>
     void
     for_motions_of(const ContactNode &node, const Function &f) const
@@ -295,16 +298,16 @@ namespace geocone::GEOCONE_DIM
       return list;
     }
 
-    /** Contact states in the order of nodes(); undefined for nodes that are not
-     *  owned. */
+    /** Contact forces and states, in the order of nodes(). Undefined for nodes
+     *  that are not owned. */
     const std::vector<Touch> &
     touches() const
     {
       return touch;
     }
 
-    /** Whether contact i carries a force, or can carry tension because it was
-     *  initially closed. */
+    /** Returns true if contact i is closed or can carry tension. Tension requires
+     *  that the contact was initially closed. */
     bool
     carries_load(const unsigned int i) const
     {
@@ -312,18 +315,18 @@ namespace geocone::GEOCONE_DIM
     }
 
     /** Features of the contact problem that determine the solution strategy,
-     *  combined over all ranks. Collective. */
+     *  reduced over all ranks. Collective. */
     ContactTraits
     traits(const MPI_Comm comm) const;
 
-    /** Motions (velocities) of the obstacles at the last replace(). */
+    /** Velocities of the obstacles at the last call of replace(). */
     const ObstacleMotions &
     motions() const
     {
       return obstacles;
     }
 
-    /** Component of a vector in the free directions of a node. */
+    /** Projects a vector onto the free directions of a node. */
     dealii::Tensor<1, dim>
     free_part(const dealii::Tensor<1, dim> &x, const unsigned int node) const;
 
@@ -331,27 +334,27 @@ namespace geocone::GEOCONE_DIM
     using Force  = dealii::Tensor<1, dim>;
     using Matrix = dealii::Tensor<2, dim>;
 
-    /** Force r, velocity v and rho of an owned node, as input of replace(); free
-     *  directions only. */
+    /** Contact force r, velocity v and parameter rho of an owned node, as input
+     *  of replace(). Free directions only. */
     struct Local
     {
       Force  r, v;
       double rho = 0.;
     };
 
-    /** Augmentation parameter rho of a contact node (kg/(m s)): d_i, or for a pair
-     *  1/rho = 1/d_i + sum P_ij^2/d_j, where d is the mean of
+    /** Augmentation parameter rho of a contact node (kg/(m s)). For obstacles rho
+     *  = d_i, for a pair 1/rho = 1/d_i + sum P_ij^2/d_j, where d is the mean of
      *  IncrementalProblem::scale() at a node. The lighter body dominates,
      *  whichever of the two it is. */
     double
     rho_of(const ContactNode &node, const Vector &scale) const;
 
-    /** Velocity of a node in its free directions. */
+    /** Projects the velocity of a node onto the free directions of the node. */
     Force
     free_part(const Vector &v, const unsigned int node) const;
 
-    /** Velocity of the other body at a contact node, in the free directions of the
-     *  contact node. @param v with ghosts */
+    /** Velocity of the other body at a contact node, projected onto the free
+     *  directions of the node. @param v with ghosts */
     Force
     velocity_of_partners(const ContactNode &node, const Vector &v) const;
 
@@ -359,27 +362,28 @@ namespace geocone::GEOCONE_DIM
     unsigned int
     n_free(const unsigned int node) const;
 
-    /** Computes the tangents of a contact node whose normal lies in the free
+    /** Computes the tangents of a contact node. The normal must lie in the free
      *  directions. */
     void
     make_tangents(ContactNode &node) const;
 
-    /** Turns two contacts of the same node, with non-parallel normals, into the
-     *  contacts of a corner node. */
+    /** Combines two contacts of a node with non-parallel normals into a corner
+     *  contact. */
     static void
     make_corner(ContactNode &a, ContactNode &b);
 
-    /** Adds the forces P' r to the residual rows of the other bodies' nodes.
-     *  Collective. */
+    /** Adds the contact forces P' r to the residual rows of the partner nodes on
+     *  other bodies. Collective. */
     void
     load_partners(Vector &residual) const;
 
-    /** Adds P' times the Jacobian rows of contact nodes to the rows of the other
-     *  bodies' nodes. */
+    /** Adds the Jacobian rows of contact nodes, multiplied by P', to the rows of
+     *  their partners on other bodies. */
     void
     add_rows_to_partners(SparseMatrix &matrix) const;
 
-    /** Projected force q of a node, F = r - q, and the derivative Q = dq/dp. */
+    /** Projected contact force q of a node, residual F = r - q, and derivative Q
+     *  = dq/dp. */
     struct Projection
     {
       Force  q, F;
@@ -391,16 +395,18 @@ namespace geocone::GEOCONE_DIM
             const Local       &at,
             const Force       &velocity) const;
 
-    /** Sums of G' q, of rho G' Q G and of magnitudes over the nodes of each
-     *  obstacle, for the current motion of the obstacle. Collective. */
+    /** Sums G' q, rho G' Q G and the force magnitudes over the contact nodes of
+     *  each obstacle. The sums are evaluated at the current motion of the
+     *  obstacle. Collective. */
     std::vector<double>
     sums_of_nodes(const std::vector<Local> &locals, const MPI_Comm comm) const;
 
-    /** Multiplies the Jacobian rows of a contact node by A. */
+    /** Multiplies the Jacobian rows of a contact node by the matrix A of the
+     *  linearised contact law. */
     void
     combine_rows(const unsigned int node, SparseMatrix &matrix) const;
 
-    /** Low-rank contribution of free obstacles to the Jacobian.
+    /** Computes the low-rank contribution of free obstacles to the Jacobian.
      *  @param matrix before linearise() */
     LowRank
     low_rank(const SparseMatrix &matrix) const;

@@ -6,7 +6,7 @@
 
 namespace geocone
 {
-  /** Features of a step's contact problem that determine the solution
+  /** Features of the contact problem in a step that determine the solution
    *  strategy. */
   struct ContactTraits
   {

@@ -8,13 +8,13 @@
 
 namespace geocone
 {
-  /** Low-rank contribution U W' to a Jacobian; the rows of U and W are the owned
+  /** Low-rank contribution U W' to a Jacobian. The rows of U and W are the owned
    *  free dofs. */
   struct LowRank
   {
     Eigen::MatrixXd U, W;
 
-    /** Rank of U W', i.e. number of columns of U and W; the same on all ranks. */
+    /** Rank of U W', i.e. number of columns of U and W. The same on all ranks. */
     unsigned int
     rank() const
     {

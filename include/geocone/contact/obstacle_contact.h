@@ -25,16 +25,16 @@ namespace geocone::GEOCONE_DIM
     unsigned int open = 0, stick = 0, slip = 0; ///< numbers of nodes
     double       error       = 0.; ///< largest |F| / sum of (|r| + rho |u|)
     double       penetration = 0.; ///< maximum penetration (m)
-    /** For body-fitted meshes: width of closed and of sticking contact (m), and
-     *  maximum contact pressure and shear traction (Pa). */
+    /** Width of closed and of sticking contact (m), maximum contact pressure and
+     *  shear traction (Pa). For body-fitted meshes only. */
     double width = 0., stick_width = 0., pressure = 0., shear = 0.;
     double work        = 0.; ///< work of contact forces on the body (J/m)
     double dissipation = 0.; ///< dissipation by friction and impact (J/m)
 
     /** Correction of the work of impact forces on rebounding nodes (J/m, not
-     *  positive): work computed with the mean of the velocities before and after
-     *  impact, minus work computed with the final velocity, which `work` and
-     *  `dissipation` include. */
+     *  positive). It is the work computed with the mean of the velocities before
+     *  and after impact, minus the work computed with the final velocity, which
+     *  `work` and `dissipation` include. */
     double of_rebound = 0.;
 
     void
@@ -62,11 +62,10 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Moving obstacles of a scene, and the nodes that may come into contact with
-   * obstacles or other bodies. In a body-fitted mesh these are boundary nodes,
-   * with the gap at their current position. In a background mesh they are the
-   * nodes in or on the obstacle, with the gap of the nearest particle that they
-   * move.
+   * Moving obstacles of a scene and potential contact nodes, with obstacles or
+   * between bodies. In a body-fitted mesh these are boundary nodes, with the gap at
+   * their current position. In a background mesh they are the nodes in or on the
+   * obstacle, with the gap of the nearest particle that they move.
    */
   class ObstacleContact
   {
@@ -81,15 +80,15 @@ namespace geocone::GEOCONE_DIM
                     const Unknowns       *supports);
 
     /**
-     * Replaces the cells of the body in a body-fitted mesh, and hence its boundary.
-     * New nodes of the body have zero displacement. Collective.
+     * Redefines the cells of the body in a body-fitted mesh, and hence the boundary
+     * of the body. New nodes of the body have zero displacement. Collective.
      * @param cells of the body on this rank
      * @throws InputError if an obstacle overlaps with the cells
      */
     void
     take_body(const std::vector<BackgroundMesh::Cell> &cells);
 
-    /** Whether the scene has obstacles, or contacts between bodies. */
+    /** Returns true if the scene contains obstacles or contacts between bodies. */
     bool
     exists() const
     {
@@ -97,7 +96,7 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * Determines the potential contact nodes, and the motions of the obstacles, in a
+     * Determines the potential contact nodes and the motions of the obstacles in a
      * step from t to t + h.
      * @param velocity_n at t_n, with ghosts
      * @param solved_h time increment of the solution: theta h by the
@@ -116,20 +115,22 @@ namespace geocone::GEOCONE_DIM
           const std::vector<Vector> &gaps   = {},
           std::vector<FacingNode>    facing = {}) const;
 
-    /** Computes the contact statistics of a step, before commit(). Collective. */
+    /** Computes the contact statistics of a step. To be called before commit().
+     *  Collective. */
     ContactReport
     report(const Contact &contact, const Vector &v, const double h) const;
 
-    /** Resultant contact forces on the body: of each obstacle, then, for each
-     *  contact between bodies, of the other body on the first one. Moments are about
-     *  the given centre, the centre of the obstacle, or the origin. Collective. */
+    /** Resultant contact forces on the body, first of all obstacles, then of all
+     *  contacts between bodies. For contacts between bodies, the force acts on
+     *  the first body. Moments are about the given centre, the centre of the
+     *  obstacle, or the origin. Collective. */
     std::vector<Reaction>
     reactions(const Contact &contact) const;
 
-    /** Adds the displacements in a step to @p supports: of each obstacle, then, for
-     *  each contact between bodies, of the first body relative to the other one,
-     *  averaged over active contact nodes.
-     *  Collective. @param first index of the first obstacle in @p supports */
+    /** Adds the displacement increments of a step to @p supports. They are the
+     *  displacements of each obstacle, then, for each contact between bodies, of
+     *  the first body relative to the other one, averaged over active contact
+     *  nodes. Collective. @param first index of the first obstacle in @p supports */
     void
     add_displacements(const Contact                       &contact,
                       const Vector                        &v,
@@ -138,9 +139,9 @@ namespace geocone::GEOCONE_DIM
                       std::vector<dealii::Tensor<1, dim>> &supports) const;
 
     /**
-     * Limits the final velocity of contact nodes relative to the obstacle, for
-     * the theta-scheme: nodes in contact retain the velocity at theta if the
-     * extrapolated one is larger. Otherwise they would rebound in each step,
+     * Limits the velocity of contact nodes relative to the obstacle at the end of a
+     * step of the theta-scheme. Nodes in contact retain the velocity at theta if the
+     * extrapolated velocity is larger. Otherwise they would rebound in each step,
      * with alternating forces.
      * @param unknowns prescribed dofs do not change @param v velocity at theta
      * @param mass of the nodes @param[in,out] v_end
@@ -153,8 +154,8 @@ namespace geocone::GEOCONE_DIM
            const Vector   &mass,
            Vector         &v_end) const;
 
-    /** Accepts the velocities of a step, and moves the obstacles and, in a
-     *  body-fitted mesh, the nodes.
+    /** Accepts the velocities of a step and moves the obstacles. In a body-fitted
+     *  mesh, the nodes are moved as well.
      *  @param moves whether to change positions, in addition to velocities
      *  @throws StepFailure if an obstacle penetrates supported nodes.
      *  Collective. */
@@ -165,15 +166,15 @@ namespace geocone::GEOCONE_DIM
            const double   solved_h,
            const bool     moves);
 
-    /** Distance up to which the boundaries of two obstacles are considered
-     *  continuous (m), see Neighbours. */
+    /** Distance (m) below which the boundaries of two obstacles are treated as
+     *  continuous, see Neighbours. */
     double
     margin() const
     {
       return meeting * size;
     }
 
-    /** Displacements of the obstacles since the beginning of the run. */
+    /** Displacements of the obstacles since the start of the run. */
     const std::vector<RigidMotion> &
     moved() const
     {
@@ -194,14 +195,14 @@ namespace geocone::GEOCONE_DIM
       return path;
     }
 
-    /** Whether some interface has tensile strength, so that contacts can carry
-     *  tension. */
+    /** Returns true if any interface has tensile strength, so that contacts can
+     *  carry tension. */
     bool
     has_bonds() const;
 
-    /** Bonds of nodes, stored at the node's first dof: 0, or one plus the number of
-     *  the contact at the end of the last step. Without bonds, tension would depend
-     *  on the second-order error of the gap to a rotating obstacle. */
+    /** Bond of each node: 0, or one plus the number of its contact at the end of
+     *  the last step. Stored at the first dof of the node. Without bonds, tension
+     *  would depend on the second-order error of the gap to a rotating obstacle. */
     Vector &
     bonds_of_nodes()
     {
@@ -222,14 +223,14 @@ namespace geocone::GEOCONE_DIM
     void
     check_overlap(const std::vector<unsigned int> &nodes) const;
 
-    /** Whether boundary conditions prescribe the velocity of a node along a given
-     *  normal. */
+    /** Returns true if boundary conditions prescribe the velocity of a node along
+     *  a given normal. */
     bool
     is_held(const unsigned int            node,
             const dealii::Tensor<1, dim> &normal) const;
 
-    /** Current position of a node in a body-fitted mesh, or fixed position of a
-     *  node in a background mesh. */
+    /** Position of a node: current position in a body-fitted mesh, fixed position
+     *  in a background mesh. */
     dealii::Point<dim>
     place(const unsigned int node) const;
 
@@ -241,21 +242,22 @@ namespace geocone::GEOCONE_DIM
              displacement[obstacle].centre;
     }
 
-    /** A potential contact of a node, and its gap (m). */
+    /** A potential contact of a node and its gap (m). */
     struct Near
     {
       ContactNode contact;
       double      gap;
       double      reach; ///< largest gap that the step can close (m)
     };
-    /** Largest gap that a step can close (Near::reach, in m).
+    /** Largest gap that can close during a step (m), see Near::reach.
      *  @param u_n relative normal velocity at the beginning of the step h */
     double
     reach(const double h, const double u_n) const;
 
     using NearBodies = std::map<unsigned int, Near>; ///< by node
 
-    /** Distance and normal of the part of an obstacle's boundary nearest to a node.
+    /** Finds the boundary part of an obstacle nearest to a node, with distance and
+     *  normal.
      *  @param approach displacement of the obstacle relative to the node (m) */
     Obstacle::Nearest
     nearest(const unsigned int            obstacle,
@@ -263,15 +265,15 @@ namespace geocone::GEOCONE_DIM
             const dealii::Tensor<1, dim> &approach,
             const Neighbours             &others) const;
 
-    /** Checks that no obstacle has penetrated supported nodes of a body-fitted mesh
-     *  in a step; such penetration causes no contact force. Collective.
+    /** Checks that no obstacle has penetrated a supported node of a body-fitted mesh
+     *  in a step. Such penetration causes no contact force. Collective.
      *  @throws StepFailure if an obstacle has penetrated a node that is supported
      *  along the contact normal */
     void
     check_held(const Contact &contact, const Vector &v, const double h) const;
 
-    /** Appends the potential contact nodes with obstacles and other bodies to the
-     *  step. Collective. */
+    /** Appends all potential contacts of nodes with obstacles and other bodies to
+     *  the step. Collective. */
     void
     add_nodes(const Vector              &velocity_n,
               const double               h,
@@ -279,8 +281,8 @@ namespace geocone::GEOCONE_DIM
               const NearBodies          &bodies,
               ContactStep               &step) const;
 
-    /** Appends the nearest potential contact of a node and, if a second contact with
-     *  another normal can also close, the second one.
+    /** Appends the nearest potential contact of a node to the step. A second contact
+     *  is appended if it has another normal and can also close.
      *  @param[in,out] refusal reason if that is impossible */
     void
     add_nearest(std::vector<Near> &near,
@@ -292,7 +294,7 @@ namespace geocone::GEOCONE_DIM
     std::vector<FacingNode>
     find_facing(const Vector &velocity_n, const double h) const;
 
-    /** Potential contacts of nodes with other bodies, by node. */
+    /** Finds the potential contacts of nodes with other bodies. */
     NearBodies
     near_bodies(const Vector                  &velocity_n,
                 const double                   h,
@@ -303,7 +305,7 @@ namespace geocone::GEOCONE_DIM
     void
     apply_law(const InterfaceLaw &law, ContactNode &node) const;
 
-    /** Contact force on a node, without the component carried by supports (N/m). */
+    /** Contact force on a node, without components carried by supports (N/m). */
     static dealii::Tensor<1, dim>
     force(const Contact &contact, const unsigned int i);
 

@@ -18,8 +18,8 @@ namespace geocone::GEOCONE_DIM
   /** Prescribed and free rigid motions of an obstacle in a step. */
   struct ObstacleBody
   {
-    /** Velocity y_0 of the obstacle at the end of the step without contact
-     *  forces. */
+    /** Velocity y_0 of the obstacle at the end of the step in the absence of
+     *  contact forces. */
     RigidMotion without_contact;
 
     std::array<bool, RigidMotion::n_components> is_free = {};
@@ -51,8 +51,9 @@ namespace geocone::GEOCONE_DIM
     void
     begin_step(std::vector<ObstacleBody> bodies);
 
-    /** Returns, for each obstacle in turn, sum G' q, sum rho G' Q G by rows, and the
-     *  sum of magnitudes, at the current motions; summed over all ranks. */
+    /** Function that sums contact quantities over the nodes of each obstacle. It
+     *  returns, for each obstacle in turn, sum G' q, sum rho G' Q G by rows, and
+     *  the sum of magnitudes, at the current motions; summed over all ranks. */
     using Sums = std::function<std::vector<double>()>;
     static constexpr unsigned int n_sums =
       n_motions + n_motions * n_motions + 1;
@@ -74,7 +75,7 @@ namespace geocone::GEOCONE_DIM
       return bodies[obstacle].n_free() > 0;
     }
 
-    /** Whether a load acts along a free motion of any obstacle. */
+    /** Returns true if a load acts along a free motion of any obstacle. */
     bool
     are_loaded() const;
 
@@ -91,7 +92,7 @@ namespace geocone::GEOCONE_DIM
       return motion;
     }
 
-    /** Mobility matrix E^-1 of an obstacle; zero for driven motions. */
+    /** Mobility matrix E^-1 of an obstacle. Zero for driven motions. */
     const Matrix &
     mobility(const unsigned int obstacle) const
     {
@@ -105,7 +106,7 @@ namespace geocone::GEOCONE_DIM
       return lack_of_all;
     }
 
-    /** Calls f(motion, number) for each free motion of an obstacle. */
+    /** Calls f(motion, number) for each free rigid-body motion of an obstacle. */
     template <typename Function>
     void
     for_free(const unsigned int obstacle, const Function &f) const
@@ -116,13 +117,13 @@ namespace geocone::GEOCONE_DIM
           f(k, number++);
     }
 
-    /** Computes M/h of the free motions, and the out-of-balance forces without
-     *  contact, M/h (y - y_0). */
+    /** Computes M/h of the free motions and the out-of-balance forces M/h (y -
+     *  y_0). Contact forces are not included. */
     void
     balance(Eigen::VectorXd &inertia, Eigen::VectorXd &lack) const;
 
-    /** Kinetic energy y'M y/2 of the free motions, and the work y'M (y - y_n) done
-     *  on them, both divided by h (W/m). */
+    /** Kinetic energy y'M y/2 of the free motions of all obstacles, and work y'M
+     *  (y - y_n) done on these motions, both divided by h (W/m). */
     struct Kinetic
     {
       double change = 0., energy = 0.;
@@ -130,7 +131,7 @@ namespace geocone::GEOCONE_DIM
     Kinetic
     kinetic() const;
 
-    /** Adds a change to the initial guess of the free velocities in the next
+    /** Adds a correction to the initial guess of the free velocities in the next
      *  find(). */
     void
     change(const Eigen::VectorXd &by);

@@ -15,9 +15,10 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Gap between each obstacle and the nearest particle moved by a node (m), stored
-   * at the node's first dof, for ObstacleContact::begin(). A particle is a square
-   * with the particle's volume. Collective.
+   * Computes the gap between each obstacle and the nearest particle moved by each
+   * node (m). Gaps are stored at the first dof of the node, for
+   * ObstacleContact::begin(). A particle is a square with the particle's volume.
+   * Collective.
    *
    * If another obstacle continues the surface of an obstacle, the particles in
    * front of both are included.
@@ -59,8 +60,9 @@ namespace geocone::GEOCONE_DIM
                    const Space          &space);
 
     /**
-     * Finds the potential contact nodes of the first body of each contact, owned or
-     * ghost; at each position, only the nodes of the nearest pair. Collective.
+     * Finds the potential contact nodes of the first body of each contact pair,
+     * owned or ghost. At each position, only the nodes of the nearest pair are
+     * selected. Collective.
      * @param unknowns determine which nodes have mass
      * @throws StepFailure if three bodies meet at one position, or if the
      * displacement of a body with fixed quadrature points is too large
@@ -68,8 +70,8 @@ namespace geocone::GEOCONE_DIM
     std::vector<FacingNode>
     find(const MaterialPoints &points, const Unknowns &unknowns) const;
 
-    /** Checks that particles of two bodies do not overlap in the initial state.
-     *  Collective. @throws InputError if particles overlap */
+    /** Checks that particles of different bodies do not overlap in the initial
+     *  state. Collective. @throws InputError if particles overlap */
     void
     check_start(const MaterialPoints &points, const Unknowns &unknowns) const;
 
@@ -81,7 +83,8 @@ namespace geocone::GEOCONE_DIM
       unsigned int first, other; ///< layers of both bodies
     };
 
-    /** A particle in the support of a pair's nodes at a position. */
+    /** A particle in the support of the shape functions of two coincident nodes,
+     *  one of each body. */
     struct Share
     {
       unsigned int       place;    ///< number of the position
@@ -90,19 +93,21 @@ namespace geocone::GEOCONE_DIM
       double             half; ///< half the side of the particle's square (m)
     };
 
-    /** Lists the particles in the support of a pair's nodes, for each position at
-     *  which the nodes of both bodies have mass. */
+    /** Lists the particles in the support of each pair of coincident nodes that
+     *  both have mass. */
     std::vector<Share>
     shares_of(const Pair           &pair,
               const MaterialPoints &points,
               const Unknowns       &unknowns) const;
 
-    /** Contact normals by position; zero if no plane separates the bodies. Each rank
-     *  receives the corners of all convex hulls, which are few. Collective. */
+    /** Computes the contact normal at each pair of coincident nodes. Zero if no
+     *  plane separates the bodies. Each rank receives the corners of all convex
+     *  hulls, which are few. Collective. */
     std::vector<dealii::Tensor<1, dim>>
     normals(const Pair &pair, const std::vector<Share> &shares) const;
 
-    /** Gaps by position, measured along the normals (m). Collective. */
+    /** Computes the gap along the contact normal at each pair of coincident nodes
+     *  (m). Collective. */
     std::vector<double>
     gaps(const Pair                                &pair,
          const std::vector<Share>                  &shares,
@@ -119,8 +124,8 @@ namespace geocone::GEOCONE_DIM
 
     std::vector<Pair> pairs;
 
-    /** Local nodes of the layers by position; and position and layer by local
-     *  node (index_of, layer_of). */
+    /** Local nodes of the mesh layers, by position. The arrays index_of and
+     *  layer_of contain the position and the layer of each local node. */
     std::vector<std::vector<unsigned int>> nodes;
     std::vector<unsigned int>              index_of, layer_of;
   };
