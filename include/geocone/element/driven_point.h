@@ -20,9 +20,9 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Material point driven by prescribed strains and stresses, with accumulated
-   * strains and statistics of the increments. The material is the first of
-   * "Materials/Names".
+   * Material point driven by prescribed strains and stresses. Stores
+   * accumulated strains and statistics of the increments. The material is the
+   * first of "Materials/Names".
    */
   class DrivenPoint : public dealii::ParameterAcceptor
   {
@@ -39,28 +39,31 @@ namespace geocone::GEOCONE_DIM
     std::unique_ptr<ElementPoint>
     initial_point(std::string &changed) const;
 
-    /** Resets the point to the initial state and the statistics to zero. */
+    /** Resets the material point to the initial state and the statistics to
+     *  zero. */
     void
     restart();
 
-    /** Begins a stage with the given control at f = 0.
+    /** Begins a loading stage with given strain or stress control of each
+     *  component. The fraction f of the stage is 0.
      *  @param goes_on whether strains of the previous control are the initial
      *  guess */
     void
     begin(const ElementControl &control, const bool goes_on = false);
 
-    /** Advances the fraction f of the stage to a value, in subincrements if
-     *  necessary.
+    /** Advances the loading to the fraction @p to of the stage, in
+     *  subincrements if necessary.
      *  @param stage name for error messages. @throws StepFailure */
     void
     follow(const double to, const std::string &stage);
 
-    /** Record of the current state. @param stage number from 1; 0: initial
-     *  state */
+    /** Returns the record of the current state for path.csv. @param stage
+     *  number from 1; 0: initial state */
     ElementRecord
     record(const unsigned int stage) const;
 
-    /** Component with the largest strain range (maximum minus minimum). */
+    /** Index of the strain component with the largest range (maximum minus
+     *  minimum). */
     unsigned int
     main_component() const;
 

@@ -13,7 +13,7 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Output folder of an element test: path.csv, surfaces.csv, summary.json.
+  /** Output files of an element test: path.csv, surfaces.csv, summary.json.
    *  Records are not stored, because a test can have millions of increments. */
   class ElementOutput : public OutputBase
   {
@@ -25,11 +25,11 @@ namespace geocone::GEOCONE_DIM
     void
     add_columns(const ElementPoint &point, const double volume);
 
-    /** Creates the output folder. @throws InputError */
+    /** Creates the output folder of the element test. @throws InputError */
     void
     prepare(const RunOptions &options);
 
-    /** Appends a line to path.csv. */
+    /** Appends a row to path.csv. */
     void
     add_line(const ElementRecord &record);
 
@@ -39,32 +39,32 @@ namespace geocone::GEOCONE_DIM
       return names;
     }
 
-    /** Last line of path.csv. */
+    /** Last row of path.csv. */
     const std::vector<double> &
     last_line() const
     {
       return last;
     }
 
-    /** Value of a column in the last line of path.csv. */
+    /** Value of a column in the last row of path.csv. */
     double
     value_of(const std::string &column) const;
 
-    /** Stores the last line of path.csv as the final state of a stage. */
+    /** Stores the last row of path.csv as the final state of a stage. */
     void
     end_stage(const std::string &name)
     {
       stages.emplace_back(name, last);
     }
 
-    /** Appends sections of the yield surfaces to surfaces.csv. @param state 0:
-     *  initial, 1: final */
+    /** Appends plane sections of the yield surfaces to surfaces.csv. @param
+     *  state 0: initial, 1: final */
     void
     add_yield_curves(const unsigned int             state,
                      const std::vector<YieldCurve> &curves);
 
-    /** Appends the states at the start, at the end of each stage and at the end
-     *  of the test to summary.json. */
+    /** Adds the initial state, the state at the end of each stage and the
+     *  final state to summary.json. */
     void
     add_states(Json &summary) const;
 

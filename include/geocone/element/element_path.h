@@ -17,8 +17,8 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Condition for ending a stage: "COLUMN <= NUMBER" or "COLUMN >= NUMBER" for
-   *  a column of path.csv. */
+  /** Condition for ending a stage early: "COLUMN <= NUMBER" or "COLUMN >=
+   *  NUMBER" for a column of path.csv. */
   struct StopCondition
   {
     std::size_t column  = 0;
@@ -27,9 +27,10 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Control of each component in a stage: strain-controlled with a total
-   * increment, or stress-controlled with a target. The fraction f of the stage
-   * increases from 0 to 1.
+   * Strain or stress control of each tensor component in a stage.
+   * Strain-controlled components have a total increment, stress-controlled
+   * components a target stress. The fraction f of the stage increases from 0 to
+   * 1.
    */
   struct ElementControl
   {
@@ -44,28 +45,30 @@ namespace geocone::GEOCONE_DIM
     }
   };
 
-  /** Stage of a loading path in an element test: parameters of the section
+  /** Stage of the loading path of an element test, defined in the section
    *  "Path/NAME". */
   class ElementStage : public dealii::ParameterAcceptor
   {
   public:
     explicit ElementStage(const std::string &name);
 
-    /** Checks the parameters against the stress components of the point and the
-     *  columns of path.csv. */
+    /** Checks that the parameters are consistent with the material point and
+     *  the columns of path.csv. */
     void
     prepare(const ElementPoint &point, const std::vector<std::string> &columns);
 
-    /** Control of the stage, starting from the current stress of the point. */
+    /** Returns the controlled strains and stresses of the stage, which
+     *  starts from the current stress of the point. */
     ElementControl
     control(const ElementPoint &point) const;
 
-    /** Values of the fraction f at the ends of all increments of the stage. */
+    /** Returns the fraction f of the stage (0 to 1) at the end of each
+     *  increment. */
     std::vector<double>
     positions() const;
 
-    /** Whether a line of path.csv fulfils the condition for ending the stage
-     *  early. */
+    /** Returns true if a row of path.csv fulfils the condition for ending
+     *  the stage early. */
     bool
     stops(const double *line) const;
 
@@ -96,7 +99,8 @@ namespace geocone::GEOCONE_DIM
                           {"undrained", Kind::undrained},
                           {"simple shear", Kind::simple_shear}}};
 
-    /** Axis of loading, in the order of the tensor components. */
+    /** Loading axis. The enumerators are in the order of the tensor
+     *  components. */
     enum class Axis
     {
       xx,
@@ -122,7 +126,7 @@ namespace geocone::GEOCONE_DIM
     std::array<std::string, 6> strain_texts, stress_texts;
   };
 
-  /** Sequence of the stages in "Path/Names", a loading path. */
+  /** Loading path: sequence of the stages listed in "Path/Names". */
   class ElementPath : public NamedList<ElementStage>
   {
   public:

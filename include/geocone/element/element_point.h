@@ -14,34 +14,34 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Names of the components of a Tensor6. */
+  /** Names of the six components of a symmetric tensor (Tensor6). */
   extern const std::array<const char *, 6> component_names;
 
-  /** Frobenius norm of a symmetric tensor (each shear component counts
-   *  twice). */
+  /** Frobenius norm of a symmetric tensor. Each shear component is included
+   *  twice. */
   double
   norm(const Tensor6 &x);
 
   /**
-   * Interface of a single material point with any constitutive law; tension
-   * positive. Trial increments start from the last accepted state, so that
-   * rejected trials have no effect.
+   * Interface of a single material point with an arbitrary constitutive law.
+   * Stresses and strains are positive in tension. Trial increments start from
+   * the last accepted state, so that rejected trials have no effect.
    */
   class ElementPoint
   {
   public:
     virtual ~ElementPoint() = default;
 
-    /** Whether a component can be controlled (in plane strain, out-of-plane
-     *  components cannot). */
+    /** Returns true if a tensor component can be controlled. In plane
+     *  strain, out-of-plane components cannot be controlled. */
     virtual bool
     has(const unsigned int component) const = 0;
 
-    /** Computes the stress after a trial strain increment (Pa). */
+    /** Computes the stress (Pa) after a trial strain increment. */
     virtual Tensor6
     try_strain(const Tensor6 &strain) = 0;
 
-    /** Accepts the state of the last trial. */
+    /** Accepts the state of the last trial increment. */
     virtual void
     accept() = 0;
 
@@ -49,7 +49,7 @@ namespace geocone::GEOCONE_DIM
     virtual Tensor6
     stress() const = 0;
 
-    /** Elastic modulus for scaling strains (Pa). */
+    /** Reference elastic modulus for scaling stresses to strains (Pa). */
     virtual double
     modulus() const = 0;
 
@@ -61,22 +61,23 @@ namespace geocone::GEOCONE_DIM
     values() const = 0;
     /** @} */
 
-    /** Plane sections of the yield surfaces for the accepted state. */
+    /** Computes plane sections of the yield surfaces at the accepted state. */
     virtual std::vector<YieldCurve>
     yield_curves(const SectionPlane &plane) const = 0;
 
-    /** Reads or writes the accepted state of a checkpoint. */
+    /** Saves or restores the accepted state in a checkpoint. */
     virtual void
     state(StateRow &row) = 0;
 
-    /** Statistics of the constitutive updates of all accepted trials. */
+    /** Statistics of the constitutive updates in all accepted strain
+     *  increments. */
     LawCounts counts;
 
   protected:
     LawCounts trial_counts; ///< statistics of the last trial
   };
 
-  /** Stress components that a material point has. */
+  /** Set of the stress components of a material point. */
   enum class StressComponents
   {
     automatic, ///< all, if supported by the law

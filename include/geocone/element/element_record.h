@@ -11,8 +11,8 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Record of an element test: state of the point at the start or after an
-   *  accepted increment. */
+  /** Record of an element test: state of the material point initially or
+   *  after an accepted increment. */
   struct ElementRecord
   {
     unsigned int        increment   = 0;
@@ -34,7 +34,7 @@ namespace geocone::GEOCONE_DIM
     deviatoric_strain() const;
   };
 
-  /** Columns of path.csv for a point.
+  /** Defines the columns of path.csv for a material point.
    *  @param volume initial specific volume (-) */
   StatisticsTable<ElementRecord>
   element_columns(const ElementPoint &point, const double volume);

@@ -59,7 +59,7 @@ namespace geocone::GEOCONE_DIM
     const char *
     components_of_point() const;
 
-    /** Appends the current state to path.csv. */
+    /** Appends the current state of the material point to path.csv. */
     void
     add_line(const unsigned int stage);
 

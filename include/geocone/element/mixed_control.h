@@ -23,7 +23,7 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Mixed stress and strain control of a material point: solves s(e) = target
+   * Mixed stress and strain control of a material point. Solves s(e) = target
    * for the strain increments of the stress-controlled components. Newton's
    * method with a finite-difference Jacobian, and step halving if the residual
    * does not decrease.
@@ -37,6 +37,7 @@ namespace geocone::GEOCONE_DIM
     prepare();
 
     /**
+     * Solves one increment for the unknown strain increments.
      * @param point material point; the last trial is the solution, to be
      * accepted by the caller
      * @param by_stress stress-controlled components
