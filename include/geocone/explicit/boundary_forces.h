@@ -14,16 +14,18 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Boundary forces in explicit steps: tractions T on boundary segments that
-   * move with the body, and dashpots on absorbing boundaries of the mesh
-   * (AbsorbingBoundary). A dashpot uses the mean velocity of the step,
+   * Boundary forces in explicit steps: surface tractions and the dashpots of
+   * absorbing boundaries. Tractions T act on boundary segments that move with
+   * the body, dashpots on absorbing boundaries of the mesh (AbsorbingBoundary).
+   * A dashpot uses the mean velocity of the step,
    *   m (v' - v)/dt = f + T + 2 C v_in - C (v + v')/2,
    * which is unconditionally stable. The nodes of MeshTransfer are used.
    */
   class BoundaryForces
   {
   public:
-    /** @throws InputError for sides that do not exist in the body or the mesh,
+    /** Collects the tractions and absorbing boundaries of the scene.
+     *  @throws InputError for sides that do not exist in the body or the mesh,
      *  and for oblique absorbing sides */
     BoundaryForces(const Scene          &scene,
                    const BackgroundMesh &mesh,
@@ -40,11 +42,13 @@ namespace geocone::GEOCONE_DIM
     void
     begin_step(const double t);
 
-    /** Adds the tractions to the nodal forces written by the points. */
+    /** Adds the surface tractions to the nodal forces scattered from the
+     *  points. */
     void
     add_tractions(GridTransfer &nodes) const;
 
-    /** Work and impulse of tractions and dashpots on this rank in a step. */
+    /** Work and impulse of tractions and dashpots during a step, on this
+     *  rank. */
     struct Done
     {
       double                 work = 0.; ///< (J/m)
@@ -52,8 +56,9 @@ namespace geocone::GEOCONE_DIM
     };
 
     /**
-     * Adds the dashpot forces to the complete nodal forces and computes the
-     * work from the velocities to be read by the points.
+     * Adds the dashpot forces of absorbing boundaries to the nodal forces,
+     * which must be complete. The work is computed from the nodal velocities
+     * gathered by the points.
      * @param least_mass nodes with this mass or less are skipped (kg/m)
      * @param is_held whether the velocity is prescribed, per node and component
      */
@@ -68,7 +73,8 @@ namespace geocone::GEOCONE_DIM
     void
     move(const GridTransfer &nodes, const double dt);
 
-    /** Reads or writes the positions of the segments of a checkpoint. */
+    /** Saves or restores the positions of the loaded boundary segments in a
+     *  checkpoint. */
     void
     state(StateRow &row)
     {

@@ -37,13 +37,13 @@ namespace geocone::GEOCONE_DIM
     /** Angular momentum about the axes through the origin (n_rotations). */
     dealii::Tensor<1, n_rotations> angular_momentum;
     dealii::Point<dim> lower, upper; ///< bounding box of positions (m)
-    /** Fronts of the body: positions x with 1 % and 99 % of the mass on the
-     *  left (m). */
+    /** Left and right front of the body: coordinates x with 1 % and 99 % of the
+     *  mass on their left (m). */
     double left_front = 0., right_front = 0.;
     double largest_speed = 0.; ///< (m/s)
 
-    /** Point with the largest elastic wave speed, which limits the time step:
-     *  number, position and wave speed. */
+    /** Number, position and wave speed of the point with the largest elastic wave
+     *  speed. This point limits the time step. */
     unsigned int       limiting_id = 0;
     dealii::Point<dim> limiting_place;
     double             limiting_wave_speed = 0.;
@@ -79,10 +79,10 @@ namespace geocone::GEOCONE_DIM
      *  (N/m). */
     double unbalanced_force = 0.;
 
-    /** Mean force and mean moment on the body per boundary condition. */
+    /** Mean reaction force and moment of each boundary condition on the body. */
     std::vector<Reaction> reactions;
 
-    /** Reads or writes the statistics of an incomplete step, without
+    /** Saves or restores the statistics of an interrupted step, except the
      *  reactions. */
     void
     state(StateRow &row)
@@ -92,8 +92,8 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Explicit material point method of the STSM report (section 2) with time
-   * steps limited by the elastic wave speed (Courant condition),
+   * Explicit material point method of the STSM report (section 2). The elastic
+   * wave speed limits the time step (Courant condition),
    *   dt = C h/(c + v),  c^2 = max M V/m,  v = max |v_p|.
    * With basis functions N at the start of the step and boundary conditions on
    * the sides of the grid, the three orders of operations are
@@ -124,8 +124,8 @@ namespace geocone::GEOCONE_DIM
     prepare(const Scene &scene, const Method &method);
 
     /**
-     * Begins a stage: resets displacements and other accumulated quantities,
-     * and selects the points to be removed.
+     * Begins a stage of the loading programme. Displacements and other accumulated
+     * quantities are reset, and the points to be removed are selected.
      * @return remarks
      * @throws StepFailure if the stage removes no point, or all points
      */
@@ -133,7 +133,8 @@ namespace geocone::GEOCONE_DIM
     begin_stage(const Stage &stage, const double t);
 
     /**
-     * Advances from t, or from the time of an interruption, to t + h.
+     * Advances the solution from t to t + h. An interrupted step is continued from
+     * the time of the interruption.
      * @throws Stopped, at the end of an explicit step
      * @throws StepFailure if points leave the grid, volumes vanish, values are
      * not finite, or a prescribed step is unstable
@@ -141,8 +142,8 @@ namespace geocone::GEOCONE_DIM
     ExplicitReport
     advance(const Stage &stage, const double t, const double h);
 
-    /** @throws StepFailure if a stage required to end in equilibrium does
-     *  not */
+    /** Checks that a stage required to end in equilibrium has reached equilibrium.
+     *  @throws StepFailure otherwise */
     void
     check_equilibrium(const Stage          &stage,
                       const ExplicitState  &state,
@@ -187,7 +188,7 @@ namespace geocone::GEOCONE_DIM
       return space.element();
     }
 
-    /** Order of operations by name: MUSL, USL or USF. */
+    /** Name of the order of operations: MUSL, USL or USF. */
     std::string
     order_name() const
     {
@@ -209,7 +210,7 @@ namespace geocone::GEOCONE_DIM
     std::size_t
     memory() const;
 
-    /** Wall time of the phases of the explicit steps (s). */
+    /** Wall time spent in each phase of the explicit steps (s). */
     struct Seconds
     {
       double passes = 0., grid = 0., exchange = 0., refresh = 0.;
@@ -220,8 +221,8 @@ namespace geocone::GEOCONE_DIM
       return clock;
     }
 
-    /** Number of explicit steps since the start, and number of point updates
-     *  (points times steps) of this rank. */
+    /** Number of explicit steps since the start, and number of point updates on
+     *  this rank (points times steps). */
     unsigned long n_steps       = 0;
     double        n_point_steps = 0.;
 
@@ -245,7 +246,7 @@ namespace geocone::GEOCONE_DIM
       usf
     };
 
-    /** Data scattered from the points to the nodes in a pass. */
+    /** Data scattered from the points to the nodes in one pass over the points. */
     enum class Gives
     {
       nothing,
@@ -258,21 +259,22 @@ namespace geocone::GEOCONE_DIM
     void
     check_parameters() const;
 
-    /** Creates the transfer and the points: on a uniform grid if possible and
-     *  without boundary forces, otherwise on a mesh. */
+    /** Creates the points and the transfer between points and grid. The grid is
+     *  uniform if possible and if there are no boundary forces, otherwise it is a
+     *  mesh. */
     void
     make_transfer(const Method &method, std::vector<std::string> &remarks);
 
-    /** Seeds the points on a uniform grid; each point is created on the rank
-     *  that owns its position. */
+    /** Seeds the points on a uniform grid. Each point is created on the rank that
+     *  owns its position. */
     void
     seed_columns(const CartesianGrid &grid, std::vector<std::string> &remarks);
 
-    /** Creates an empty group of points of a material. */
+    /** Creates an empty group of points with a given material. */
     PointArrays
     make_group(const unsigned int material) const;
 
-    /** Creates the points of this rank from the seeds. @param n number of
+    /** Creates the material points of this rank from the seeds. @param n number of
      *  points per material
      *  @param for_each calls a function for each seed of this rank */
     void
@@ -280,7 +282,7 @@ namespace geocone::GEOCONE_DIM
                 const std::function<void(const Seeding::Take &)> &for_each,
                 std::vector<std::string>                         &remarks);
 
-    /** Removes the points selected by a stage, or starts to ramp down their
+    /** Removes the points that a stage selects, or starts to ramp down their
      *  mass. */
     std::string
     remove_points(const Stage &stage, const double t);
@@ -291,13 +293,13 @@ namespace geocone::GEOCONE_DIM
     TransferBlock
     block(const unsigned int group, const unsigned int first);
 
-    /** Performs a pass over all points: gathers from the nodes, updates the
+    /** Performs one pass over all points: gathers from the nodes, updates the
      *  points and scatters to the nodes. */
     void
     pass(const Update update, const Gives gives, const double dt);
 
     /** Gathers velocities and strain increments from the nodes for a block of
-     *  points; updates stresses and positions. */
+     *  points. Stresses and positions are then updated. */
     void
     take(const Update update, const double dt, const TransferBlock &points);
     void
@@ -305,8 +307,8 @@ namespace geocone::GEOCONE_DIM
                const double         dt,
                const TransferBlock &points);
 
-    /** Updates the bounding box of the positions and treats points outside the
-     *  region of stored nodes. */
+    /** Updates the bounding box of the positions. Points outside the region of
+     *  stored nodes are treated by mend_positions(). */
     void
     bound_positions(const TransferBlock &points);
 
@@ -319,13 +321,14 @@ namespace geocone::GEOCONE_DIM
 
     /** @name B-bar */
     /** @{ */
-    /** Averages point values over the points of each cell, weighted by volume.
+    /** Averages point values over the points in each cell, weighted by volume.
      *  Collective. */
     void
     average_in_cells(
       const std::function<const double *(const TransferBlock &)> &values_at);
 
-    /** Computes BlockScratch::mean_stress at the points. */
+    /** Computes the mean stress at the points for B-bar integration
+     *  (BlockScratch::mean_stress). */
     void
     find_mean_stress(const TransferBlock &points);
     /** @} */
@@ -333,8 +336,8 @@ namespace geocone::GEOCONE_DIM
     /** @name Axisymmetry: hoop strain increment (the points may have moved in
      *  the pass) and force of the hoop stress */
     /** @{ */
-    /** Hoop strain rate v_r/r at a point of a block, from the gathered velocity
-     *  (1/s). */
+    /** Hoop strain rate v_r/r at a point of a block, computed from the gathered
+     *  velocity (1/s). */
     double
     hoop_rate(const unsigned int k, const double r) const;
 
@@ -346,8 +349,8 @@ namespace geocone::GEOCONE_DIM
     force_around_axis(const TransferBlock &points);
     /** @} */
 
-    /** Reduces mass and volume of the points of a block that are being removed
-     *  gradually. */
+    /** Reduces the mass and volume of points that are being removed gradually, in
+     *  one block of points. */
     void
     fade_points(const TransferBlock &points);
 
@@ -355,12 +358,13 @@ namespace geocone::GEOCONE_DIM
     std::string
     has_left(const PointArrays &group, const unsigned int p) const;
 
-    /** Treats points that have left the region of stored nodes. */
+    /** Corrects the positions of points outside the region of stored nodes, or
+     *  reports an error. */
     void
     mend_positions(const TransferBlock &points);
 
-    /** Whether the scene has tractions or absorbing boundaries, which require a
-     *  transfer on a mesh with boundary segments. */
+    /** Returns true if the scene has tractions or absorbing boundaries. Boundary
+     *  forces require a transfer on a mesh with boundary segments. */
     bool
     acts_on_sides() const;
 
@@ -385,12 +389,12 @@ namespace geocone::GEOCONE_DIM
     double
     current_mass() const;
 
-    /** Position x with the given mass on the left (m), searched between left
-     *  and right. */
+    /** Coordinate x with a given mass on its left (m). The search interval is
+     *  [left, right]. */
     double
     mass_quantile(const double wanted, double left, double right) const;
 
-    /** Critical time step, Courant number 1 (s). */
+    /** Critical time step (s), at a Courant number of 1. */
     double
     stability_limit() const;
 
@@ -402,13 +406,13 @@ namespace geocone::GEOCONE_DIM
     void
     stop_points();
 
-    /** Reduces the results of the last pass over all ranks and decides whether
-     *  a refresh is necessary. */
+    /** Reduces the results of the last pass over all ranks. Decides whether the
+     *  points must be sorted again (refresh). */
     void
     gather_sums();
 
-    /** Sets the mass of a point to zero and adds mass, momentum and energy to
-     *  the removed totals. */
+    /** Removes a point: sets its mass to zero and adds its mass, momentum and
+     *  energy to the removed totals. */
     void
     take_away(PointArrays &group, const unsigned int p);
 
@@ -419,7 +423,7 @@ namespace geocone::GEOCONE_DIM
     double
     kinetic_energy(const PointArrays &group, const unsigned int p) const;
 
-    /** Unit of a quantity in the scene, by Geometry::unit(). */
+    /** Unit of a quantity for the geometry of the scene, see Geometry::unit(). */
     std::string
     unit(const std::string &in_plane_strain) const
     {
@@ -483,21 +487,21 @@ namespace geocone::GEOCONE_DIM
     };
     Progress progress;
 
-    /** Values of a checkpoint for the points of this rank. Collective. */
+    /** Reads the values of the points on this rank from a checkpoint. Collective. */
     std::vector<double>
     points_of_rank(const Archive     &archive,
                    const std::string &name,
                    const std::size_t  size) const;
 
-    /** Reads or writes the checkpoint data other than points: per rank, and
-     *  common to all ranks. */
+    /** Saves or restores the checkpoint data of each rank, except the points.
+     *  Data common to all ranks are handled by state_of_all(). */
     void
     state_of_ranks(StateRow &row);
     void
     state_of_all(StateRow &row);
 
-    /** Kinetic damping: kinetic energy of the previous step, and whether the
-     *  energy increases. */
+    /** Kinetic energy of the previous step, for kinetic damping. The flag
+     *  `rising` is true while the energy increases. */
     double energy_n = 0.;
     bool   rising   = false;
 

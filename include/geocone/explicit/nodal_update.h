@@ -15,9 +15,9 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Momentum, energy and mass exchanged between the body and the environment:
-   * sums over all explicit steps since the start; global sums are returned by
-   * ExplicitMPM::exchange().
+   * Momentum, energy and mass exchanged between the body and the environment.
+   * They are sums over all explicit steps since the start; global sums are
+   * returned by ExplicitMPM::exchange().
    */
   struct Exchange
   {
@@ -28,11 +28,11 @@ namespace geocone::GEOCONE_DIM
      *  (J/m). */
     double support_work = 0.;
 
-    /** Impulse of gravity, damping and the supports (N s/m). */
+    /** Total impulse of gravity, damping and support forces (N s/m). */
     dealii::Tensor<1, dim> impulse;
 
-    /** Mass, momentum and energy of points removed by a stage
-     *  (Stage::removes()) or that left the grid. */
+    /** Mass, momentum and energy of points that a stage has removed
+     *  (Stage::removes()) or that have left the grid. */
     double                 removed_mass = 0.;      ///< (kg/m)
     dealii::Tensor<1, dim> removed_momentum;       ///< (N s/m)
     double                 removed_energy    = 0.; ///< kinetic energy (J/m)
@@ -61,15 +61,17 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Explicit step at the nodes: computes velocities and velocity increments,
-   * read by the points, from momentum, force and mass, written by the points.
-   * Includes gravity, local damping and prescribed velocities. Sets the input
-   * to zero.
+   * Explicit time step at the nodes: computes velocities and velocity
+   * increments from momentum, force and mass. Momentum, force and mass are
+   * scattered from the points, which then gather the velocities. Includes
+   * gravity, local damping and prescribed velocities. Sets the input to zero.
    */
   class NodalUpdate
   {
   public:
     /**
+     * Creates the nodal update for a given transfer and given boundary
+     * conditions.
      * @param flip_part FLIP fraction in the velocity update of the points,
      * which determines the momentum received from prescribed velocities
      * @param least_mass nodes with this mass or less are skipped (kg/m)
@@ -83,7 +85,7 @@ namespace geocone::GEOCONE_DIM
                 const BoundaryForces     *boundary,
                 Exchange                 &sum);
 
-    /** Parameters of an explicit step at the nodes. */
+    /** Parameters of the nodal update in an explicit step. */
     struct Step
     {
       double                 t, dt; ///< (s)
@@ -92,18 +94,19 @@ namespace geocone::GEOCONE_DIM
       bool                   measures_force; ///< for unbalanced_force()
     };
 
-    /** Marks velocity components with prescribed values. Must be called after
-     *  GridTransfer::sort(). */
+    /** Marks the nodal velocity components with prescribed values. Must be
+     *  called after GridTransfer::sort(). */
     void
     mark_held();
 
-    /** Computes the velocity before the step, v = p/m, with prescribed
-     *  velocities at t; retains the nodal masses. */
+    /** Computes the nodal velocity v = p/m before the step, with prescribed
+     *  velocities at time t. The nodal masses are retained. */
     void
     velocity_before(const double t);
 
     /** Computes the nodal velocity for the motion of the points from their
-     *  updated momentum, with prescribed velocities at the end of the step. */
+     *  updated momentum. Prescribed velocities are evaluated at the end of
+     *  the step. */
     void
     velocity_after(const Step &step);
 
@@ -117,22 +120,23 @@ namespace geocone::GEOCONE_DIM
     void
     accelerate(const Step &step, const bool velocity_is_read, const bool moves);
 
-    /** Largest unbalanced force on a free nodal component of this rank, before
-     *  damping, when last computed (N/m). */
+    /** Largest unbalanced force on a free nodal component of this rank,
+     *  before damping (N/m). The value is that of the last step with
+     *  Step::measures_force. */
     double
     unbalanced_force() const
     {
       return unbalanced;
     }
 
-    /** Returns the support impulses of this rank per boundary condition since
-     *  the last call (N s/m), with moments about GridTransfer::centres (N m
-     *  s/m). */
+    /** Returns the support impulses of each boundary condition on this rank
+     *  since the last call (N s/m). Moments are about GridTransfer::centres
+     *  (N m s/m). */
     std::vector<Reaction>
     take_support_impulses();
 
-    /** Reads or writes the support impulses and the unbalanced force of this
-     *  rank in a checkpoint. */
+    /** Saves or restores the support impulses and the unbalanced force of
+     *  this rank in a checkpoint. */
     void
     state(StateRow &row)
     {
@@ -142,24 +146,24 @@ namespace geocone::GEOCONE_DIM
     }
 
   private:
-    /** Component of the nodal force written by the points (N/m). */
+    /** Component of the nodal force scattered from the points (N/m). */
     double &
     force_at(const unsigned int node, const unsigned int component)
     {
       return transfer.write[node_size * node + change_of_node + component];
     }
 
-    /** Sets the velocity to read = write/mass and the velocity increment to
-     *  zero. */
+    /** Computes the nodal velocities `read` as momentum over mass,
+     *  `write`/`mass`. The velocity increments are set to zero. */
     void
     divide_momentum();
 
     double
     prescribed_velocity(const PrescribedNode &node, const double t) const;
 
-    /** Imposes the prescribed velocities. The reaction is the momentum
-     *  transferred to the points in excess of the momentum due to the nodal
-     *  forces. */
+    /** Imposes the prescribed velocities on the nodes. The reaction is the
+     *  momentum transferred to the points in excess of the momentum due to
+     *  the nodal forces. */
     void
     hold_prescribed(const Step &step);
 
@@ -168,19 +172,20 @@ namespace geocone::GEOCONE_DIM
     void
     add_impulse(const PrescribedNode &node, const double impulse);
 
-    /** Adds the work of gravity on points that move with the velocities in
-     *  `read`. */
+    /** Adds the work done by gravity on the points, which move with the
+     *  velocities in `read`. */
     void
     count_gravity_work(const Step &step);
 
     void
     measure_unbalanced_force();
 
-    /** Adds local damping forces to the forces in `write`. */
+    /** Adds local damping forces to the nodal forces in `write`. */
     void
     damp(const Step &step);
 
-    /** Sets `write` to zero, and `mass` as well unless keep_mass. */
+    /** Sets the nodal values in `write` to zero. The nodal masses are also
+     *  reset unless keep_mass. */
     void
     clear(const bool keep_mass);
 
@@ -190,7 +195,8 @@ namespace geocone::GEOCONE_DIM
     const BoundaryForces     *boundary;
     Exchange                 &sum;
 
-    /** Velocity component of a node that is prescribed in the current step. */
+    /** A nodal velocity component with a prescribed value in the current
+     *  step. */
     struct HeldNode
     {
       unsigned int node, component;
