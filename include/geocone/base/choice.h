@@ -13,9 +13,9 @@
 namespace geocone
 {
   /**
-   * Parameter whose admissible values are words. Each word represents an
-   * enumerator or a pointer. The list of words begins the documentation of the
-   * parameter; any other word is rejected.
+   * Parameter with a fixed list of admissible words as values. Each word
+   * represents an enumerator or a pointer. The list of words begins the
+   * documentation of the parameter; any other word is rejected.
    */
   template <typename Enum>
   class Choice
@@ -23,7 +23,7 @@ namespace geocone
   public:
     using Words = std::vector<std::pair<const char *, Enum>>;
 
-    /** Creates a parameter with its default value.
+    /** Creates the parameter, with the first word as default value.
      *  @param words admissible words with their values; the first is the
      *  default */
     Choice(const Words &words)

@@ -155,8 +155,7 @@ namespace geocone
     std::vector<T>
     read_array(const std::string &name) const;
 
-    /** Opens an array for reading after the safety checks described for
-     *  Hdf5File.
+    /** Opens an array for reading after safety checks, see Hdf5File.
      *  @param[out] size number of entries
      *  @return HDF5 identifier */
     long long

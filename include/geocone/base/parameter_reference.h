@@ -12,7 +12,7 @@
 
 namespace geocone
 {
-  /** A declared parameter as documented by --help, --defaults and --schema. */
+  /** Documentation of a declared parameter for --help, --defaults and --schema. */
   struct DocumentedParameter
   {
     std::vector<std::string> sections;

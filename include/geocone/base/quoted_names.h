@@ -12,8 +12,8 @@
 
 namespace geocone
 {
-  /** Normalises the commas in a name, each of which is then followed by
-   *  exactly one blank. Names read from a list have this form. */
+  /** Ensures that each comma in a name is followed by exactly one blank.
+   *  Names read from a list have this form. */
   inline std::string
   name_in_list(const std::string &name)
   {

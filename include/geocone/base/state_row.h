@@ -48,7 +48,7 @@ namespace geocone
       return row;
     }
 
-    /** Whether all numbers of the row have been read. */
+    /** Returns true if all numbers of the array have been read. */
     bool
     at_end() const
     {

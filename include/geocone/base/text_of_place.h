@@ -13,8 +13,8 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Formats the components of a vector as a comma-separated list, with the
-   *  printf() format @p number for each. */
+  /** Formats the components of a vector as a comma-separated list. Each
+   *  component has the printf() format @p number. */
   inline std::string
   text_of_vector(const dealii::Tensor<1, dim> &x, const char *number)
   {

@@ -34,7 +34,7 @@ namespace geocone
 } // namespace geocone
 
 /**
- * Conventions of the code:
+ * Conventions for geometry, units and tensors. They apply to all files:
  *
  *  - geometry is plane strain in the (x, y) plane per unit thickness (forces in
  *    N/m, energies in J/m), axisymmetric with x the radius, y the axis and z the

@@ -155,8 +155,8 @@ namespace geocone::GEOCONE_DIM
     {
       unsigned int           node;
       std::vector<Direction> directions;
-      /** Orthonormal axes, stored by rows. The first i + 1 axes span the first i
-       *  + 1 prescribed directions. */
+      /** Orthonormal axes of the node, stored by rows. The first i + 1 axes span
+       *  the first i + 1 prescribed directions. */
       dealii::Tensor<2, dim> axes;
 
       /** Returns true if a velocity normal to the boundary is prescribed at the
@@ -195,7 +195,7 @@ namespace geocone::GEOCONE_DIM
     };
 
     /** Computes the mean unit normal at each node of the boundary on which a
-     *  condition acts. Collective.
+     *  boundary condition acts. Collective.
      *  @throws InputError if faces of the condition meet in a sharp corner */
     std::map<unsigned int, dealii::Tensor<1, dim>>
     normals_of(const BoundaryCondition         &condition,
@@ -233,9 +233,10 @@ namespace geocone::GEOCONE_DIM
       const BackgroundMesh                                    &mesh,
       const std::map<unsigned int, std::vector<unsigned int>> &of_dof);
 
-    /** Computes the nodal forces exerted by the adjacent stress on the faces of
-     *  boundary conditions that share nodes. The forces are ordered by
-     *  Part::place. Collective. */
+    /** Computes the nodal forces exerted by the stress of adjacent cells on
+     *  boundary faces with shared nodes. Nodes are shared if several conditions
+     *  prescribe the same component. The forces are ordered by Part::place.
+     *  Collective. */
     std::vector<double>
     exerted_on_faces(const MaterialPoints      &points,
                      const std::vector<Mandel> &stress) const;

@@ -13,9 +13,9 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Returns a warning for each velocity condition whose nodes cover only part of
-   *  the boundary segment in the box of the condition. The velocity is then
-   *  prescribed on a narrower strip. Collective. */
+  /** Returns a warning for each boundary condition whose nodes cover only part of
+   *  the selected boundary segment. The velocity is then prescribed on a narrower
+   *  strip. Collective. */
   std::vector<std::string>
   warn_of_held_width(const Scene          &scene,
                      const BackgroundMesh &mesh,

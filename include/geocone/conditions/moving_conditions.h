@@ -85,8 +85,8 @@ namespace geocone::GEOCONE_DIM
               Constraints          &constraints) const;
 
     /**
-     * Moves the boundary segments over a step h. Segments with prescribed velocity
-     * move with this velocity at time t, all other segments with the nodal
+     * Moves the boundary segments during a time step h. Segments with prescribed
+     * velocity move with this velocity at time t, all other segments with the nodal
      * velocities v. Collective.
      */
     void

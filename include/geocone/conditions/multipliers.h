@@ -148,10 +148,10 @@ namespace geocone::GEOCONE_DIM
                    const Eigen::VectorXd &lambda) const;
 
     /**
-     * QR factorisation D^{-1/2} H' = Q U of the scaled constraint matrix. Q has
-     * orthonormal columns, distributed over all ranks, and U is upper triangular.
-     * Nearly dependent rows make U ill-conditioned, but not Q: H D^{-1} H' = U'U
-     * would lose twice as many digits.
+     * QR factorisation D^{-1/2} H' = Q U of the scaled, transposed constraint
+     * matrix. Q has orthonormal columns, distributed over all ranks, and U is upper
+     * triangular. Nearly dependent rows make U ill-conditioned, but not Q: H D^{-1}
+     * H' = U'U would lose twice as many digits.
      */
     struct Factors
     {
@@ -242,8 +242,8 @@ namespace geocone::GEOCONE_DIM
     void
     contribute(const Key &key, const double node, const double value);
 
-    /** Contributions to the constraint rows: condition, component, number, node
-     *  (-1: target, -2: offset), value. */
+    /** Contributions of this rank to the constraint rows. Each contains the
+     *  condition, component, number, node (-1: target, -2: offset) and value. */
     std::vector<std::array<double, 5>> contributions;
 
     MPI_Comm         comm         = MPI_COMM_SELF;
@@ -255,8 +255,8 @@ namespace geocone::GEOCONE_DIM
     Eigen::VectorXd           q; ///< minus terms of prescribed dofs (m/s)
     Eigen::VectorXd           row_sum;
 
-    /** Prescribed velocity, without offset, and sum of the coefficients of a
-     *  constraint row. */
+    /** Prescribed velocity and sum of coefficients of a constraint row. The
+     *  offset is excluded. */
     struct Asked
     {
       Key    key;

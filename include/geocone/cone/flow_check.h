@@ -14,10 +14,11 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Residuals of a plastic flow law at the end of a step, which are zero if and only
-   * if the law is satisfied. They refer to one point or are maxima over several
-   * points. The law has a change of variable y that maps plastic flow to normals of
-   * the yield surface. Residuals are dimensional; reference scales are included.
+   * Residuals of a plastic flow law at the end of a step. All residuals are zero if
+   * and only if the law is satisfied. They refer to one point or are maxima over
+   * several points. The law has a change of variable y that maps plastic flow to
+   * normals of the yield surface. Residuals are dimensional; reference scales are
+   * included.
    */
   struct FlowCheck
   {
