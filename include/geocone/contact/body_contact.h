@@ -125,8 +125,8 @@ namespace geocone::GEOCONE_DIM
       std::map<unsigned int, double> M;
     };
 
-    /** Adds the contributions of a face to D, M and the normals of the nodes on
-     *  the face. */
+    /** Adds the contributions of a face to the mortar matrices D and M and to the
+     *  nodal normals. */
     void
     integrate(const PlacedFace              &placed_face,
               const std::vector<PointAhead> &points,

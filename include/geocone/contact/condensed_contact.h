@@ -56,7 +56,8 @@ namespace geocone
     error(const Eigen::VectorXd &u) const;
 
   private:
-    /** Estimates the contribution of rounding errors in K u to error(). */
+    /** Estimates the contribution of rounding errors in K u to the relative
+     *  residual error(). */
     double
     rounding(const Eigen::VectorXd &u) const;
 
@@ -70,9 +71,9 @@ namespace geocone
     {
       Contact contact = Contact::open;
 
-      /** Slip direction d of r_T. The matrix `turn` is the derivative of d with
-       *  respect to r_T - rho u_T, times the friction bound; it is zero for one
-       *  tangent. */
+      /** Slip direction d of the tangential contact force r_T. The matrix `turn`
+       *  is the derivative of d with respect to r_T - rho u_T, times the friction
+       *  bound; it is zero for one tangent. */
       Eigen::VectorXd direction;
       Eigen::MatrixXd turn;
 

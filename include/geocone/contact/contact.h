@@ -24,15 +24,16 @@ namespace geocone::GEOCONE_DIM
   /** Gap, divided by the cell size, below which a contact is considered closed. */
   constexpr double closed_gap = 1e-9;
 
-  /** Distance below which the boundaries of two obstacles are treated as
-   *  continuous, divided by the cell size. */
+  /** Distance, divided by the cell size, below which the boundaries of two
+   *  obstacles are treated as continuous. */
   constexpr double meeting = 1e-3;
 
-  /** Cosine above which two normals are considered parallel (10 degrees). */
+  /** Cosine of the angle (10 degrees) below which two normals are considered
+   *  parallel. */
   const double parallel = std::cos(radians(10.));
 
-  /** Smallest length of the unit normal, projected onto the free directions, for
-   *  contact of a partially supported node (cosine of 10 degrees). */
+  /** Smallest cosine of the angle between the contact normal and the free
+   *  directions of a partially supported node (10 degrees). */
   const double along_support = std::cos(radians(10.));
 
   /** Potential contact node, which may be in contact with an obstacle or another
@@ -41,14 +42,14 @@ namespace geocone::GEOCONE_DIM
   {
     unsigned int node; ///< local number, owned or ghost
 
-    /** Number of the obstacle or contact pair. Contact pairs are numbered after
-     *  the obstacles. */
+    /** Number of the obstacle or contact pair to which the contact belongs.
+     *  Contact pairs are numbered after the obstacles. */
     unsigned int           obstacle;
     dealii::Tensor<1, dim> normal; ///< out of the obstacle or other body
     dealii::Tensor<1, dim> arm;    ///< from the obstacle's centre (m)
 
-    /** Orthonormal tangents of the contact surface along which the node can
-     *  slide, in free directions only. */
+    /** Orthonormal tangent vectors along which the node can slide. The vectors
+     *  lie in the free directions of the node. */
     std::array<dealii::Tensor<1, dim>, dim - 1> tangents;
     unsigned int                                n_tangents = 0;
 
@@ -180,7 +181,7 @@ namespace geocone::GEOCONE_DIM
     void
     begin_step(ContactStep step);
 
-    /** Groups of nodes that contact between bodies couples in the Jacobian. Each
+    /** Groups of nodes coupled in the Jacobian by contact between bodies. Each
      *  group is a contact node, followed by its partners. */
     std::vector<std::vector<unsigned int>>
     links() const;
@@ -207,8 +208,8 @@ namespace geocone::GEOCONE_DIM
     LowRank
     linearise(const JacobianPattern &pattern, SparseMatrix &matrix) const;
 
-    /** Computes dst = A dst + B dv in owned rows, where dst is the product of the
-     *  Jacobian and dv. The matrices A and B are from the last replace().
+    /** Transforms a Jacobian-vector product to the contact equations: dst = A dst
+     *  + B dv in owned rows. The matrices A and B are from the last replace().
      *  Collective. @param dv with its ghosts */
     void
     apply_tangent(Vector &dst, const Vector &dv) const;
@@ -259,8 +260,9 @@ namespace geocone::GEOCONE_DIM
     std::vector<unsigned int>
     choose(const MPI_Comm comm) const;
 
-    /** Replaces the linearised contact equations of the chosen nodes by dr + rho
-     *  du in linearise(). The motions of the obstacles are fixed. Collective. */
+    /** Simplifies the linearised contact equations of the chosen nodes to dr +
+     *  rho du. The simplified equations are used by linearise(). The motions of
+     *  the obstacles are fixed. Collective. */
     void
     relax(const std::vector<unsigned int> &chosen);
 
@@ -271,7 +273,7 @@ namespace geocone::GEOCONE_DIM
     }
 
     /** Adds a correction to the initial guess of the velocities of free obstacles
-     *  in the next replace(). */
+     *  in the next call of replace(). */
     void
     change_motions(const Eigen::VectorXd &change)
     {
@@ -395,9 +397,9 @@ namespace geocone::GEOCONE_DIM
             const Local       &at,
             const Force       &velocity) const;
 
-    /** Sums G' q, rho G' Q G and the force magnitudes over the contact nodes of
-     *  each obstacle. The sums are evaluated at the current motion of the
-     *  obstacle. Collective. */
+    /** Sums contact forces and their derivatives over the contact nodes of each
+     *  obstacle. The sums are sum G' q, sum rho G' Q G and the sum of magnitudes,
+     *  at the current motion of the obstacle. Collective. */
     std::vector<double>
     sums_of_nodes(const std::vector<Local> &locals, const MPI_Comm comm) const;
 

@@ -62,15 +62,15 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Moving obstacles of a scene and potential contact nodes, with obstacles or
-   * between bodies. In a body-fitted mesh these are boundary nodes, with the gap at
-   * their current position. In a background mesh they are the nodes in or on the
-   * obstacle, with the gap of the nearest particle that they move.
+   * Moving obstacles of a scene and all potential contact nodes. In a body-fitted
+   * mesh these are boundary nodes, with the gap at their current position. In a
+   * background mesh they are the nodes in or on the obstacle, with the gap of the
+   * nearest particle that they move.
    */
   class ObstacleContact
   {
   public:
-    /** Initialises the obstacles at their initial positions. Collective.
+    /** Places the obstacles at their initial positions. Collective.
      *  @param supports for a body-fitted mesh, which must outlive this object;
      *  null for particles
      *  @throws InputError if the body overlaps with an obstacle */
@@ -120,9 +120,9 @@ namespace geocone::GEOCONE_DIM
     ContactReport
     report(const Contact &contact, const Vector &v, const double h) const;
 
-    /** Resultant contact forces on the body, first of all obstacles, then of all
-     *  contacts between bodies. For contacts between bodies, the force acts on
-     *  the first body. Moments are about the given centre, the centre of the
+    /** Resultant contact forces on the body, listed by obstacle and then by
+     *  contact between bodies. For contacts between bodies, the force acts on the
+     *  first body. Moments are about the given centre, the centre of the
      *  obstacle, or the origin. Collective. */
     std::vector<Reaction>
     reactions(const Contact &contact) const;
@@ -139,8 +139,8 @@ namespace geocone::GEOCONE_DIM
                       std::vector<dealii::Tensor<1, dim>> &supports) const;
 
     /**
-     * Limits the velocity of contact nodes relative to the obstacle at the end of a
-     * step of the theta-scheme. Nodes in contact retain the velocity at theta if the
+     * Limits the relative velocity of contact nodes at the end of a time step of the
+     * theta-scheme. Nodes in contact retain the velocity at theta if the
      * extrapolated velocity is larger. Otherwise they would rebound in each step,
      * with alternating forces.
      * @param unknowns prescribed dofs do not change @param v velocity at theta
@@ -200,9 +200,10 @@ namespace geocone::GEOCONE_DIM
     bool
     has_bonds() const;
 
-    /** Bond of each node: 0, or one plus the number of its contact at the end of
-     *  the last step. Stored at the first dof of the node. Without bonds, tension
-     *  would depend on the second-order error of the gap to a rotating obstacle. */
+    /** Bond of each node: number of its contact at the end of the last step plus
+     *  one, or 0 without contact. Stored at the first dof of the node. Without
+     *  bonds, tension would depend on the second-order error of the gap to a
+     *  rotating obstacle. */
     Vector &
     bonds_of_nodes()
     {
@@ -256,8 +257,8 @@ namespace geocone::GEOCONE_DIM
 
     using NearBodies = std::map<unsigned int, Near>; ///< by node
 
-    /** Finds the boundary part of an obstacle nearest to a node, with distance and
-     *  normal.
+    /** Computes the distance and the normal from a node to the nearest part of an
+     *  obstacle's boundary.
      *  @param approach displacement of the obstacle relative to the node (m) */
     Obstacle::Nearest
     nearest(const unsigned int            obstacle,

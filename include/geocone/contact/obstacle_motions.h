@@ -51,9 +51,10 @@ namespace geocone::GEOCONE_DIM
     void
     begin_step(std::vector<ObstacleBody> bodies);
 
-    /** Function that sums contact quantities over the nodes of each obstacle. It
-     *  returns, for each obstacle in turn, sum G' q, sum rho G' Q G by rows, and
-     *  the sum of magnitudes, at the current motions; summed over all ranks. */
+    /** Function that sums contact forces and their derivatives over the nodes of
+     *  each obstacle. It returns, for each obstacle in turn, sum G' q, sum rho G'
+     *  Q G by rows, and the sum of magnitudes, at the current motions; summed
+     *  over all ranks. */
     using Sums = std::function<std::vector<double>()>;
     static constexpr unsigned int n_sums =
       n_motions + n_motions * n_motions + 1;
@@ -117,8 +118,8 @@ namespace geocone::GEOCONE_DIM
           f(k, number++);
     }
 
-    /** Computes M/h of the free motions and the out-of-balance forces M/h (y -
-     *  y_0). Contact forces are not included. */
+    /** Computes the inertia M/h of the free obstacle motions and the
+     *  out-of-balance forces M/h (y - y_0). Contact forces are not included. */
     void
     balance(Eigen::VectorXd &inertia, Eigen::VectorXd &lack) const;
 
@@ -131,8 +132,8 @@ namespace geocone::GEOCONE_DIM
     Kinetic
     kinetic() const;
 
-    /** Adds a correction to the initial guess of the free velocities in the next
-     *  find(). */
+    /** Adds a correction to the initial guess of the obstacle velocities in the
+     *  next call of find(). */
     void
     change(const Eigen::VectorXd &by);
 

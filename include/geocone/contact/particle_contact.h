@@ -15,8 +15,8 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Computes the gap between each obstacle and the nearest particle moved by each
-   * node (m). Gaps are stored at the first dof of the node, for
+   * Computes the gap between each obstacle and the nearest particle in the support
+   * of each node (m). Gaps are stored at the first dof of the node, for
    * ObstacleContact::begin(). A particle is a square with the particle's volume.
    * Collective.
    *

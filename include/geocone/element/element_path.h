@@ -57,8 +57,8 @@ namespace geocone::GEOCONE_DIM
     void
     prepare(const ElementPoint &point, const std::vector<std::string> &columns);
 
-    /** Returns the controlled strains and stresses of the stage, which
-     *  starts from the current stress of the point. */
+    /** Returns the strain increments and target stresses of the stage. The
+     *  stage starts from the current stress of the point. */
     ElementControl
     control(const ElementPoint &point) const;
 

@@ -77,7 +77,7 @@ namespace geocone::GEOCONE_DIM
     LawCounts trial_counts; ///< statistics of the last trial
   };
 
-  /** Set of the stress components of a material point. */
+  /** Selectable sets of stress components of a material point. */
   enum class StressComponents
   {
     automatic, ///< all, if supported by the law

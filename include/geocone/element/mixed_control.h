@@ -37,7 +37,7 @@ namespace geocone::GEOCONE_DIM
     prepare();
 
     /**
-     * Solves one increment for the unknown strain increments.
+     * Solves one increment for the strains of the stress-controlled components.
      * @param point material point; the last trial is the solution, to be
      * accepted by the caller
      * @param by_stress stress-controlled components

@@ -56,9 +56,9 @@ namespace geocone::GEOCONE_DIM
     };
 
     /**
-     * Adds the dashpot forces of absorbing boundaries to the nodal forces,
-     * which must be complete. The work is computed from the nodal velocities
-     * gathered by the points.
+     * Adds the dashpot forces of absorbing boundaries to the nodal forces. All
+     * other nodal forces must be included already. The work is computed from
+     * the nodal velocities gathered by the points.
      * @param least_mass nodes with this mass or less are skipped (kg/m)
      * @param is_held whether the velocity is prescribed, per node and component
      */
@@ -68,8 +68,8 @@ namespace geocone::GEOCONE_DIM
                  const double                      least_mass,
                  const std::vector<unsigned char> &is_held) const;
 
-    /** Moves the loaded segments with the velocities of the nodes over a step
-     *  dt. Collective. */
+    /** Moves the loaded boundary segments with the nodal velocities during a
+     *  time step dt. Collective. */
     void
     move(const GridTransfer &nodes, const double dt);
 

@@ -34,7 +34,7 @@ namespace geocone::GEOCONE_DIM
     double                 mass     = 0.; ///< (kg/m)
     double                 volume   = 0.; ///< (m^2)
     dealii::Tensor<1, dim> momentum;      ///< (N s/m)
-    /** Angular momentum about the axes through the origin (n_rotations). */
+    /** Angular momentum about the coordinate axes (N m s/m). */
     dealii::Tensor<1, n_rotations> angular_momentum;
     dealii::Point<dim> lower, upper; ///< bounding box of positions (m)
     /** Left and right front of the body: coordinates x with 1 % and 99 % of the
@@ -349,8 +349,8 @@ namespace geocone::GEOCONE_DIM
     force_around_axis(const TransferBlock &points);
     /** @} */
 
-    /** Reduces the mass and volume of points that are being removed gradually, in
-     *  one block of points. */
+    /** Reduces the mass and volume of those points in a block that are being
+     *  removed gradually. */
     void
     fade_points(const TransferBlock &points);
 
@@ -359,7 +359,7 @@ namespace geocone::GEOCONE_DIM
     has_left(const PointArrays &group, const unsigned int p) const;
 
     /** Corrects the positions of points outside the region of stored nodes, or
-     *  reports an error. */
+     *  records an error message. */
     void
     mend_positions(const TransferBlock &points);
 

@@ -104,9 +104,9 @@ namespace geocone::GEOCONE_DIM
     void
     velocity_before(const double t);
 
-    /** Computes the nodal velocity for the motion of the points from their
-     *  updated momentum. Prescribed velocities are evaluated at the end of
-     *  the step. */
+    /** Computes the nodal velocity with which the points move, from the
+     *  updated momentum of the points. Prescribed velocities are evaluated
+     *  at the end of the step. */
     void
     velocity_after(const Step &step);
 
@@ -120,7 +120,7 @@ namespace geocone::GEOCONE_DIM
     void
     accelerate(const Step &step, const bool velocity_is_read, const bool moves);
 
-    /** Largest unbalanced force on a free nodal component of this rank,
+    /** Largest unbalanced nodal force in a free direction on this rank,
      *  before damping (N/m). The value is that of the last step with
      *  Step::measures_force. */
     double
@@ -153,7 +153,7 @@ namespace geocone::GEOCONE_DIM
       return transfer.write[node_size * node + change_of_node + component];
     }
 
-    /** Computes the nodal velocities `read` as momentum over mass,
+    /** Computes the nodal velocities as momentum divided by mass, `read` =
      *  `write`/`mass`. The velocity increments are set to zero. */
     void
     divide_momentum();
