@@ -10,7 +10,8 @@
 
 namespace geocone
 {
-  /** Clips a convex polygon to the half-plane (x - on) . into >= 0. */
+  /** Clips a convex polygon to a half-plane. The half-plane is
+   *  (x - on) . into >= 0. */
   template <int n>
   std::vector<dealii::Point<n>>
   clipped(const std::vector<dealii::Point<n>> &polygon,

@@ -127,7 +127,7 @@ namespace geocone
     static std::vector<std::string>
     declared_in(const std::string &section);
 
-    /** Prints all declared parameters with their present values. */
+    /** Prints all declared parameters with their current values. */
     static void
     print(std::ostream &out);
 

@@ -43,9 +43,9 @@ namespace geocone
   std::string
   unused_parameters(const std::vector<ParameterFile::Setting> &settings);
 
-  /** Conditions under which a parameter is used, in words, e.g. "Mesh/Type =
-   *  graded or unstructured". Separate lists apply to the section and to the
-   *  parameter itself. */
+  /** Text of the conditions under which a parameter is used, e.g. "Mesh/Type
+   *  = graded or unstructured". Separate lists apply to the section and to
+   *  the parameter itself. */
   struct Conditions
   {
     std::vector<std::string> of_section, own;

@@ -289,8 +289,8 @@ namespace geocone::GEOCONE_DIM
     std::map<dealii::types::global_dof_index, Shared> shared;
     unsigned int                                      n_shares = 0;
 
-    /** Face integrals (Part), ordered by active cell index. The integrals of cell
-     *  c begin at first_part[c]. */
+    /** Integrals over boundary faces (Part), ordered by active cell index. The
+     *  integrals of cell c begin at first_part[c]. */
     std::vector<unsigned int> first_part;
     std::vector<Part>         parts;
   };

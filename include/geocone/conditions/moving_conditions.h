@@ -180,8 +180,8 @@ namespace geocone::GEOCONE_DIM
                const double                                       *values,
                Multipliers                                        &rows) const;
 
-    /** Corrects the right-hand side of the constraint row of a particle for the
-     *  FLIP transfer. The offset is the difference between N v and the prescribed
+    /** Corrects the right-hand side of a particle's constraint row for the FLIP
+     *  transfer. The offset is the difference between N v and the prescribed
      *  velocity for which the particle has the prescribed velocity after the
      *  transfer. */
     void

@@ -103,10 +103,9 @@ namespace geocone::GEOCONE_DIM
     double tension  = 0.; ///< tensile strength, if initially closed (N/m)
   };
 
-  /** A node of the first body of a contact pair that may come into contact with
-   *  the other body. Includes the gap and, for body-fitted meshes, the size of
-   *  adjacent faces (m). Members of ContactNode that depend on the step are not
-   *  set. */
+  /** Potential contact node on the first body of a contact pair. Includes the gap
+   *  and, for body-fitted meshes, the size of adjacent faces (m). Members of
+   *  ContactNode that depend on the step are not set. */
   struct FacingNode
   {
     ContactNode node;
@@ -208,9 +207,9 @@ namespace geocone::GEOCONE_DIM
     LowRank
     linearise(const JacobianPattern &pattern, SparseMatrix &matrix) const;
 
-    /** Transforms a Jacobian-vector product to the contact equations: dst = A dst
-     *  + B dv in owned rows. The matrices A and B are from the last replace().
-     *  Collective. @param dv with its ghosts */
+    /** Applies the linearised contact equations to a Jacobian-vector product:
+     *  dst = A dst + B dv in owned rows. The matrices A and B are from the last
+     *  replace(). Collective. @param dv with its ghosts */
     void
     apply_tangent(Vector &dst, const Vector &dv) const;
 
@@ -254,9 +253,9 @@ namespace geocone::GEOCONE_DIM
 
     /** @name Functions for ContactDirection */
     /** @{ */
-    /** Selects the owned nodes that are in contact at the last replace() or close
-     *  to contact. A node is close to contact if the largest contact force could
-     *  close its gap. Collective. */
+    /** Selects the owned nodes that are in contact or close to contact. A node is
+     *  close to contact if the largest contact force could close its gap. Contact
+     *  states are those of the last replace(). Collective. */
     std::vector<unsigned int>
     choose(const MPI_Comm comm) const;
 
@@ -308,7 +307,7 @@ namespace geocone::GEOCONE_DIM
       return touch;
     }
 
-    /** Returns true if contact i is closed or can carry tension. Tension requires
+    /** Returns true if a contact is closed or can carry tension. Tension requires
      *  that the contact was initially closed. */
     bool
     carries_load(const unsigned int i) const

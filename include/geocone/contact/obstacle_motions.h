@@ -123,8 +123,9 @@ namespace geocone::GEOCONE_DIM
     void
     balance(Eigen::VectorXd &inertia, Eigen::VectorXd &lack) const;
 
-    /** Kinetic energy y'M y/2 of the free motions of all obstacles, and work y'M
-     *  (y - y_n) done on these motions, both divided by h (W/m). */
+    /** Kinetic energy and work of the free obstacle motions, both divided by the
+     *  step size h (W/m). The energy is y'M y/2, the work done on the motions is
+     *  y'M (y - y_n). */
     struct Kinetic
     {
       double change = 0., energy = 0.;

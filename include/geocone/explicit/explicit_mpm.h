@@ -92,8 +92,9 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Explicit material point method of the STSM report (section 2). The elastic
-   * wave speed limits the time step (Courant condition),
+   * Explicit material point method with the orders of operations MUSL, USL and USF.
+   * The method follows section 2 of the STSM report. The elastic wave speed limits
+   * the time step (Courant condition),
    *   dt = C h/(c + v),  c^2 = max M V/m,  v = max |v_p|.
    * With basis functions N at the start of the step and boundary conditions on
    * the sides of the grid, the three orders of operations are
@@ -321,7 +322,7 @@ namespace geocone::GEOCONE_DIM
 
     /** @name B-bar */
     /** @{ */
-    /** Averages point values over the points in each cell, weighted by volume.
+    /** Computes the volume-weighted average of point values in each cell.
      *  Collective. */
     void
     average_in_cells(
@@ -406,8 +407,8 @@ namespace geocone::GEOCONE_DIM
     void
     stop_points();
 
-    /** Reduces the results of the last pass over all ranks. Decides whether the
-     *  points must be sorted again (refresh). */
+    /** Combines the results of the last pass over the points, reduced over all
+     *  ranks. Decides whether the points must be sorted again (refresh). */
     void
     gather_sums();
 

@@ -70,8 +70,7 @@ namespace geocone::GEOCONE_DIM
   {
   public:
     /**
-     * Creates the nodal update for a given transfer and given boundary
-     * conditions.
+     * Creates the nodal update for a grid transfer and boundary conditions.
      * @param flip_part FLIP fraction in the velocity update of the points,
      * which determines the momentum received from prescribed velocities
      * @param least_mass nodes with this mass or less are skipped (kg/m)
@@ -153,8 +152,9 @@ namespace geocone::GEOCONE_DIM
       return transfer.write[node_size * node + change_of_node + component];
     }
 
-    /** Computes the nodal velocities as momentum divided by mass, `read` =
-     *  `write`/`mass`. The velocity increments are set to zero. */
+    /** Computes the nodal velocities as momentum divided by mass. The
+     *  velocities `read` are `write`/`mass`. The velocity increments are set
+     *  to zero. */
     void
     divide_momentum();
 
