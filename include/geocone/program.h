@@ -11,14 +11,15 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Executes the program with its command-line arguments, for scenes of this space
-   *  dimension.
+  /** Executes the program with its command-line arguments, for scenes of dimension
+   *  dim.
    *  @return the exit code */
   int
   run_geocone(int argc, char **argv);
 
   /**
-   * Checks a parameter file for this space dimension, as the option --dry-run does.
+   * Checks a parameter file for scenes of dimension dim, as the option --dry-run
+   * does.
    * @param call command line with the other options
    * @throws InputError if the file is invalid
    */

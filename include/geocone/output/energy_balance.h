@@ -14,28 +14,27 @@
 namespace geocone
 {
   /**
-   * Energy balance since the start of a run, for all methods (J/m):
-   *   numerical loss = E_0 + W - E - D - R,
-   * E the energy of the body, W the external work, D the dissipation, R the energy
-   * of removed parts of the body. The loss is the energy dissipated by time
-   * integration and transfer; if negative, they have created energy. Explicit steps
-   * provide only the total stress work (stored and dissipated), which D then
-   * includes together with damping.
+   * Energy balance of a run, for all methods (J/m). With the energy E of the body
+   * (E_0 at the start), the external work W, the dissipation D and the energy R of
+   * removed parts of the body, the numerical loss is
+   *   loss = E_0 + W - E - D - R.
+   * The loss is the energy dissipated by time integration and transfer; a negative
+   * loss is energy created by them. Explicit steps provide only the total stress
+   * work (stored and dissipated), which D then includes together with damping.
    */
   class EnergyBalance
   {
   public:
-    /**
-     * Tolerance for spuriously created energy, relative to the energy turnover.
-     */
+    /** Tolerance of the numerically created energy, relative to turnover(). */
     static constexpr double tolerance = 0.01;
 
-    /** Sets the initial energies. */
+    /** Sets the energies of the body at the start of the run. */
     void
     begin(const Energies &energies);
 
     /**
-     * Appends a step to the balance, given the energies at its end.
+     * Adds a step to the energy balance.
+     * @param end energies of the body at the end of the step
      * @param of_lost energies of particles that left the mesh, not included in `end`
      */
     void
@@ -43,16 +42,16 @@ namespace geocone
              const Energies &of_lost,
              const Works    &of_step);
 
-    /** Sets the current energies, the work done since the start, and the energy of
-     *  removed parts of the body, in total and potential. */
+    /** Sets the current terms of the energy balance: energies of the body, work
+     *  since the start, and energy of removed parts (total and potential). */
     void
     set(const Energies &now,
         const Works    &since_start,
         const double    removed,
         const double    removed_potential);
 
-    /** Accounts for parts added to or removed from the body, by the energies before
-     *  and after. */
+    /** Includes the energy change due to parts added to or removed from the body in
+     *  the balance, given the energies before and after. */
     void
     change_body(const Energies &before, const Energies &after);
 
@@ -63,14 +62,14 @@ namespace geocone
       return at_start;
     }
 
-    /** Work done since the start, by contribution (J/m). */
+    /** Work since the start of the run, by contribution (J/m). */
     const Works &
     works() const
     {
       return done;
     }
 
-    /** Numerical loss of energy (J/m). */
+    /** Numerical loss of energy since the start of the run (J/m). */
     double
     loss() const
     {
@@ -90,26 +89,28 @@ namespace geocone
       return kinetic_max;
     }
 
-    /** Balance E + D + R - W, which decreases by the numerical loss (J/m). */
+    /** Sum E + D + R - W of the energy balance (J/m). It decreases by the numerical
+     *  loss. */
     double
     total() const
     {
       return last.sum() + done.dissipated() + taken_away - done.external;
     }
 
-    /** Released potential energy, excluding removed parts of the body (J/m). */
+    /** Potential energy released since the start of the run (J/m), without removed
+     *  parts of the body. */
     double
     released() const
     {
       return at_start.potential - removed_potential - last.potential;
     }
 
-    /** Energy turnover (largest energy or work), the reference of relative losses
+    /** Reference energy of relative losses: the largest energy or work of the run
      *  (J/m). */
     double
     turnover() const;
 
-    /** Warns once if spuriously created energy exceeds 1 % of the energy turnover.
+    /** Warns once if the numerically created energy exceeds 1 % of turnover().
      *  @param least lower limit of the turnover (J/m) */
     void
     warn_if_created(Log               &log,
@@ -119,7 +120,7 @@ namespace geocone
                     const std::string &remedy);
 
     /**
-     * Topic "energy" of a summary.
+     * Returns the topic "energy" of summary.json.
      * @param unit converts a unit of plane strain into the unit of the scene
      * @param weight_changes whether the potential energy changes with the weight
      */
@@ -143,7 +144,7 @@ namespace geocone
     }
 
   private:
-    /** Accounts for the energies of a removed part of the body. */
+    /** Adds the energies of a removed part of the body to the balance. */
     void
     remove(const Energies &energies);
 

@@ -15,7 +15,8 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Relative L2 errors with respect to given exact fields. */
+  /** Relative L2 errors of displacement and stress with respect to an exact
+   *  solution. */
   struct FieldErrors
   {
     double displacement = 0.; ///< |u_h - u| / |u|
@@ -23,10 +24,10 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Exact displacement and stress at the end of the run, as formulas in x, y, t, for
-   * verification by manufactured or analytical solutions. For material points, x and y
-   * are the positions at which displacements are zero, and errors are volume-weighted
-   * sums over the points.
+   * Exact displacement and stress at the end of the run, as formulas in x, y and t.
+   * They serve verification by manufactured or analytical solutions. For material
+   * points, x and y are the positions at which displacements are zero, and errors are
+   * volume-weighted sums over the points.
    */
   class ExactSolution : public dealii::ParameterAcceptor
   {
@@ -42,7 +43,8 @@ namespace geocone::GEOCONE_DIM
       return given;
     }
 
-    /** @param displacement of the nodes with FEM; empty with MPM
+    /** Computes the errors of displacement and stress.
+     *  @param displacement nodal displacements (FEM), or empty (MPM)
      *  @param points_move whether points move with their displacement */
     FieldErrors
     errors(const BackgroundMesh &mesh,

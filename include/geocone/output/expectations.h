@@ -11,23 +11,25 @@
 
 namespace geocone
 {
-  /** Acceptance criterion of a parameter file: a condition on a value of
-   *  summary.json, of the form "TOPIC/NAME <= NUMBER", ">= NUMBER" or "= NUMBER +-
+  /** Acceptance criterion for a value of summary.json, specified in the parameter
+   *  file. Its form is "TOPIC/NAME <= NUMBER", ">= NUMBER" or "= NUMBER +-
    *  NUMBER". */
   class Expectation
   {
   public:
     /**
-     * @param parameter for messages
-     * @throws InputError if the text is not of that form
+     * Parses the text of an acceptance criterion.
+     * @param parameter name of the parameter, for error messages
+     * @throws InputError if the text does not have the required form
      */
     Expectation(const std::string &text, const std::string &parameter);
 
-    /** Whether a summary satisfies the criterion; false if the value is missing. */
+    /** Returns true if a summary satisfies the criterion, false also if the value
+     *  is missing. */
     bool
     holds(const Json &summary) const;
 
-    /** Value found in a summary, as text. */
+    /** Returns the value that the criterion refers to, as text. */
     std::string
     found(const Json &summary) const;
 

@@ -14,8 +14,8 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Record of a step of the loading programme, which consists of explicit time
-   *  steps. */
+  /** Record of one step of the loading programme in an explicit run. The step
+   *  consists of many explicit time steps. */
   struct ExplicitRecord : StepRecord<ExplicitState>
   {
     double         cpu = 0.; ///< CPU time of the explicit steps, this rank (s)
@@ -31,12 +31,12 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Output folder of an explicit run: statistics.csv (a line per step of the
-   * loading programme, of many explicit time steps each), summary.json and
-   * points-NNNN.vtu, with
+   * Output folder of an explicit run. It contains statistics.csv (a line per
+   * step of the loading programme, of many explicit time steps each),
+   * summary.json and points-NNNN.vtu. As in EnergyBalance,
    *   numerical loss    = work of gravity and supports - stress work
    *                       - damping - removed - kinetic energy gained,
-   * as in EnergyBalance, and
+   * and
    *   momentum residual = momentum gained + removed - impulse of gravity,
    *                       supports and damping,
    * which is zero within rounding. The state of the run is only read.
@@ -54,7 +54,8 @@ namespace geocone::GEOCONE_DIM
     void
     state_of_run(StateRow &row) override;
 
-    /** Sets the initial state, the reference of energy and momentum gained. */
+    /** Sets the initial state, the reference for the gains of energy and
+     *  momentum. */
     void
     set_initial(const ExplicitState &state);
 
@@ -62,11 +63,11 @@ namespace geocone::GEOCONE_DIM
     void
     add_step(const ExplicitRecord &record);
 
-    /** Writes the fields at the particles, if requested. */
+    /** Writes the field file of the particles if field output is enabled. */
     void
     write_points(const double time, const std::vector<PointArrays> &groups);
 
-    /** Results of all steps, as topics of the summary.
+    /** Returns the topics of summary.json with the results of all steps.
      *  @param counts since the start, of all ranks */
     Json
     results(const LawCounts &counts) const;
@@ -109,8 +110,8 @@ namespace geocone::GEOCONE_DIM
     void
     report_results(std::ostream &out) const override;
 
-    /** Output quantity of the constitutive laws at the points of a group; NaN if
-     *  the law of the group does not define it. */
+    /** Evaluates an output quantity of the constitutive law at the points of a
+     *  group. The values are NaN if the law does not define the quantity. */
     void
     show(const std::string &name,
          const PointArrays &group,

@@ -18,14 +18,14 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Part of a field file written by this rank: cells without shared nodes, and
-   * nodal values. Arrays are generated one at a time, so that only one of them is
-   * held in memory.
+   * Part of a field file written by one rank. Cells do not share nodes; values are
+   * nodal. Arrays are generated one at a time, so that only one of them is held in
+   * memory.
    */
   struct FieldTable
   {
-    /** Cell type; the nodes of a cell are consecutive, those of quadrilaterals and
-     *  hexahedra in lexicographic order. */
+    /** Cell type of a field file. The nodes of a cell are consecutive, those of
+     *  quadrilaterals and hexahedra in lexicographic order. */
     enum class Cell
     {
       point,
@@ -66,7 +66,8 @@ namespace geocone::GEOCONE_DIM
       return kind().n_nodes;
     }
 
-    /** Connectivity: node numbers of all cells in VTK's order, @p n_nodes entries. */
+    /** Returns the connectivity: the node numbers of all cells in VTK's order (@p
+     *  n_nodes entries). */
     template <typename Number>
     std::vector<Number>
     connectivity(const std::size_t n_nodes) const
@@ -84,7 +85,7 @@ namespace geocone::GEOCONE_DIM
       return n_nodes / nodes_per_cell();
     }
 
-    /** Evaluates a column, or the nodal positions, into an array. */
+    /** Evaluates a column or the nodal positions at all nodes. */
     std::vector<double>
     values(const Fill &fill, const unsigned int n_components) const;
   };
@@ -98,7 +99,7 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Time series of field files with one cell type, in the requested formats:
+   * Time series of field files with one cell type. The formats are:
    *  - vtu: base-NNNN.vtu, or a file per rank and base-NNNN.pvtu, and the series
    *    base.pvd. Single precision, with fast compression.
    *  - hdf5: base-NNNN.h5 for all ranks, with the arrays nodes, cells and one for each
@@ -111,10 +112,12 @@ namespace geocone::GEOCONE_DIM
   class FieldFiles
   {
   public:
-    /** @param base prefix of the file names, e.g. "points" */
+    /** Creates an empty time series.
+     *  @param base prefix of the file names, e.g. "points" */
     FieldFiles(const std::string &base, const FieldsFormat format);
 
-    /** Writes the files base-NNNN and appends them to the series. Collective.
+    /** Writes the field files of one time and appends them to the time series.
+     *  Collective.
      *  @throws StepFailure, on all ranks, if one rank cannot write */
     void
     write(const FieldTable  &table,
@@ -122,7 +125,7 @@ namespace geocone::GEOCONE_DIM
           const double       time,
           const MPI_Comm     comm);
 
-    /** Checkpoint data: the time series written so far. */
+    /** Saves or restores the list of field files written so far, for checkpoints. */
     void
     state(StateRow &row)
     {
@@ -141,7 +144,7 @@ namespace geocone::GEOCONE_DIM
                  const double       time,
                  const MPI_Comm     comm) const;
 
-    /** Appends the .vtu files of all ranks, already written, to the series
+    /** Appends the .vtu files of all ranks, already written, to the time series
      *  base.pvd. */
     void
     record_vtu(const FieldTable  &table,
@@ -149,8 +152,8 @@ namespace geocone::GEOCONE_DIM
                const double       time,
                const MPI_Comm     comm);
 
-    /** Writes the .h5 file of all ranks. @param problem error message of this rank;
-     *  if not empty, nothing is written */
+    /** Writes the data of all ranks to one .h5 file. @param problem error message of
+     *  this rank; if not empty, nothing is written */
     void
     write_as_hdf5(const FieldTable  &table,
                   const std::string &folder,
@@ -158,14 +161,14 @@ namespace geocone::GEOCONE_DIM
                   const MPI_Comm     comm,
                   std::string       &problem);
 
-    /** Writes the series index of all .h5 files so far, with the columns of
+    /** Writes the XDMF index of all .h5 files of the time series, with the columns of
      *  @p table. */
     void
     write_xdmf(const FieldTable &table, const std::string &folder) const;
     void
     write_vtkhdf(const FieldTable &table, const std::string &folder) const;
 
-    /** Entry of the series index for an .h5 file. */
+    /** Entry of the XDMF index for one .h5 file. */
     struct Hdf5State
     {
       double      time;

@@ -15,7 +15,8 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Writer of field files for ParaView; scripts/plot reads the VTU files:
+   * Writer of field files for ParaView. The VTU files are also read by scripts/plot.
+   * The files are:
    *  - cells-NNNN.vtu: displacement and velocity on the mesh (cells of degree p as
    *    p^dim linear cells), and per cell the material, the mean stress, the mean
    *    plastic strain
@@ -50,7 +51,7 @@ namespace geocone::GEOCONE_DIM
           const Materials      &materials,
           const Kinematics     &kinematics);
 
-    /** Writes the positions of the obstacles, if any. Collective.
+    /** Writes the field file with the positions of the obstacles. Collective.
      *  @param moved rigid motion of each obstacle since the start */
     void
     write_obstacles(const std::string              &folder,
@@ -59,7 +60,7 @@ namespace geocone::GEOCONE_DIM
                     const Obstacles                &obstacles,
                     const std::vector<RigidMotion> &moved);
 
-    /** Checkpoint data: the time series written so far. */
+    /** Saves or restores the list of field files written so far, for checkpoints. */
     void
     state(StateRow &row)
     {

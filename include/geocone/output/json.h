@@ -10,12 +10,12 @@
 
 namespace geocone
 {
-  /** JSON object that keeps the order of insertion of its entries, as in
+  /** JSON object whose entries keep their order of insertion, as in
    *  summary.json. */
   using Json = nlohmann::ordered_json;
 
-  /** JSON number, or null if the value is not finite, e.g. the displacement of a
-   *  point that has left the mesh. */
+  /** Converts a number to JSON, or to null if the number is not finite. An
+   *  example is the displacement of a point that has left the mesh. */
   inline Json
   finite_or_null(const double value)
   {

@@ -30,16 +30,15 @@ namespace geocone
   };
 
   /**
-   * Limit load: the mean load over the final plateau of the loading branch. Each
-   * load acts over the displacement of its step (backward Euler). Among the
-   * branches of the curve between reversals of the displacement, the loading branch
-   * is the one with the most work, done by the support (footing) or on it (active
-   * wall). The plateau is the longest of the last 1/2, 1/4, 1/8 of its displacement
-   * over which the load drifts by at most
-   * @p tolerance: the means of its two halves differ by less, relative to the mean. If
-   * a single step covers nine tenths of a part, it is compared with the load before.
-   * The limit load is the mean over the plateau, never the peak, since peaks are due to
-   * inertia.
+   * Determines the limit load as the mean load over the final plateau of a
+   * load-displacement curve. Each load acts over the displacement of its step (backward
+   * Euler). Among the branches of the curve between reversals of the displacement, the
+   * loading branch is the one with the most work, done by the support (footing) or on
+   * it (active wall). The plateau is the longest of the last 1/2, 1/4, 1/8 of its
+   * displacement over which the load drifts by at most @p tolerance: the means of its
+   * two halves differ by less, relative to the mean. If a single step covers nine
+   * tenths of a part, it is compared with the load before. The limit load is the mean
+   * over the plateau, never the peak, since peaks are due to inertia.
    */
   LimitLoad
   find_limit_load(const std::vector<LoadPoint> &curve, const double tolerance);

@@ -14,10 +14,10 @@
 namespace geocone
 {
   /**
-   * Bounds and estimate of a limit load by limit analysis. If the dilatancy is smaller
-   * than the friction, the certified lower bound holds for associated flow only, the
-   * upper bound holds for any dilatancy (Radenkovic 1961), and Davis's load (1968) is
-   * an estimate, not a bound.
+   * Lower bound, upper bound and Davis's estimate of a limit load, from limit
+   * analysis. If the dilatancy is smaller than the friction, the certified lower bound
+   * holds for associated flow only, the upper bound holds for any dilatancy
+   * (Radenkovic 1961), and Davis's load (1968) is an estimate, not a bound.
    */
   struct LoadBracket
   {
@@ -25,30 +25,32 @@ namespace geocone
     std::string           unit;         ///< empty for a load factor
     std::optional<double> lower, upper; ///< empty if not certified
 
-    /** Lower and upper bounds with Davis's reduced strength, for non-associated
-     *  flow: of the load, or of the factor of safety by Davis's variants A, B and
-     *  C. */
+    /** Lower and upper bounds computed with Davis's reduced strength for
+     *  non-associated flow. One pair for a limit load; for a factor of safety, one
+     *  pair for each of the variants A, B and C. */
     std::vector<std::array<double, 2>> davis;
     bool                               is_associated = true;
 
     unsigned int cells   = 0;  ///< number of cells of the last mesh
     double       seconds = 0.; ///< computing time of all meshes (s)
 
-    /** Adopts tighter bounds from another mesh; a bound is empty if not certified. */
+    /** Updates the bounds where another mesh provides tighter ones. A bound is empty
+     *  if it is not certified. */
     void
     take(const std::optional<double> other_lower,
          const std::optional<double> other_upper);
 
-    /** Relative gap upper/lower - 1, if both bounds exist. */
+    /** Relative gap upper/lower - 1 between the bounds; empty if a bound is
+     *  missing. */
     std::optional<double>
     gap() const;
 
-    /** Topic "bounds" of the summary: lower, upper, gap, middle, certified; null if
-     *  undefined. */
+    /** Topic "bounds" of summary.json. Entries: lower, upper, gap, middle, certified;
+     *  null if undefined. */
     Json
     bounds() const;
 
-    /** Topic "non_associated" of the summary: the certified bounds and Davis's
+    /** Topic "non_associated" of summary.json: certified bounds and Davis's
      *  estimate. */
     Json
     non_associated() const;
@@ -57,8 +59,8 @@ namespace geocone
     std::string
     text() const;
 
-    /** Line of text that compares an incremental limit load with bounds and
-     *  estimate. */
+    /** Line of text that compares the limit load of an incremental analysis with the
+     *  bounds and Davis's estimate. */
     std::string
     beside(const double incremental) const;
   };

@@ -15,31 +15,33 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Name of the file that describes the scene, for plots. */
+  /** Name of the file that describes the scene for plots of the model. */
   constexpr const char *model_file = "model.json";
 
-  /** Mesh of a scene, for drawings. */
+  /** Mesh of a scene for plots of the model. */
   struct ModelMesh
   {
-    /** A polygon in the plane, or a flat face in space. */
+    /** Polygon in two dimensions or flat face in three dimensions, given by its
+     *  vertices. */
     using Face = std::vector<dealii::Point<dim>>;
 
-    /** Cells (two dimensions) or boundary faces of the mesh (three dimensions). */
+    /** Mesh cells in two dimensions, boundary faces of the mesh in three
+     *  dimensions. */
     std::vector<Face> cells;
 
-    /** Index of the material of each cell; empty for particles, whose body is
-     *  described by Scene::geometry. */
+    /** Material index of each cell. Empty for particles, whose body is described by
+     *  Scene::geometry. */
     std::vector<unsigned int> materials;
 
-    /** Corners of the bounding box. */
+    /** Two opposite corners of the bounding box of the mesh. */
     std::array<dealii::Point<dim>, 2> box;
 
-    /** Returns the boundary faces on which a condition acts. */
+    /** Returns the boundary faces on which a boundary condition acts. */
     std::function<std::vector<SidePart>(const BoundaryCondition &)> faces_of;
   };
 
   /**
-   * Mesh of a run, for drawings. Collective.
+   * Returns the mesh of a run for plots of the model. Collective.
    * @param of_particles whether conditions may act on the sides of the body instead
    * of the sides of the mesh
    */
@@ -48,16 +50,17 @@ namespace geocone::GEOCONE_DIM
                 const Scene          &scene,
                 const bool            of_particles);
 
-  /** Uniform grid with the given grid lines, and boundary conditions on its nodes. */
+  /** Returns a Cartesian grid with the given grid lines, for plots of the model.
+   *  Boundary conditions act on its nodes. */
   ModelMesh
   model_mesh_of(const std::array<std::vector<double>, dim> &lines,
                 const Scene                                &scene);
 
   /**
-   * Describes a scene before its first step (m, m/s, Pa): the body and its
-   * materials, the mesh, supports, tractions, obstacles, observed points and the
-   * changes in each stage. A prescribed value is the largest at a few sampled times
-   * of the loading programme.
+   * Describes a scene before its first step as JSON (m, m/s, Pa). The description
+   * contains the body and its materials, the mesh, supports, tractions, obstacles,
+   * observed points and the changes in each stage. A prescribed value is the largest
+   * at a few sampled times of the loading programme.
    */
   Json
   model_of(const Scene &scene, const ModelMesh &mesh);

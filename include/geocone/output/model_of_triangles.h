@@ -9,7 +9,8 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Mesh of triangles, for drawings. @param triangles must outlive the mesh */
+  /** Returns a triangle mesh for plots of the model. @param triangles must
+   *  outlive the mesh */
   ModelMesh
   model_mesh_of(const Triangles &triangles);
 } // namespace geocone::GEOCONE_DIM

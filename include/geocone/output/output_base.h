@@ -33,10 +33,10 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Output common to all runs: the folder with parameters.prm (as used), log.txt
-   * and files.txt (list of written files), a growing table, summary.json with the
-   * status of the run (run_status.h) and its warnings, and the expectations that
-   * the summary must fulfil.
+   * Output common to all runs. The output folder contains parameters.prm (as used),
+   * log.txt, files.txt (list of written files), a table that grows with each step, and
+   * summary.json with the status of the run (run_status.h) and its warnings. The class
+   * also checks the acceptance criteria of the parameter file.
    */
   class OutputBase : public dealii::ParameterAcceptor
   {
@@ -44,8 +44,8 @@ namespace geocone::GEOCONE_DIM
     OutputBase(const MPI_Comm comm, Log &log);
 
     /**
-     * Compares the summary with the expectations of the parameter file and reports the
-     * outcome.
+     * Checks the acceptance criteria of the parameter file against the summary and
+     * reports the outcome.
      * @return whether all expectations hold
      */
     bool
@@ -58,7 +58,7 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * Creates the output folder for a check of the input without a run: the folder
+     * Creates the output folder for an input check without a run. This is the folder
      * named by the user, or results/NAME-model, where files of an earlier check are
      * replaced.
      * @throws InputError as make_folder()
@@ -66,7 +66,8 @@ namespace geocone::GEOCONE_DIM
     void
     make_folder_of_model(const RunOptions &options);
 
-    /** Writes the description of the model (model_file.h). @throws RunError */
+    /** Writes the description of the model to a file (model_file.h). @throws
+     *  RunError */
     void
     write_model(Json description) const;
 
@@ -82,7 +83,7 @@ namespace geocone::GEOCONE_DIM
       return {with_fields, fields_format == FieldsFormat::both ? 2U : 1U};
     }
 
-    /** Whether an update of the summary of a running simulation is due. */
+    /** Returns true if summary.json of the running simulation is due for an update. */
     bool
     summary_is_old() const;
 
@@ -101,7 +102,8 @@ namespace geocone::GEOCONE_DIM
     unsigned int verbosity = 1;
 
     /**
-     * Writes summary.json: the topics "run" and "warnings" and those of the method.
+     * Writes summary.json with the topics "run" and "warnings" and the topics of the
+     * method.
      * @param status running | finished | failed: why
      * @param topics of the method, in order of output
      * @throws StepFailure if the status is "finished" but a number is not finite; the
@@ -110,18 +112,18 @@ namespace geocone::GEOCONE_DIM
     void
     write_summary(const std::string &status, const Json &topics);
 
-    /** Prints the results of a finished run from its last summary. */
+    /** Prints the results of a finished run, as in its last summary. */
     virtual void
     print_result() const
     {}
 
-    /** Writes the file 'output' that tests compare, if requested, after the check
-     *  of expectations. */
+    /** Writes the file 'output', which regression tests compare with a reference, if
+     *  requested. Called after the acceptance criteria have been checked. */
     void
     report() const;
 
     /**
-     * Checkpoint data of the tables and the summary, needed to resume a run.
+     * Saves or restores the state of the tables and the summary, for checkpoints.
      */
     virtual void
     state_of_run(StateRow &row);
@@ -135,7 +137,7 @@ namespace geocone::GEOCONE_DIM
     void
     make_folder(const RunOptions &options);
 
-    /** Writes the results that tests compare. */
+    /** Writes the results that regression tests compare with a reference. */
     virtual void
     report_results(std::ostream &out) const = 0;
 
@@ -158,7 +160,8 @@ namespace geocone::GEOCONE_DIM
                                            {"both", FieldsFormat::both}}};
 
   private:
-    /** Content of the file 'output' that tests compare. */
+    /** Content of the file 'output', which regression tests compare with a
+     *  reference. */
     enum class Report
     {
       none,

@@ -13,10 +13,9 @@
 namespace geocone
 {
   /**
-   * Reference value of a run: a quantity of summary.json and its value from theory,
-   * experiment or another code. Written as the topic "reference" of the summary,
-   * {quantity, value, expected, relative_error}, which has the same form for all
-   * runs.
+   * Reference value from theory, experiment or another code for a quantity of
+   * summary.json. Written as the topic "reference" of the summary, {quantity,
+   * value, expected, relative_error}, which has the same form for all runs.
    */
   class ReferenceCase : public dealii::ParameterAcceptor
   {
@@ -27,31 +26,32 @@ namespace geocone
     void
     prepare();
 
-    /** Sets the default quantity and value, used if the parameter file names no
-     *  quantity. */
+    /** Sets the default reference quantity and its value. They apply if the
+     *  parameter file names no quantity. */
     void
     set_default(const std::string &name, const double value);
 
-    /** Whether a reference value is given. */
+    /** Returns true if a reference value is given. */
     bool
     is_given() const
     {
       return !quantity.empty();
     }
 
-    /** Whether the parameter file names the reference quantity. */
+    /** Returns true if the parameter file names the reference quantity. */
     bool
     is_asked() const
     {
       return asked;
     }
 
-    /** Topic "reference"; value and relative_error (value/expected - 1) are null if
-     *  the summary does not contain the quantity. */
+    /** Topic "reference" of summary.json. The entries value and relative_error
+     *  (value/expected - 1) are null if the summary does not contain the
+     *  quantity. */
     Json
     topic(const Json &summary) const;
 
-    /** Comparison with the reference value as a line of text. */
+    /** Line of text that compares the result with the reference value. */
     std::string
     text(const Json &summary) const;
 

@@ -22,14 +22,15 @@ namespace geocone
     overwrite  ///< delete the files listed by the earlier run
   };
 
-  /** Creates the parameter "Output/If folder exists", to be declared. */
+  /** Returns the parameter "Output/If folder exists", which the caller declares. */
   Choice<IfExists>
   if_exists_choice();
 
   /**
-   * Creates the output folder of a run, with its list of files (files.h) and
-   * parameters.prm (the parameters as used). If two runs request the same folder at
-   * the same time, only the run that locks it (run_status.h) obtains it.
+   * Creates the output folder of a run. The folder contains the list of written
+   * files (files.h) and parameters.prm (the parameters as used). If two runs request
+   * the same folder at the same time, only the run that locks it (run_status.h)
+   * obtains it.
    * @param wanted name of the folder
    * @param was_named whether the user has given the name
    * @return the name of the folder, the same on all ranks
@@ -42,16 +43,16 @@ namespace geocone
                   const IfExists     if_exists);
 
   /**
-   * Parameters used by the run in a folder. File names among the parameters are
-   * relative to the same folder as in that run.
+   * Reads the parameters of a run from its output folder. File names among the
+   * parameters are relative to the same folder as in that run.
    * @throws InputError if it is not the folder of a run
    */
   ParameterFile
   parameters_of_run(const std::string &folder);
 
   /**
-   * Reopens the folder of a run to be resumed, and locks it for the lifetime of this
-   * process (run_status.h).
+   * Reopens and locks the output folder of a run to be resumed. The lock holds for
+   * the lifetime of this process (run_status.h).
    * @throws InputError if it is not the folder of a run, or its run has not ended
    */
   void

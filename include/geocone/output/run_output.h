@@ -19,8 +19,8 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Record of a step with all its substeps: report of the last substep, work of
-   *  the whole step. */
+  /** Record of one step of the loading programme in an implicit run. The report refers
+   *  to the last substep, the work to the whole step. */
   struct ImplicitRecord : StepRecord<StepReport>
   {
     unsigned int substeps     = 0;     ///< accepted substeps
@@ -50,14 +50,14 @@ namespace geocone::GEOCONE_DIM
     }
   };
 
-  /** Whether the loaded support moves in one direction over three successive
-   *  records. */
+  /** Returns true if the loaded support moves in one direction over three successive
+   *  steps. */
   bool
   moves_on(const ImplicitRecord &a,
            const ImplicitRecord &b,
            const ImplicitRecord &c);
 
-  /** Failure that ends a stage of loading until failure. */
+  /** Failure of the body in a stage with loading until failure. */
   struct Failure
   {
     std::string stage;
@@ -66,9 +66,9 @@ namespace geocone::GEOCONE_DIM
     std::string reason;
   };
 
-  /** Output folder of an implicit run: statistics.csv (a line per step), newton.csv
-   *  (a line per iteration), plates.csv (lines per step), summary.json, VTU series.
-   *  The state of the run is only read. */
+  /** Output folder of an implicit run. It contains statistics.csv (a line per step),
+   *  newton.csv (a line per iteration), plates.csv (lines per step), summary.json and
+   *  a VTU series. The state of the run is only read. */
   class RunOutput : public SceneOutput<ImplicitRecord>
   {
   public:
@@ -97,14 +97,14 @@ namespace geocone::GEOCONE_DIM
       balance.begin(energies);
     }
 
-    /** Accounts for the energies of removed and added parts of the body. */
+    /** Includes added and removed parts of the body in the energy balance. */
     void
     change_body(const BodyChange &change)
     {
       balance.change_body(change.before, change.after);
     }
 
-    /** Appends the iterations of an attempted (sub)step to newton.csv. */
+    /** Appends the Newton iterations of an attempted step or substep to newton.csv. */
     void
     add_newton_table(const unsigned int step,
                      const double       time,
@@ -115,7 +115,7 @@ namespace geocone::GEOCONE_DIM
     void
     add_step(const ImplicitRecord &record);
 
-    /** Writes the field files, if requested. */
+    /** Writes the field files if field output is enabled. */
     void
     write_fields(const double                    time,
                  const BackgroundMesh           &mesh,
@@ -124,25 +124,25 @@ namespace geocone::GEOCONE_DIM
                  const Kinematics               &kinematics,
                  const std::vector<RigidMotion> &moved_obstacles);
 
-    /** Results of all steps, as topics of the summary. */
+    /** Returns the topics of summary.json with the results of all steps. */
     Json
     results() const;
 
-    /** Includes the errors with respect to exact fields in subsequent summaries. */
+    /** Sets the errors with respect to the exact solution, for summary.json. */
     void
     set_field_errors(const FieldErrors &errors)
     {
       field_errors = errors;
     }
 
-    /** Includes the strict bounds of the limit load in subsequent summaries. */
+    /** Sets the strict bounds of the limit load, for summary.json. */
     void
     set_bracket(const LoadBracket &of_load)
     {
       bracket = of_load;
     }
 
-    /** Reports the failure at the end of a run, now and in subsequent summaries. */
+    /** Reports the failure of the body and stores it for summary.json. */
     void
     set_failure(const Failure &failure);
 
@@ -170,7 +170,8 @@ namespace geocone::GEOCONE_DIM
 
     /** @name Topics of the summary */
     /** @{ */
-    /** Appends the final topics: factor of safety, bounds, errors and failure. */
+    /** Appends the final topics of summary.json: factor of safety, bounds, errors and
+     *  failure. */
     void
     add_outcome(Json &json) const;
 
@@ -179,10 +180,10 @@ namespace geocone::GEOCONE_DIM
     Json
     safety() const;
 
-    /** Growth of displacements in strength reduction: displacement per increment of
-     *  the strength factor in the last reduction, divided by the same ratio in the
-     *  first reduction, for the observed point that moves most; empty without
-     *  observed points. */
+    /** Acceleration of displacements in strength reduction: ratio of the last to the
+     *  first displacement rate (-). The rate is the displacement per increment of the
+     *  strength factor in one reduction, at the observed point that moves most. Empty
+     *  without observed points. */
     std::optional<double>
     growth_of_displacement() const;
 
@@ -204,24 +205,26 @@ namespace geocone::GEOCONE_DIM
     void
     report_results(std::ostream &out) const override;
 
-    /** Incremental limit load of a summary in the unit of its strict bounds, if
-     *  both exist. */
+    /** Limit load of the incremental analysis in the unit of its strict bounds. Empty
+     *  if the summary contains no limit load or no bounds. */
     std::optional<double>
     bracketed_load(const Json &of_run) const;
 
-    /** Warns if friction with memory has changed the result by more than about 1 %. */
+    /** Warns if the regularisation by friction with memory changes the result by more
+     *  than about 1 %. */
     void
     warn_of_memory() const;
 
     void
     print_safety() const;
 
-    /** Whether the load is a dimensionless load factor, not converted into a force
-     *  by the parameter 'Factor'. */
+    /** Returns true if the load is a dimensionless load factor. False if the parameter
+     *  'Factor' converts it into a force. */
     bool
     load_is_number() const;
 
-    /** Warns once if the load jumps by more than half of its value and back. */
+    /** Warns once if the load of a single step deviates by more than half from its
+     *  neighbours. */
     void
     warn_of_jump();
 

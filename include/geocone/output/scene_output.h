@@ -13,8 +13,8 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Output of a run of a scene: columns of statistics.csv and topics of the summary
-   * common to all methods.
+   * Output common to all methods that analyse a scene: columns of statistics.csv and
+   * topics of summary.json.
    * @tparam Record a StepRecord
    */
   template <typename Record>
@@ -31,8 +31,8 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * Kinetic energy and largest plastic strain at the end of a step, for the
-     * progress line.
+     * Text with the kinetic energy and the largest plastic strain, for the progress
+     * line.
      */
     std::string
     text_of_motion(const StepEnd &end) const
@@ -56,7 +56,7 @@ namespace geocone::GEOCONE_DIM
       this->make_folder(options);
     }
 
-    /** Converts a unit of plane strain into the unit of the scene, see
+    /** Converts a unit of plane strain into the unit of the scene's geometry. See
      *  Geometry::unit(). */
     std::string
     unit(const std::string &in_plane_strain) const
@@ -64,7 +64,8 @@ namespace geocone::GEOCONE_DIM
       return scene->geometry.unit(in_plane_strain);
     }
 
-    /** Appends a column, named with its unit in plane strain. */
+    /** Appends a column to statistics.csv. Its name contains the unit in plane
+     *  strain. */
     void
     add(const std::string                             &column,
         const typename StatisticsTable<Record>::Value &value,
@@ -89,8 +90,8 @@ namespace geocone::GEOCONE_DIM
           [](const Record &r) { return r.last.largest_plastic_strain; });
     }
 
-    /** Appends columns of energies. @param knows_elastic whether the method
-     *  computes Energies::elastic */
+    /** Appends the columns of energies to statistics.csv. @param knows_elastic whether
+     *  the method computes Energies::elastic */
     void
     add_energy_columns(const bool knows_elastic)
     {
@@ -110,8 +111,9 @@ namespace geocone::GEOCONE_DIM
           [this](const Record &) { return balance.loss(); });
     }
 
-    /** Appends columns of the moments at observed boundary conditions (not in
-     *  axisymmetry) and of the displacements of observed points. */
+    /** Appends the columns of observed quantities to statistics.csv. They are the
+     *  moments at observed boundary conditions (not in axisymmetry) and the
+     *  displacements of observed points. */
     void
     add_observed_columns()
     {
@@ -139,7 +141,8 @@ namespace geocone::GEOCONE_DIM
 
     /** @name Topics of all summaries */
     /** @{ */
-    /** Adds the final displacements of the observed points as the topic "points". */
+    /** Adds the topic "points" to summary.json: final displacements of the observed
+     *  points. */
     void
     add_points(Json &summary) const
     {
@@ -151,7 +154,8 @@ namespace geocone::GEOCONE_DIM
                    finite_or_null(displacements[i][d]);
     }
 
-    /** Topic "energy" of a summary. @param weight_changes see EnergyBalance::json() */
+    /** Returns the topic "energy" of summary.json. @param weight_changes see
+     *  EnergyBalance::json() */
     Json
     energy(const bool weight_changes) const
     {

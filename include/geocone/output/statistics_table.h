@@ -10,24 +10,25 @@
 
 namespace geocone
 {
-  /** Whether the values of a column must be finite. */
+  /** Treatment of non-finite values in a column of statistics.csv. */
   enum class Finite
   {
     must_be,
     may_be ///< e.g. the displacement of a point that has left the mesh
   };
 
-  /** Last part of the error message about a non-finite value. */
+  /** End of the error message for a non-finite value. */
   inline constexpr const char *not_finite_remedy =
     " is not a finite number\n  remedy:  look for absurd magnitudes among "
     "the parameters, the formulas and the files that were read";
 
-  /** Checks a value of a column. @throws StepFailure if the value is not finite */
+  /** Checks that a value of a column is finite. @throws StepFailure if the value is
+   *  not finite */
   void
   check_finite(const std::string &column, const double value);
 
-  /** Columns of statistics.csv: each has a name with its unit, and a function that
-   *  evaluates the record of a step. */
+  /** Columns of statistics.csv. Each column has a name that contains the unit, and
+   *  a function that evaluates the record of a step. */
   template <typename Record>
   class StatisticsTable
   {
@@ -51,8 +52,8 @@ namespace geocone
       return all;
     }
 
-    /** Values of all columns for a record. @throws StepFailure if a value that must
-     *  be finite is not finite */
+    /** Evaluates all columns for the record of a step. @throws StepFailure if a
+     *  value that must be finite is not finite */
     std::vector<double>
     line(const Record &record) const
     {

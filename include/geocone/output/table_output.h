@@ -12,7 +12,7 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Output of a run that stores all its records, each of which is a line of a
+  /** Output of a run that stores records and writes each record as a line of a
    *  table. */
   template <typename Record>
   class TableOutput : public OutputBase
@@ -31,7 +31,7 @@ namespace geocone::GEOCONE_DIM
         statistics.add_line(line);
     }
 
-    /** Records of all steps so far. */
+    /** Records of all steps since the start of the run. */
     const std::vector<Record> &
     all_records() const
     {
@@ -46,7 +46,8 @@ namespace geocone::GEOCONE_DIM
     }
 
   protected:
-    /** Opens the table in the output folder, after all columns have been added. */
+    /** Opens the table file in the output folder. All columns must have been added
+     *  before. */
     void
     open_table(const std::string &file)
     {

@@ -12,11 +12,12 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Content of a field file on triangles without shared nodes: node p = 3 c + i is
-   *  corner i of cell c. */
+  /** Content of a field file on a triangle mesh. Triangles do not share nodes: node
+   *  p = 3 c + i is corner i of cell c. */
   struct TriangleTable : FieldTable
   {
-    /** @param triangles must outlive the table @param is_here whether this rank
+    /** Creates a table without columns.
+     *  @param triangles must outlive the table @param is_here whether this rank
      *  stores them */
     explicit TriangleTable(const Triangles &triangles,
                            const bool       is_here = true)

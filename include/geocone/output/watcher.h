@@ -11,9 +11,9 @@
 namespace geocone
 {
   /**
-   * Watchdog process that corrects the summary of a run whose process was killed:
-   * "running" is replaced by "killed", since the process was ended by force (kill
-   * -9, lack of memory, a crash, an abort) and could not report that itself. If the
+   * Watchdog process that corrects the status of a killed run in summary.json. It
+   * replaces "running" by "killed", since the process was ended by force (kill -9,
+   * lack of memory, a crash, an abort) and could not report that itself. If the
    * watcher is killed as well, the topic "run" of the summary (run_topic()) still
    * identifies the process and its last sign of life. While the program lives, the
    * watcher renews the sign of life of the folder's lock.
@@ -30,7 +30,7 @@ namespace geocone
     Watcher &
     operator=(const Watcher &) = delete;
 
-    /** Sets the output folder to be watched, in place of an earlier folder. */
+    /** Sets the output folder to be watched, which replaces an earlier folder. */
     static void
     watch(const std::string &folder);
 
