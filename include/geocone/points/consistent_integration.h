@@ -12,7 +12,8 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Axis-normal part of a fixed boundary side, with soil on one side of it. */
+  /** Part of a fixed boundary, normal to a coordinate axis, with soil on one
+   *  side. */
   struct SoilLimit
   {
     unsigned int             axis;
@@ -22,11 +23,12 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Variationally consistent integration of first order: makes the integration
-   * over points exact for a constant stress in each cell (Chen, Hillman and
-   * Rueter, International Journal for Numerical Methods in Engineering 95,
-   * 2013). In a cell full of soil, with the fraction |c| of its volume on the
-   * soil's side of the limits,
+   * Applies variationally consistent integration of first order to the weights
+   * and gradients of material points. In each cell, integration over the points
+   * is then exact for a constant stress (Chen, Hillman and Rueter,
+   * International Journal for Numerical Methods in Engineering 95, 2013). In a
+   * cell full of soil, with the fraction |c| of its volume on the soil's side
+   * of the limits,
    *
    *   w_p   = V_p |c| / sum_q V_q,
    *   g_p,i = grad N_i(x_p) + 1/|c| (int_c grad N_i - sum_q w_q grad N_i(x_q)),

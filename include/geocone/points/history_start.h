@@ -15,12 +15,12 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Initialises the history variables of points from their stresses, and
-   *  collects errors and remarks of the constitutive laws. */
+  /** Initialises the history variables of material points from their stresses.
+   *  Errors and remarks of the constitutive laws are collected. */
   class HistoryStart
   {
   public:
-    /** Initialises the history variables of a point at @p place. */
+    /** Initialises the history variables of a material point at @p place. */
     void
     set(const ConstitutiveLaw         &law,
         const ConstitutiveLaw::Stress &stress,
@@ -42,7 +42,8 @@ namespace geocone::GEOCONE_DIM
         }
     }
 
-    /** Stores a reason for rejection; only the first one is reported. */
+    /** Stores the reason why a material point is rejected. Only the first reason
+     *  is reported. */
     void
     refuse(const std::string &why)
     {
@@ -56,7 +57,8 @@ namespace geocone::GEOCONE_DIM
       return !refusal.empty();
     }
 
-    /** Checks that no point of any rank was rejected. Collective. @throws Error */
+    /** Throws an error if a material point was rejected on any rank. Collective.
+     *  @throws Error */
     template <typename Error>
     void
     check(const MPI_Comm comm) const
@@ -66,8 +68,8 @@ namespace geocone::GEOCONE_DIM
         throw Error(why);
     }
 
-    /** Appends a remark on states that the constitutive laws changed at
-     *  initialisation. Collective. */
+    /** Appends a remark if the constitutive laws changed initial states of
+     *  material points. Collective. */
     void
     remark(const MPI_Comm comm, std::vector<std::string> &remarks) const
     {

@@ -14,23 +14,23 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Displacements at the positions of "Observation/Points": either interpolated
-   * by the shape functions of a cell at a fixed position, or of the initially
-   * nearest material point, tracked across all ranks. All functions are
-   * collective.
+   * Displacements at the observed positions (parameter "Observation/Points"). They
+   * are either interpolated by the shape functions of a cell at a fixed position,
+   * or those of the initially nearest material point, tracked across all ranks.
+   * All functions are collective.
    */
   class ObservedPoints
   {
   public:
-    /** Locates the observed positions in a mesh. @throws InputError for a
-     *  position outside of the mesh */
+    /** Locates the observed positions in the cells of a mesh. @throws InputError
+     *  for a position outside of the mesh */
     void
     prepare_field(const Scene          &scene,
                   const BackgroundMesh &mesh,
                   const Space          &space);
 
-    /** Selects the nearest material points. @throws InputError for a position
-     *  outside of the body */
+    /** Selects the material point nearest to each observed position. @throws
+     *  InputError for a position outside of the body */
     void
     prepare_points(const Scene          &scene,
                    const MaterialPoints &points,
@@ -50,9 +50,9 @@ namespace geocone::GEOCONE_DIM
     displacements(const std::vector<PointArrays> &groups) const;
     /** @} */
 
-    /** Excess pore pressures in undrained soil (Pa): at the material point
-     *  nearest to the observed position within the cell, or at the tracked
-     *  material point. */
+    /** Excess pore pressures at the observed positions in undrained soil (Pa).
+     *  They are taken at the nearest material point within the cell, or at the
+     *  tracked material point. */
     std::vector<double>
     pressures(const MaterialPoints &points) const;
 
@@ -64,7 +64,7 @@ namespace geocone::GEOCONE_DIM
       std::vector<double>       values;
       dealii::Point<dim>        position;
 
-      /** Index among all cells of this rank. */
+      /** Index of the cell among all cells of this rank. */
       unsigned int cell = dealii::numbers::invalid_unsigned_int;
     };
 
@@ -76,13 +76,14 @@ namespace geocone::GEOCONE_DIM
       unsigned int       id     = 0;
     };
 
-    /** Selects the nearest material points over all ranks. @param own
-     *  candidates of this rank, one for each position */
+    /** Selects, over all ranks, the material point nearest to each observed
+     *  position. @param own candidates of this rank, one for each position */
     void
     choose(const Scene                                 &scene,
            const std::vector<std::optional<Candidate>> &own);
 
-    /** Sums displacement components over all ranks; NaN if no rank has a value. */
+    /** Sums displacement components over all ranks. The result is NaN if no rank
+     *  has a value. */
     std::vector<dealii::Tensor<1, dim>>
     gather(std::vector<double> &sums) const;
 

@@ -29,12 +29,13 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * File of particles, read in parts: a .csv file whose first line contains the
-   * column names, or an .h5 file with one array per column. Columns are x, y
-   * (m), volume (m^2), and, if given, material (name in .csv, or number from
-   * 0), vx and vy (m/s), sxx and syy and sxy (Pa); in three dimensions also z,
-   * vz, szz, syz, szx, with volumes in m^3. A .csv file can have a byte-order
-   * mark, any line ends, names in double quotes, and blank lines at its end.
+   * Reader of particle files. A file is read in blocks and is either a .csv file
+   * whose first line contains the column names, or an .h5 file with one array per
+   * column. Columns are x, y (m), volume (m^2), and, if given, material (name in
+   * .csv, or number from 0), vx and vy (m/s), sxx and syy and sxy (Pa); in three
+   * dimensions also z, vz, szz, syz, szx, with volumes in m^3. A .csv file can
+   * have a byte-order mark, any line ends, names in double quotes, and blank lines
+   * at its end.
    * @throws InputError naming the parameter, the file, the position and the
    * fault; the same on all ranks that read the file
    */
@@ -58,16 +59,16 @@ namespace geocone::GEOCONE_DIM
     bool
     has(const Column column) const;
 
-    /** Reads up to @p n further particles; returns none at the end of the file. */
+    /** Reads the next @p n particles, or fewer at the end of the file. */
     std::vector<Seed>
     read(const std::size_t n);
 
-    /** Number of particles in a file, if the file exists; for .csv, estimated
-     *  from its first lines. */
+    /** Number of particles in a file; zero if the file does not exist. For .csv it
+     *  is estimated from the first lines. */
     static double
     expected_number(const std::string &file_name);
 
-    /** Reader of a file format. */
+    /** Reader of one file format, .csv or .h5. */
     class Reader;
 
   private:

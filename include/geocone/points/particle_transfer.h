@@ -13,10 +13,12 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Rule for the transfer of velocities from the nodes to the particles:
-   *   v_p := alpha (v_p + sum_i N_i (v_i - vL_i)) + (1 - alpha) sum_i N_i v_i,
-   * and, for affine rules, C of the velocity field v_p + C (x - x_p) by which
-   * the particles transfer momentum to the nodes (affine_velocity()).
+   * Rule for the transfer of velocities from the nodes to the particles. With
+   * the FLIP weight alpha, the velocity v_p of a particle becomes
+   *   v_p := alpha (v_p + sum_i N_i (v_i - vL_i)) + (1 - alpha) sum_i N_i v_i.
+   * Affine rules also update the gradient C of the velocity field v_p + C (x -
+   * x_p), by which the particles transfer momentum to the nodes
+   * (affine_velocity()).
    */
   struct TransferRule
   {
@@ -25,23 +27,24 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Transfer of velocities from the nodes to the particles, in implicit and
-   * explicit steps: parameters of "Material point method". A new rule is an
-   * entry in the list of rules.
+   * Parameters of the velocity transfer from the nodes to the particles
+   * (section "Material point method"), for implicit and explicit steps. A new
+   * rule is an entry in the list of rules.
    */
   class ParticleTransfer : public dealii::ParameterAcceptor
   {
   public:
     ParticleTransfer();
 
-    /** Whether particles have an affine velocity field, v + C (x - x_p). */
+    /** Returns true if particles have an affine velocity field v + C (x -
+     *  x_p). */
     bool
     is_affine() const
     {
       return present().is_affine;
     }
 
-    /** Weight alpha of the FLIP velocity v_p + dv of a particle; the
+    /** Weight alpha of the FLIP velocity v_p + dv of a particle. The
      *  interpolated (PIC) velocity has the weight 1 - alpha. */
     double
     flip_part() const
@@ -56,7 +59,8 @@ namespace geocone::GEOCONE_DIM
       return rule.word();
     }
 
-    /** Name of the parameter "Material point method/Transfer", for messages. */
+    /** Name of the parameter "Material point method/Transfer", for error
+     *  messages. */
     static const char *const parameter;
 
   private:
@@ -78,12 +82,15 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Velocity gradient C of a particle in affine rules (APIC), from the moments
-   * of its nodes,
-   *   B = sum_i N_i v_i r_i',  D = sum_i N_i r_i r_i',  r_i = x_i - x_p:
-   * C e = B e/d for the eigenvectors e of D with the eigenvalues d. On a side
-   * of the mesh only the functions of the side are non-zero: in its normal
-   * direction, where d vanishes, the limit is the gradient.
+   * Velocity gradient C of a particle in affine transfer rules (APIC). With the
+   * moments of the nodes
+   *   B = sum_i N_i v_i r_i',  D = sum_i N_i r_i r_i',  r_i = x_i - x_p,
+   * C e = B e/d for each eigenvector e of D with the eigenvalue d. On a side of
+   * the mesh only the shape functions of the side are nonzero, and d vanishes
+   * in the normal direction. The limit of C e is then the gradient of the
+   * interpolated velocity.
+   * @param B first moment of the nodal velocities
+   * @param D second moment of the nodes
    * @param gradient sum_i v_i (grad N_i)'
    * @param size of the cell (m), for comparison with sqrt(d)
    */
@@ -93,8 +100,8 @@ namespace geocone::GEOCONE_DIM
                   const dealii::Tensor<2, dim> &gradient,
                   const double                  size);
 
-  /** Tolerance of d/size^2 below which an eigenvalue d is treated as zero in
-   *  affine_velocity(). */
+  /** Lower limit of d/size^2 in affine_velocity(); smaller eigenvalues d are
+   *  treated as zero. */
   constexpr double vanishing_moment = 1e-10;
 } // namespace geocone::GEOCONE_DIM
 

@@ -21,9 +21,9 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Particle management of the material point method: generates particles,
-   * locates them in cells, sends them to the ranks that own the cells, and
-   * evaluates the shape functions at the particles. The state of particles is
+   * Manages the particles of the material point method. The class generates
+   * particles, locates them in cells, sends them to the ranks that own the cells,
+   * and evaluates the shape functions at the particles. The state of particles is
    * in MaterialPoints, sorted by cell and particle number.
    */
   class Particles
@@ -43,17 +43,17 @@ namespace geocone::GEOCONE_DIM
             const Space          &space,
             MaterialPoints       &points);
 
-    /** Removes the particles for which @p stays is false. */
+    /** Removes all particles p for which stays[p] is false. */
     void
     keep(const std::vector<bool> &stays, MaterialPoints &points) const;
 
-    /** Appends the particles of a material placed in a stage. Collective.
+    /** Appends the particles of a material that is placed in a stage. Collective.
      *  @return number of appended particles, over all ranks */
     unsigned long
     add(const unsigned int material, MaterialPoints &points);
 
-    /** Discards the prepared particles of a material that was placed before the
-     *  run was resumed. */
+    /** Discards the prepared particles of a material that was already placed before
+     *  the run was resumed. */
     void
     forget(const unsigned int material)
     {
@@ -61,15 +61,15 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * Sorts moved particles into their new cells and ranks. Collective.
+     * Assigns particles to their new cells and ranks after a motion. Collective.
      * @throws StepFailure if a particle leaves the mesh and this is an error
      */
     void
     sort(MaterialPoints &points);
 
     /**
-     * Computes the B-bar gradients before each step: volume-weighted projections
-     * within cells. Collective.
+     * Computes the gradients of the B-bar method before each step. They are
+     * volume-weighted projections within cells. Collective.
      * @param consistent whether to call make_consistent() first; for splines,
      * without contact of bodies
      * @param limits boundary sides that limit the soil, for make_consistent()
@@ -79,7 +79,7 @@ namespace geocone::GEOCONE_DIM
                   const std::vector<SoilLimit> &limits,
                   MaterialPoints               &points) const;
 
-    /** Sends particles to the ranks of their cells, after
+    /** Sends particles to the ranks that own their cells. Called after
      *  BackgroundMesh::repartition() and Space::follow_ranks(). Collective. */
     void
     follow_ranks(MaterialPoints &points) const
@@ -96,7 +96,7 @@ namespace geocone::GEOCONE_DIM
     void
     load(const Archive &archive, MaterialPoints &points);
 
-    /** Resets the number of particles that left the mesh. */
+    /** Resets the number of particles that left the mesh to zero. */
     void
     forget_lost()
     {
@@ -118,7 +118,7 @@ namespace geocone::GEOCONE_DIM
       return n_lost_all;
     }
 
-    /** Whether particles may leave the mesh, in which case they are removed and
+    /** Returns true if particles may leave the mesh. Such particles are removed and
      *  counted. */
     bool
     may_leave() const
@@ -134,21 +134,22 @@ namespace geocone::GEOCONE_DIM
     }
 
   private:
-    /** Locates particles in cells and sorts them. @return a message on one
-     *  particle that has left the mesh, and the number of such particles on
-     *  this rank */
+    /** Locates the particles in the cells of this rank and sorts them by cell.
+     *  @return a message on one particle that has left the mesh, and the number of
+     *  such particles on this rank */
     std::pair<std::string, unsigned int>
     find_cells(MaterialPoints &points) const;
 
-    /** Evaluates node numbers and shape functions at the points. */
+    /** Determines the node numbers and evaluates the shape functions at all
+     *  particles. */
     void
     evaluate(MaterialPoints &points) const;
 
     /**
-     * Moves unit coordinates of a particle to a distance of at least 1e-6 of
-     * the cell size from the cell boundary. On the boundary, shape functions of the
-     * adjacent cell would vanish with a non-zero gradient: their nodes without
-     * mass would be fixed, and resist a body in free flight.
+     * Limits unit coordinates of a particle to a distance of at least 1e-6 from the
+     * cell boundary. On the boundary, shape functions of the adjacent cell would
+     * vanish with a non-zero gradient: their nodes without mass would be fixed, and
+     * resist a body in free flight.
      */
     dealii::Point<dim>
     inside(const dealii::Point<dim> &unit) const;
@@ -159,7 +160,8 @@ namespace geocone::GEOCONE_DIM
 
     std::unique_ptr<CellSearch> search;
 
-    /** Prepared particles of materials placed in later stages, by material. */
+    /** Particles prepared for materials that are placed in later stages, by
+     *  material. */
     std::map<unsigned int, MaterialPoints> waiting;
 
     const Contacts       *contacts = nullptr;

@@ -12,15 +12,16 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Points of one material on this rank in the layout of explicit steps: one
-   * contiguous array per component. Arrays are padded to a multiple of
-   * PointBlock::lanes with copies of the last point without mass and volume, so
-   * that kernels need no remainder loops.
+   * Material points of one material on this rank, with one contiguous array per
+   * component. Explicit steps use this layout. Arrays are padded to a multiple
+   * of PointBlock::lanes with copies of the last point without mass and volume,
+   * so that kernels need no remainder loops.
    */
   class PointArrays : public PointState<PointComponents>
   {
   public:
     /**
+     * Creates an empty set of points.
      * @param of_material index of the material
      * @param n_history number of history variables of the law
      * @param affine whether the components of APIC are used
@@ -53,7 +54,7 @@ namespace geocone::GEOCONE_DIM
         values[k] = history[k][p];
     }
 
-    /** Stress components in the order of tensor_component (Pa). */
+    /** Stress components of a point in the order of tensor_component (Pa). */
     std::array<double, n_mandel>
     stress_components(const unsigned int p) const
     {
@@ -67,30 +68,33 @@ namespace geocone::GEOCONE_DIM
     void
     set_capacity(const std::size_t n);
 
-    /** Appends a point with all values zero; pad() must be called before
-     *  kernels use the arrays. @return index of the point */
+    /** Appends a point whose state variables are zero. Before kernels use the
+     *  arrays, pad() must be called. @return index of the point */
     unsigned int
     append();
 
-    /** Appends a point with the values of a row, in the order of variables(). */
+    /** Appends a point, given the values of its state variables in the order of
+     *  variables(). */
     void
     append(const double *row)
     {
       set(append(), row);
     }
 
-    /** Pads the arrays with copies of the last point without mass and volume. */
+    /** Pads the arrays with copies of the last point that have neither mass nor
+     *  volume. */
     void
     pad();
 
-    /** Reorders the points: point i becomes the former point order[i]; points
+    /** Reorders the points: the new point i is the former point order[i]. Points
      *  not listed are removed. */
     void
     reorder(const std::vector<unsigned int> &order);
 
     const unsigned int of_material;
 
-    /** Whether these points are being removed by ramped forces (see Stage). */
+    /** True while ramped forces remove these points from the body (see
+     *  Stage). */
     bool ramped = false;
 
   private:

@@ -9,7 +9,8 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Elastic stiffness at a point at t_n, for its stress and history variables. */
+  /** Elastic moduli of a material point at t_n, which depend on its stress and
+   *  history variables. */
   inline Elasticity
   elasticity_at_start(const Materials      &materials,
                       const MaterialPoints &points,

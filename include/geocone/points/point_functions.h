@@ -16,9 +16,9 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Shape functions that are non-zero at a point of any mesh, with the transfer
-   * between the point and its nodes (P2G, G2P), for implicit and explicit
-   * steps; TransferKernels is the equivalent for many points of a Cartesian
+   * Shape functions that are nonzero at a point, with the transfer between the
+   * point and its nodes (P2G, G2P). They serve implicit and explicit steps on
+   * any mesh; TransferKernels is the equivalent for many points of a Cartesian
    * grid. Nodal arrays contain m values per local node, node by node.
    */
   struct PointFunctions
@@ -26,14 +26,15 @@ namespace geocone::GEOCONE_DIM
     unsigned int        n;     ///< number of shape functions
     const unsigned int *nodes; ///< local node numbers
     const double       *N;
-    /** Gradients of all shape functions: dN/dx, dN/dy, ... (1/m). */
+    /** Derivatives dN/dx, dN/dy, ... of the shape functions at the point
+     *  (1/m). */
     std::array<const double *, dim> slopes;
 
     using Positions = std::vector<dealii::Point<dim>>; ///< of the local nodes
 
-    /** Interpolates nodal values to the point (G2P). @param[out] at_point sum
-     *  N_i f_i of the m values, then, with gradients, sum f_i dN_i/dx, sum f_i
-     *  dN_i/dy, ...
+    /** Interpolates nodal values and, optionally, their gradients to the point
+     *  (G2P). @param[out] at_point sum N_i f_i of the m values, then, with
+     *  gradients, sum f_i dN_i/dx, sum f_i dN_i/dy, ...
      *  @tparam stride number of values per node, at least m */
     template <unsigned int m, bool with_gradients, unsigned int stride = m>
     void
@@ -53,8 +54,8 @@ namespace geocone::GEOCONE_DIM
         }
     }
 
-    /** Distributes values of the point to the nodes (P2G), the transpose of
-     *  gather(); adds to the nodal values. */
+    /** Distributes values of the point to the nodes (P2G), as the transpose of
+     *  gather(). The results are added to the nodal values. */
     template <unsigned int m, bool with_gradients, unsigned int stride = m>
     void
     scatter(const double *at_point, double *at_nodes) const
@@ -72,8 +73,9 @@ namespace geocone::GEOCONE_DIM
         }
     }
 
-    /** Distributes the affine momentum of APIC to the nodes (P2G): adds mass
-     *  N_i C (x_i - x) to the first dim of m nodal values. */
+    /** Distributes the affine momentum of APIC from the point to the nodes
+     *  (P2G). The vector mass N_i C (x_i - x) is added to the first dim of the
+     *  m values of node i. */
     template <unsigned int m>
     void
     scatter_affine(const double                  mass,
@@ -90,8 +92,8 @@ namespace geocone::GEOCONE_DIM
         }
     }
 
-    /** Velocity gradient C of APIC at a point x (G2P), from the nodal
-     *  velocities, the first dim of m values.
+    /** Velocity gradient C of APIC at a point x (G2P). The nodal velocities are
+     *  the first dim of m nodal values.
      *  @param size of the cell (m), as in affine_velocity() */
     template <unsigned int m>
     dealii::Tensor<2, dim>
@@ -115,7 +117,8 @@ namespace geocone::GEOCONE_DIM
       return affine_velocity(B, moment(x, positions), gradient, size);
     }
 
-    /** Moment of the nodes in APIC, D = sum_i N_i (x_i - x)(x_i - x)' (m^2). */
+    /** Second moment D = sum_i N_i (x_i - x)(x_i - x)' of the nodes about a
+     *  point, for APIC (m^2). */
     dealii::Tensor<2, dim>
     moment(const dealii::Point<dim> &x, const Positions &positions) const
     {
@@ -129,8 +132,8 @@ namespace geocone::GEOCONE_DIM
     }
   };
 
-  /** Calls f(p, c, functions) for each point p of each cell c, with the shape
-   *  functions at p. */
+  /** Calls f(p, c, functions) for each point p of each cell c, where functions
+   *  are the shape functions at p. */
   template <typename Function>
   void
   for_each_point(const MaterialPoints &points, const Function &f)

@@ -14,25 +14,27 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Checks that the points of a checkpoint have the variables of this run, as
-   *  listed by PointState::variables(). @throws RunError */
+  /** Checks that the points of a checkpoint have the same state variables as
+   *  this run. The variables are listed by PointState::variables(). @throws
+   *  RunError */
   void
   check_variables(const std::string &written, const std::string &here);
 
-  /** Checks that points are in their cells, unlike in a checkpoint of another
-   *  mesh. Collective. @throws RunError */
+  /** Checks that each point lies in its cell. This fails for a checkpoint of
+   *  another mesh. Collective. @throws RunError */
   void
   check_places(const MaterialPoints &points, const MPI_Comm comm);
 
-  /** Saves the points in a checkpoint, by cell. Collective. */
+  /** Saves the material points in a checkpoint, cell by cell. Collective. */
   void
   save_points(Archive &archive, const MaterialPoints &points);
 
-  /** Points read from a checkpoint written by any number of ranks. */
+  /** Material points read from a checkpoint written by any number of ranks. */
   class PointRecord
   {
   public:
-    /** Reads the points, with the same variables as @p like. Collective.
+    /** Reads the points of a checkpoint, with the same state variables as @p
+     *  like. Collective.
      *  @throws RunError if the variables do not match */
     PointRecord(const Archive &archive, const MaterialPoints &like);
 
@@ -42,8 +44,8 @@ namespace geocone::GEOCONE_DIM
       return cells->has(cell);
     }
 
-    /** State of the points of a cell, one row per point. @throws RunError for
-     *  an unknown cell */
+    /** State variables of the points of a cell, one row per point. @throws
+     *  RunError for an unknown cell */
     std::vector<const double *>
     of(const BackgroundMesh::Cell &cell) const;
 

@@ -18,7 +18,8 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Number and address of the components of a scalar, vector or tensor. */
+  /** Number and memory address of the components of a scalar, vector or
+   *  tensor. */
   template <typename T>
   struct Components
   {
@@ -66,9 +67,9 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Reorders the values of points: point i becomes the former point order[i];
-   * the number of points must not increase. The memory of @p values is reused;
-   * @p old is a work array.
+   * Reorders the values of a variable: the new point i is the former point
+   * order[i]. The number of points must not increase. The memory of @p values
+   * is reused; @p old is a work array.
    */
   template <typename T>
   void
@@ -84,8 +85,8 @@ namespace geocone::GEOCONE_DIM
         values[width * i + k] = old[std::size_t(width) * order[i] + k];
   }
 
-  /** Variable of points in point-wise layout: the components of a point are
-   *  contiguous. */
+  /** State variable of material points in point-wise layout: the components of
+   *  a point are contiguous. */
   template <typename T>
   class PointValues : public std::vector<T>
   {
@@ -102,7 +103,7 @@ namespace geocone::GEOCONE_DIM
       return width * Components<T>::n;
     }
 
-    /** Resizes to @p n points, new ones with zeros. */
+    /** Resizes the array to @p n points; new points have zero values. */
     void
     set_size(const std::size_t n)
     {
@@ -117,8 +118,8 @@ namespace geocone::GEOCONE_DIM
       this->reserve(width * n);
     }
 
-    /** Copies the components of point @p p to or from @p row, and advances
-     *  @p row. */
+    /** Copies the components of the variable between point @p p and a row, and
+     *  advances @p row. */
     void
     get(const std::size_t p, double *&row) const
     {
@@ -155,8 +156,8 @@ namespace geocone::GEOCONE_DIM
     }
   };
 
-  /** Variable of points in component-wise layout: one array over all points per
-   *  component; component c of value k has the index Components<T>::n k + c. */
+  /** State variable of material points in component-wise layout: one array per
+   *  component. Component c of value k has the index Components<T>::n k + c. */
   template <typename T>
   class PointComponents
   {
@@ -180,7 +181,7 @@ namespace geocone::GEOCONE_DIM
       return arrays[component].data();
     }
 
-    /** Value of the variable at point @p p. @pre width = 1 */
+    /** Value of the state variable at point @p p. @pre width = 1 */
     T
     of(const std::size_t p) const
     {
@@ -240,11 +241,11 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * State of points at t_n, for all methods: quadrature points, particles of
-   * implicit and of explicit steps. A new variable is declared here and listed
-   * in visit_all(), which is used to sort points, send them to other ranks,
-   * write checkpoints and move points between sets in a stage. A set uses the
-   * variables whose width is not zero.
+   * State variables of material points at t_n, for all methods. The points are
+   * quadrature points, or particles of implicit or explicit steps. A new
+   * variable is declared here and listed in visit_all(), which is used to sort
+   * points, send them to other ranks, write checkpoints and move points between
+   * sets in a stage. A set uses the variables whose width is not zero.
    *
    * The layout of tensors is a parameter: PointValues<T> for assembly cell by
    * cell, with Mandel vectors; PointComponents<T> for kernels on vectors of
@@ -256,12 +257,12 @@ namespace geocone::GEOCONE_DIM
   {
     Layout<dealii::Point<dim>> position;
 
-    /** Volume of a point: per unit thickness (m^2), or of its ring in
+    /** Volume of a material point: per unit thickness (m^2), or of its ring in
      *  axisymmetry (m^3). */
     PointValues<double> volume;
     PointValues<double> mass; ///< per unit thickness (kg/m)
 
-    /** Index of the material of a point, if a set of points has several
+    /** Material index of each point. Used if a set of points has several
      *  materials. */
     PointValues<unsigned int> material;
 
@@ -274,9 +275,9 @@ namespace geocone::GEOCONE_DIM
     /** Norm of the plastic strain rate over the last step (1/s). */
     PointValues<double> plastic_strain_rate;
 
-    /** History variables of the constitutive laws
-     *  (ConstitutiveLaw::n_history()); their number is equal for all points,
-     *  and a law can use fewer. */
+    /** History variables of the constitutive laws at each point
+     *  (ConstitutiveLaw::n_history()). Their number is equal for all points; a
+     *  law can use fewer. */
     Layout<double> history;
 
     /** @name Particles */
@@ -286,15 +287,16 @@ namespace geocone::GEOCONE_DIM
     Layout<dealii::Point<dim>>     start;  ///< position at zero displacement
     Layout<dealii::Tensor<2, dim>> affine; ///< dv/dx of APIC
     PointValues<unsigned int>      id;     ///< unique over all ranks
-    /** Boundary condition that controls a particle: its index plus 1, or 0 for
-     *  none. */
+    /** Boundary condition that controls the motion of a particle: its index
+     *  plus 1, or 0 for none. */
     PointValues<unsigned int> held_by;
-    /** Active cell index of a particle, and unit coordinates in the cell. */
+    /** Active index of the cell that contains a particle, and unit coordinates
+     *  in the cell. */
     PointValues<unsigned int>       cell;
     PointValues<dealii::Point<dim>> unit;
     /** @} */
 
-    /** Calls visit(name, variable) for each variable. */
+    /** Calls visit(name, variable) for each state variable. */
     template <typename Visit>
     void
     visit(const Visit &visit)
@@ -313,7 +315,8 @@ namespace geocone::GEOCONE_DIM
       history.width = 0;
     }
 
-    /** List of the variables in use, with the number of components of each. */
+    /** Names of the state variables in use, with the number of components of
+     *  each. */
     std::string
     variables() const
     {
@@ -326,7 +329,7 @@ namespace geocone::GEOCONE_DIM
       return text;
     }
 
-    /** Selects the same variables as another set of points. */
+    /** Selects the same state variables as another set of points. */
     void
     use_as(const PointState &other)
     {
@@ -339,14 +342,14 @@ namespace geocone::GEOCONE_DIM
         [&](const char *, auto &variable) { variable.width = widths[i++]; });
     }
 
-    /** Number of history variables of a point. */
+    /** Number of history variables of each point. */
     unsigned int
     n_history() const
     {
       return history.width;
     }
 
-    /** Number of components of all variables of a point. */
+    /** Total number of components of all state variables of a point. */
     unsigned int
     n_numbers() const
     {
@@ -356,8 +359,8 @@ namespace geocone::GEOCONE_DIM
       return n;
     }
 
-    /** Copies all variables of a point to or from a row, in the order of
-     *  variables(), beginning with the position. */
+    /** Copies all state variables between a point and a row, in the order of
+     *  variables(). The position comes first. */
     void
     get(const std::size_t p, double *row) const
     {
@@ -369,7 +372,7 @@ namespace geocone::GEOCONE_DIM
       visit([&](const char *, auto &variable) { variable.set(p, row); });
     }
 
-    /** Appends the variables of a point to a list of rows. */
+    /** Appends the state variables of a point to a list of rows. */
     void
     add_row(const std::size_t p, std::vector<double> &rows) const
     {
@@ -377,7 +380,7 @@ namespace geocone::GEOCONE_DIM
       get(p, &rows[rows.size() - n_numbers()]);
     }
 
-    /** Resizes to @p n points, new ones with zeros. */
+    /** Resizes all arrays to @p n points; new points have zero values. */
     void
     set_size(const std::size_t n)
     {
@@ -391,8 +394,8 @@ namespace geocone::GEOCONE_DIM
       visit([&](const char *, auto &variable) { variable.set_capacity(n); });
     }
 
-    /** Reorders the points: point i becomes the former point order[i]; points
-     *  not listed are removed. */
+    /** Reorders the points: the new point i is the former point order[i].
+     *  Points not listed are removed. */
     void
     reorder(const std::vector<unsigned int> &order)
     {
@@ -400,7 +403,7 @@ namespace geocone::GEOCONE_DIM
         [&](const char *, auto &variable) { variable.reorder(order, buffer); });
     }
 
-    /** Memory of the arrays (bytes). */
+    /** Memory consumption of the arrays (bytes). */
     std::size_t
     memory() const
     {
@@ -438,12 +441,12 @@ namespace geocone::GEOCONE_DIM
     std::vector<double> buffer; ///< work array of reorder(), kept
   };
 
-  /** Rank number that marks points to be removed, in place of an owner. */
+  /** Invalid rank number that marks points to be removed. */
   constexpr unsigned int nobody = dealii::numbers::invalid_unsigned_int;
 
   /**
-   * Sends points to the ranks that own them, and removes those without an
-   * owner. Points that stay keep their order and precede those that arrive.
+   * Sends material points to the ranks that own them and removes points without
+   * an owner. Points that stay keep their order and precede those that arrive.
    * @p Points is a set of points with n_points(), reorder() and append(row).
    * Collective.
    * @param owner rank that owns each point

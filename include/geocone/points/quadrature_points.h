@@ -14,9 +14,9 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Quadrature rule that integrates the stiffness B'DB exactly on affine cells:
-   * on triangles of degree p, exact for polynomials of degree 2p - 2 (1, 3, 7
-   * points); on quadrilaterals, (p + 1)^2 Gauss points.
+   * Quadrature rule that integrates the stiffness matrix B'DB exactly on affine
+   * cells. On triangles of degree p it is exact for polynomials of degree 2p - 2
+   * (1, 3, 7 points); on quadrilaterals it has (p + 1)^2 Gauss points.
    */
   dealii::Quadrature<dim>
   stress_quadrature(const Space &space, const BackgroundMesh &mesh);
@@ -36,7 +36,7 @@ namespace geocone::GEOCONE_DIM
     std::vector<dealii::Point<dim>> position;
     std::vector<double>             weight; ///< JxW times measure() (m^2, m^3)
 
-    /** Shape function N_i at quadrature point q. */
+    /** Value of the shape function N_i at quadrature point q. */
     double
     value(const unsigned int i, const unsigned int q) const
     {
@@ -59,7 +59,7 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Creates the material points of the finite element method: fixed quadrature
+   * Creates the material points of the finite element method at the quadrature
    * points of all cells.
    * @throws InputError if a material has no cell
    */
@@ -68,8 +68,8 @@ namespace geocone::GEOCONE_DIM
                          const BackgroundMesh &mesh,
                          const Space          &space);
 
-  /** Creates the quadrature points of selected cells, in the order of the mesh,
-   *  and copies the known state of some of them. */
+  /** Creates the quadrature points of selected cells, in the order of the mesh.
+   *  Points with a known state receive a copy of this state. */
   MaterialPoints
   quadrature_points_of(
     const Scene                                             &scene,

@@ -23,13 +23,14 @@ namespace geocone::GEOCONE_DIM
     void
     prepare() const;
 
-    /** Whether the load imbalance (particles per rank) exceeds the tolerance.
-     *  Collective. @param n_particles number of particles on this rank */
+    /** Returns true if the load imbalance in particles per rank exceeds the
+     *  tolerance. Collective. @param n_particles number of particles on this
+     *  rank */
     bool
     is_due(const double n_particles, const MPI_Comm comm) const;
 
-    /** Redistributes the cells by the number of particles in each; nodes are
-     *  renumbered.
+    /** Redistributes the cells over the ranks by the number of particles per
+     *  cell. Nodes are renumbered.
      *  @param n_in_cell number of particles per cell on this rank, by active
      *  cell index. Collective. */
     void
@@ -37,7 +38,7 @@ namespace geocone::GEOCONE_DIM
                 BackgroundMesh           &mesh,
                 Space                    &space);
 
-    /** Number of repartitions since the start. */
+    /** Number of repartitions since the start of the run. */
     unsigned int
     n_repartitions() const
     {
@@ -45,8 +46,8 @@ namespace geocone::GEOCONE_DIM
     }
 
   private:
-    /** Tolerance of the load imbalance, and the imbalance that remained after
-     *  the last repartition, since cells are not divided. */
+    /** Tolerance of the load imbalance, and the remaining imbalance after the
+     *  last repartition. The latter exceeds 1 since cells are not divided. */
     double       largest = 1.2, least = 1.;
     unsigned int n = 0;
   };

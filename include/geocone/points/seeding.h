@@ -17,7 +17,7 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Layout of the initial particles in the body:
+   * Generates the initial particles (seeds) in the body. The layouts are:
    *
    *  - Gauss: the k x k Gauss points of each quadrilateral, with their weights;
    *    for triangles the 1, 3, 7, 15, 19 points of symmetric rules for k = 1 to
@@ -44,7 +44,7 @@ namespace geocone::GEOCONE_DIM
     void
     prepare(const Scene &scene);
 
-    /** Function that receives each seed. */
+    /** Function that is called with each seed (initial particle). */
     using Take = std::function<void(const Seed &)>;
 
     /** @name Seeds in the cells of this rank of a mesh (collective). Seeds on
@@ -56,7 +56,7 @@ namespace geocone::GEOCONE_DIM
              const Take           &take) const;
 
     /**
-     * Number of seeds by material.
+     * Number of seeds (initial particles) of each material.
      * @throws InputError, on all ranks, for unreadable files, points outside of
      * the mesh, and materials without points; so does make()
      */
@@ -75,7 +75,7 @@ namespace geocone::GEOCONE_DIM
              const std::array<unsigned int, 2> &columns,
              const Take                        &take) const;
 
-    /** Number of seeds by column and material, in all columns (collective).
+    /** Number of seeds of each material in each column of the grid. Collective.
      *  @throws InputError as above */
     std::vector<std::vector<std::size_t>>
     count(const Scene         &scene,
@@ -83,33 +83,35 @@ namespace geocone::GEOCONE_DIM
           const MPI_Comm       comm) const;
     /** @} */
 
-    /** Number k of points per direction in cell-based layouts, 0 for other
+    /** Number k of points per direction in cell-based layouts; 0 for other
      *  layouts. */
     unsigned int
     points_per_direction() const;
 
     /**
      * Expected number of seeds on all ranks, in closed form, before a mesh is
-     * created: seeds per cell times cells in the body, area of the body divided
-     * by the area of a lattice square, the given number, or the rows of the
-     * file. To be called after prepare() of this object and of the scene.
+     * created. It is the number of seeds per cell times the number of cells in
+     * the body, the area of the body divided by the area of a lattice square,
+     * the given number, or the number of rows of the file. To be called after
+     * prepare() of this object and of the scene.
      */
     double
     expected_number(const Scene                    &scene,
                     const BackgroundMesh::Expected &mesh) const;
 
-    /** Name of the parameter that determines the number of seeds; empty if the
+    /** Name of the parameter that determines the number of seeds. Empty if the
      *  number of cells determines it. */
     std::string
     size_parameter() const;
 
   private:
-    /** Limits the cost of seeding. @throws InputError if a lattice or random
-     *  points would take too long */
+    /** Rejects lattices and random seeds that take too long to generate.
+     *  @throws InputError if a lattice or random points would take too long */
     void
     check_effort(const Geometry &geometry) const;
 
-    /** Requested data of seeds: position and material only, or all data. */
+    /** Data of the seeds to be determined: position and material only, or all
+     *  data. */
     enum class Detail
     {
       material,
@@ -129,17 +131,18 @@ namespace geocone::GEOCONE_DIM
           const Detail                       detail,
           const Take                        &take) const;
 
-    /** Block of seeds, and flags of the columns present in a particle file. */
+    /** Block of seeds, and flags for the columns present in a particle file. */
     using Block     = std::vector<Seed>;
     using Given     = std::array<bool, ParticleFile::n_columns>;
     using TakeBlock = std::function<void(Block &, const Given &)>;
 
-    /** Generates the seeds of layouts that are independent of cells, in blocks
-     *  that are equal on all ranks. */
+    /** Generates the seeds of layouts that do not depend on the mesh. The
+     *  blocks of seeds are equal on all ranks. */
     void
     visit_all(const Scene &scene, const TakeBlock &take) const;
 
-    /** Sets the data of a seed that are absent in the file, from the scene. */
+    /** Completes a seed by data of the scene that the particle file does not
+     *  contain. */
     void
     describe(Seed        &seed,
              const Scene &scene,
