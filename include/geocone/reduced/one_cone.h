@@ -8,13 +8,15 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Solutions of the problem of one cone, stresses (Pa) as columns: at most one inside
-   *  the cone, one at the apex, four on the surface. */
+  /** Stress solutions of the complementarity problem of a single cone (Pa), one per
+   *  column. There is at most one inside the cone, one at the apex and four on the
+   *  surface. */
   using OneConeSolutions = Eigen::
     Matrix<double, n_mandel, Eigen::Dynamic, Eigen::ColMajor, n_mandel, 6>;
 
   /**
-   * Computes all solutions s of the complementarity problem of one cone,
+   * Computes all solutions s of the complementarity problem of a single cone. They
+   * satisfy
    *   z = W s + q, (s, z) satisfies the law of FlowCone,
    * within rounding. Solutions are of three kinds:
    *  - inside: z = 0;
@@ -36,10 +38,11 @@ namespace geocone::GEOCONE_DIM
                      const Mandel       &q);
 
   /**
-   * Solves the problem of one cone for a single solution: a solution of the same kind as
-   * the guess if it exists (on the surface: if Newton's method for f converges from the
-   * angle of the guess), otherwise the nearest of one_cone_solutions() to the guess. The
-   * first case is many times faster.
+   * Computes one solution of the complementarity problem of a single cone, close to a
+   * guess. If a solution of the same kind as the guess exists (on the surface: if
+   * Newton's method for f converges from the angle of the guess), it is returned,
+   * otherwise the nearest of one_cone_solutions() to the guess. The first case is many
+   * times faster.
    */
   Mandel
   solve_one_cone(const FlowCone     &cone,

@@ -9,10 +9,10 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Formulation of a step with stresses as the only unknowns (Reduction). Convergence is
-   * checked by R(v) of the return map at the corresponding velocities. The required
-   * tolerance of the reduced problem depends on the step size: the tolerance is divided
-   * by ten while R(v) is too large.
+   * Formulation of a time step with stresses as the only unknowns (Reduction).
+   * Convergence is checked by R(v) of the return map at the corresponding velocities.
+   * The required tolerance of the reduced problem depends on the step size: the
+   * tolerance is divided by ten while R(v) is too large.
    */
   struct ReducedFormulation
   {

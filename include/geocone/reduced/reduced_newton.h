@@ -10,9 +10,10 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Semismooth Newton method (eq 76) for a ReducedProblem in s, with z = W s - C lambda +
-   * q eliminated and the multipliers, if any, as additional unknowns. The method solves
-   * F(s) = 0, where F_p is one of
+   * Semismooth Newton method for the incremental problem in stresses (ReducedProblem;
+   * Guillet et al. 2025, eq 76). The variable z = W s - C lambda + q is eliminated;
+   * multipliers are additional unknowns. The method solves F(s) = 0, where F_p is one
+   * of
    *  - the natural map s - P_C(s - rho Psi(z)) (eqs 59, 62),
    *  - the return map s - R(s - rho z), with R = return_map() for K = 2G = rho, which
    *    includes the flow rule and requires no change of variable.
@@ -45,13 +46,15 @@ namespace geocone::GEOCONE_DIM
     Map          map            = Map::return_map;
 
     /**
-     * Scale rho of the maps, equal for all cones as in Guillet et al. 2025 (Pa, if z is a
-     * strain). 0: K and 2G from S (return map, S known), otherwise for each cone 10 /
-     * (mean eigenvalue of W_pp), the best of the factors 0.1, 1, 10, 100.
+     * Scale rho of the natural map or return map, equal for all cones (Pa if z is a
+     * strain). Guillet et al. 2025 use such a scale. If rho is 0, the return map takes
+     * K and 2G from S, if S is known; otherwise the scale of each cone is 10 / (mean
+     * eigenvalue of W_pp), the best of the factors 0.1, 1, 10, 100.
      */
     double rho = 0.;
 
-    /** @param[in,out] s in: initial guess (Pa, 3n components); out: solution */
+    /** Solves the reduced problem by Newton's method.
+     *  @param[in,out] s in: initial guess (Pa, 3n components); out: solution */
     ReducedReport
     solve(const ReducedProblem &problem, Eigen::VectorXd &s) const;
   };

@@ -15,8 +15,8 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Incremental problem reduced to stresses as unknowns (Guillet et al. 2025, eqs 61,
-   * 74): find s, lambda such that
+   * Incremental problem with stresses as unknowns (Guillet et al. 2025, eqs 61, 74).
+   * Find s and lambda such that
    *   z = W s - C lambda + q, 0 = -C' s + L lambda + d,
    * and (s_p, z_p) satisfies the law of cone p (FlowCone), in cone axes, for each of the
    * n cones. With M, B, S, H of eq (71) and a time step h,
@@ -57,14 +57,14 @@ namespace geocone::GEOCONE_DIM
       return d.size();
     }
 
-    /** Whether W is stored by its factors. */
+    /** Returns true if the matrix W is stored by its factors. */
     bool
     has_factors() const
     {
       return m.size() > 0;
     }
 
-    /** Nodal vector diag(m) G's, if W has factors. */
+    /** Nodal vector diag(m) G's for stresses s. It requires the factors of W. */
     Eigen::VectorXd
     nodal(const Eigen::VectorXd &s) const;
 
@@ -72,7 +72,7 @@ namespace geocone::GEOCONE_DIM
     Eigen::VectorXd
     multiply(const Eigen::VectorXd &s) const;
 
-    /** Diagonal 3 x 3 block W_pp of cone p. */
+    /** Diagonal 3 x 3 block W_pp of the matrix W for cone p. */
     MandelMatrix
     diagonal_block(const unsigned int p) const;
 
@@ -81,22 +81,24 @@ namespace geocone::GEOCONE_DIM
     z(const Eigen::VectorXd &s, const Eigen::VectorXd &lambda) const;
 
     /**
-     * Multipliers lambda that satisfy the constraints for given stresses s: L^-1 (C' s -
-     * d).
+     * Lagrange multipliers lambda = L^-1 (C' s - d) of the constraints, for given
+     * stresses s.
      */
     Eigen::VectorXd
     multipliers(const Eigen::VectorXd &s) const;
 
     /**
-     * Equivalent problem with the multipliers eliminated (eqs 74, 75): W - C L^-1 C' and
-     * q + C L^-1 d, with W stored as a matrix, dense where C is dense.
+     * Equivalent problem after elimination of the multipliers (Guillet et al. 2025, eqs
+     * 74, 75). It has W - C L^-1 C' and q + C L^-1 d, with W stored as a matrix, dense
+     * where C is dense.
      * @throws RunError if L is not positive definite (redundant constraints)
      */
     ReducedProblem
     projected() const;
 
     /**
-     * Error of stresses s, independent of the solver (eq 59):
+     * Relative error of stresses s by the natural map, independent of the solver. It
+     * is (Guillet et al. 2025, eq 59)
      *   max_p |s_p - P_C(s_p - rho_p Psi(z_p))| / (max_p |s_p| + max_p k_p),
      * with rho_p = 3/trace(W_pp) and lambda = multipliers(s). Dimensionless; infinite for
      * s = 0 without cohesion, unless s = 0 is the solution.
@@ -105,7 +107,7 @@ namespace geocone::GEOCONE_DIM
     natural_map_error(const Eigen::VectorXd &s) const;
   };
 
-  /** Scale rho = 3/trace(W_pp) in the natural map of one cone, the ratio of s to z. */
+  /** Scale rho = 3/trace(W_pp) in the natural map of one cone. */
   inline double
   natural_scale(const MandelMatrix &W)
   {

@@ -8,7 +8,7 @@
 
 namespace geocone
 {
-  /** Result of solving a ReducedProblem. */
+  /** Convergence report of a solver for the incremental problem in stresses. */
   struct ReducedReport
   {
     bool                converged  = false;

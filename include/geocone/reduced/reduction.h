@@ -10,10 +10,10 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Reduction of an IncrementalProblem to a ReducedProblem with stresses as unknowns
-   * (Guillet et al. 2025, eqs 61, 74), and recovery of the velocities. With v* = vL + h
-   * M^-1 F at the free dofs and the prescribed velocities at the other dofs, and the law
-   * of each point multiplied by the volume of the point so that W is symmetric,
+   * Reduces an incremental problem in velocities to a problem in stresses, and recovers
+   * the velocities (Guillet et al. 2025, eqs 61, 74). With v* = vL + h M^-1 F at the
+   * free dofs and the prescribed velocities at the other dofs, and the law of each
+   * point multiplied by the volume of the point so that W is symmetric,
    *   W = V S + h^2 V B M^-1 B' V, q = -V S s_n - h V B v*,
    *   C = h^2 V B M^-1 H', L = h^2 H M^-1 H', d = h (H v* - q_H),
    * with B, M and H of the free dofs; W is in m^2/Pa. The factors of W are G = V B in
@@ -22,13 +22,13 @@ namespace geocone::GEOCONE_DIM
   class Reduction
   {
   public:
-    /** Maximum number of points for a dense matrix W (650 MB). */
+    /** Maximum number of material points for a dense matrix W (650 MB). */
     static constexpr unsigned int most_projected = 3000;
 
     /**
-     * Checks that the problem can be reduced. Not supported are several ranks, problems
-     * without inertia, a consistent mass matrix, and materials without a cone.
-     * Collective.
+     * Checks that an incremental problem can be reduced to stresses. Not supported are
+     * several ranks, problems without inertia, a consistent mass matrix, and materials
+     * without a cone. Collective.
      * @param parameter name of the parameter that requests the reduction, with its value
      * @param projected whether the multipliers are to be eliminated, which makes W a
      * dense matrix
@@ -40,7 +40,8 @@ namespace geocone::GEOCONE_DIM
           const std::string        &value,
           const bool                projected);
 
-    /** @param problem accepted by check() */
+    /** Computes the matrices of the reduced problem.
+     *  @param problem accepted by check() */
     explicit Reduction(const IncrementalProblem &problem);
 
     const ReducedProblem &
@@ -49,13 +50,13 @@ namespace geocone::GEOCONE_DIM
       return reduced;
     }
 
-    /** Stresses at t_n in cone axes (Pa), initial guess of the solvers. */
+    /** Stresses at t_n in cone axes (Pa), the initial guess of the solvers. */
     Eigen::VectorXd
     stress_at_start() const;
 
-    /** Computes the velocity from stresses s: v = v* - h M^-1 (B'V s - H' lambda) at the
-     *  free dofs with lambda = multipliers(s), and the prescribed velocities at the other
-     *  dofs. */
+    /** Computes the nodal velocities v from stresses s. At the free dofs
+     *  v = v* - h M^-1 (B'V s - H' lambda) with lambda = multipliers(s), and at the
+     *  other dofs v is the prescribed velocity. */
     void
     recover_velocity(const Eigen::VectorXd &s, Vector &v) const;
 

@@ -8,12 +8,13 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Parameter value that selects the Gauss-Seidel formulation or the Gauss-Seidel first
-   *  iterate. */
+  /** Parameter value that selects the Gauss-Seidel method, as a formulation or for the
+   *  first iterate. */
   constexpr const char *gauss_seidel = "Gauss-Seidel";
 
-  /** Methods with stresses as the only unknowns: reduced formulations solved by Newton's
-   *  method or Gauss-Seidel, and first iterates by Gauss-Seidel sweeps. */
+  /** Returns the solution methods with stresses as the only unknowns. They are reduced
+   *  formulations solved by Newton's method or Gauss-Seidel, and first iterates by
+   *  Gauss-Seidel sweeps. */
   StressMethods
   stress_methods();
 } // namespace geocone::GEOCONE_DIM
