@@ -14,9 +14,12 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Absorbing boundaries, which transmit outgoing and incoming elastic waves
-   * (Lysmer and Kuhlemeyer 1969; Joyner and Chen 1975): dashpots with the
-   * traction
+   * Absorbing boundaries: dashpots that transmit outgoing and incoming elastic
+   * waves (Lysmer and Kuhlemeyer 1969; Joyner and Chen 1975). Their traction is
+   * rho (c_p n n' + c_s (1 - n n')) (2 v_in - v), with the speeds c_p and c_s
+   * of pressure and shear waves in the adjacent cell and the velocity v_in of
+   * the incoming wave. Waves along the normal are absorbed completely. Lumping
+   * by row sums yields a dashpot matrix C_i (dim x dim) for each node.
    *   rho (c_p n n' + c_s (1 - n n')) (2 v_in - v),
    * c_p and c_s the speeds of pressure and shear waves in the adjacent cell,
    * v_in the velocity of the incoming wave. Waves along the normal are absorbed
@@ -34,7 +37,7 @@ namespace geocone::GEOCONE_DIM
                       const Space          &space,
                       const MaterialPoints *body);
 
-    /** Whether the scene has absorbing boundaries. */
+    /** Returns true if the scene has absorbing boundaries. */
     bool
     exists() const
     {
@@ -46,7 +49,7 @@ namespace geocone::GEOCONE_DIM
     void
     check(const Unknowns &unknowns) const;
 
-    /** Computes the forces of incoming waves for a step.
+    /** Computes the nodal forces of incoming waves for a step.
      *  @param t time at which the step is solved (s)
      *  @param unknowns of the problem */
     void
@@ -66,7 +69,7 @@ namespace geocone::GEOCONE_DIM
     void
     add_elastic_diagonal(Vector &dst) const override;
 
-    /** Power of the dashpot forces on the body (W/m). Collective. */
+    /** Power of the dashpot forces acting on the body (W/m). Collective. */
     double
     power(const Vector &v) const;
 
@@ -87,7 +90,8 @@ namespace geocone::GEOCONE_DIM
     incoming_force(const double t, Vector &force) const;
 
   private:
-    /** Adds the products C_i x_i of all dashpots to dst. */
+    /** Adds the dashpot forces C_i x_i of all nodes to dst, for nodal
+     *  velocities x. */
     void
     add_product(Vector &dst, const Vector &x) const;
 

@@ -19,8 +19,9 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** State of a bar at the end of a step, zero if the bar is not installed; for
-   *  the bending at a node of a plate, a moment (N) and rotations. */
+  /** State of a bar at the end of a step; zero if the bar is not installed. For
+   *  the bending at a node of a plate, the force is a moment (N) and the
+   *  elongations are rotations. */
   struct BarState
   {
     double force      = 0.; ///< axial force, tension positive (N/m)
@@ -67,19 +68,18 @@ namespace geocone::GEOCONE_DIM
     return point.displacement.norm();
   }
 
-  /** State of a plate at the end of a step; zero if the plate is not
-   *  installed. */
+  /** State of a plate at the end of a step; zero if the plate is not installed. */
   struct PlateState
   {
     bool         acts     = false;
     unsigned int n_hinges = 0; ///< number of nodes that yield in bending
 
-    /** Both ends of each segment, one segment after another. Normal and shear
-     *  forces are constant in a segment. */
+    /** Displacements and internal forces at both ends of each segment, segment by
+     *  segment. Normal and shear forces are constant in a segment. */
     std::vector<PlatePoint> points;
 
     /** Returns the plate point at which a quantity, e.g. size_of_moment(), is
-     *  largest; the first one of several. */
+     *  largest. Of several points the first is returned. */
     template <typename Value>
     const PlatePoint &
     largest(const Value &value) const
@@ -100,9 +100,9 @@ namespace geocone::GEOCONE_DIM
 
   /**
    * Bars between two points of the body, or between a point of the body and a
-   * fixed point outside: anchors, struts, geogrids, and the segments of plates.
-   * With b.v the rate of elongation of a bar, the axial force at the end of a
-   * step is the projection
+   * fixed point outside. They represent anchors, struts, geogrids, and the
+   * segments of plates. With b.v the rate of elongation of a bar, the axial force
+   * at the end of a step is the projection
    *   N = P(N_0 + k (e + h b.v - e_p)),  k = EA/L,  P on [-N_c, N_t],
    * the closed form of the complementarity between force and plastic
    * elongation e_p, see doc/theory/structures.md. Without compressive strength
@@ -126,8 +126,9 @@ namespace geocone::GEOCONE_DIM
          const BackgroundMesh &mesh,
          const Space          &space);
 
-    /** Installs and removes bars at the beginning of a stage, and sets the step
-     *  size h (s) and the vectors b along rotated dofs. Collective.
+    /** Prepares the bars for a step. Bars are installed and removed at the
+     *  beginning of a stage; the step size h (s) and the vectors b along rotated
+     *  dofs are set. Collective.
      *  @throws RunError if a bar is tied to a removed part of the body */
     void
     begin_step(const std::string &stage,
@@ -146,14 +147,14 @@ namespace geocone::GEOCONE_DIM
     std::vector<std::vector<unsigned int>>
     node_groups() const override;
 
-    /** Adds the tangent stiffness of the bars that are assembled. */
+    /** Adds the tangent stiffness of the assembled bars to the Jacobian. */
     void
     linearise(const JacobianPattern &pattern,
               const double           elastic_blend,
               SparseMatrix          &matrix) const override;
 
-    /** Tangent stiffness of the bars that are not assembled, at the last
-     *  residual(), over the owned free dofs.
+    /** Tangent stiffness of the bars that are not assembled, as a low-rank matrix
+     *  over the owned free dofs. It belongs to the last residual().
      *  @param elastic_blend as in linearise() */
     LowRank
     low_rank(const double elastic_blend) const;
@@ -163,7 +164,7 @@ namespace geocone::GEOCONE_DIM
     double
     power() const;
 
-    /** Accepts the forces of the last residual() as the state at t_n. */
+    /** Accepts the bar forces of the last residual() as the state at t_n. */
     void
     commit();
 
@@ -176,15 +177,16 @@ namespace geocone::GEOCONE_DIM
     std::vector<PlateState>
     states_of_plates() const;
 
-    /** Saves or restores the state variables of a checkpoint. */
+    /** Saves or restores the state variables of all bars, for checkpoints. */
     void
     state(StateRow &row);
 
   private:
     using Row = std::vector<std::pair<unsigned int, double>>;
 
-    /** Nonzero coefficients of a linear functional b.x of the owned dofs: in x and
-     *  y, and along the (rotated) dofs of the step. */
+    /** Nonzero coefficients of a linear functional b.x of the owned dofs. They are
+     *  stored for the x and y components, and for the (rotated) dofs of the
+     *  step. */
     struct Functional
     {
       Row along_axes, row;
@@ -199,16 +201,17 @@ namespace geocone::GEOCONE_DIM
       }
     };
 
-    /** A bar of a structure; identical on all ranks except for the coefficients
-     *  b. */
+    /** Bar of a structure. It is identical on all ranks except for the
+     *  coefficients b. */
     struct Bar : Functional
     {
       const Structure *structure = nullptr;
       bool             bends     = false; ///< bending at a node of a plate
       double           k = 0.; ///< EA/L (N/m^2), or EI over a length (N)
 
-      /** Whether some rank, and whether this rank, assembles the bar's tangent
-       *  stiffness; and the coefficients b on this rank, including ghosts. */
+      /** True if some rank assembles the tangent stiffness of the bar, and true if
+       *  this rank does. Then the coefficients b on this rank, including
+       *  ghosts. */
       bool is_assembled = false, is_assembled_here = false;
       Row  assembled;
 
@@ -231,17 +234,17 @@ namespace geocone::GEOCONE_DIM
         return bends ? 0. : structure->pre_stress;
       }
 
-      /** Axial force due to an elastic elongation, or moment due to an elastic
-       *  rotation. */
+      /** Axial force due to an elastic elongation, or bending moment due to an
+       *  elastic rotation. */
       double
       elastic_force(const double elongation) const
       {
         return initial_force() + k * elongation;
       }
 
-      /** Whether the bar is slack, instead of yielding, under a trial force. A bar
-       *  without strength in this direction carries forces again as soon as it
-       *  returns to its former length. */
+      /** Returns true if the bar is slack, and not yielding, under a trial force.
+       *  A bar without strength in this direction carries forces again as soon as
+       *  it returns to its former length. */
       bool
       is_slack(const double trial) const
       {
@@ -249,19 +252,20 @@ namespace geocone::GEOCONE_DIM
       }
     };
 
-    /** A plate: the points tied to the body, the segments between these points,
-     *  and the bending at all points except free ends. */
+    /** Plate: the points tied to the body, the segments between these points, and
+     *  the bending at all points except free ends. */
     struct Plate
     {
       std::vector<dealii::Point<dim>> points;
       unsigned int                    first_segment = 0; ///< bar of segment 0
       std::vector<std::optional<unsigned int>> bending; ///< bar of each point
 
-      /** Displacements of the plate's points at t_n (m), and velocities at the
-       *  last residual() (m/s). */
+      /** Displacements of the plate points at t_n (m), and velocities of these
+       *  points at the last residual() (m/s). */
       std::vector<dealii::Tensor<1, dim>> displacement, velocity;
 
-      /** Displacement components of each point, as functionals of the dofs. */
+      /** Displacement components of each plate point, as linear functionals of the
+       *  dofs. */
       std::vector<std::array<Functional, dim>> components;
 
       unsigned int
@@ -271,14 +275,15 @@ namespace geocone::GEOCONE_DIM
       }
     };
 
-    /** Nodal weights of the displacement at a point of the body, on the rank that
-     *  owns the cell; empty on other ranks and for points outside the body. */
+    /** Nodal weights that interpolate the displacement at a point of the body.
+     *  They are stored on the rank that owns the cell, and are empty on other
+     *  ranks and for points outside the body. */
     using Tie = std::vector<std::pair<unsigned int, double>>;
 
-    /** Factors (vectors) of the displacements of points in a linear functional. */
+    /** Weight vectors of point displacements in a linear functional. */
     using Factors = std::vector<std::pair<const Tie *, dealii::Tensor<1, dim>>>;
 
-    /** Coefficients b of a weighted sum of displacements, including ghosts.
+    /** Coefficients b of a weighted sum of point displacements, including ghosts.
      *  Collective. */
     Vector
     row_of(const Factors &factors) const;
@@ -290,13 +295,14 @@ namespace geocone::GEOCONE_DIM
             const double     k,
             const Factors   &factors);
 
-    /** Appends a plate and all bars of the plate. Collective. */
+    /** Appends a plate and all its bars to the list. Collective. */
     void
     add_plate(const Structure                &structure,
               std::vector<dealii::Point<dim>> points,
               const std::vector<Tie>         &ties);
 
-    /** Computes the coefficients b along the dofs of the step. Collective. */
+    /** Computes the coefficients b of all bars along the (rotated) dofs of the
+     *  step. Collective. */
     void
     set_rows();
 

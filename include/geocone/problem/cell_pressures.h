@@ -15,13 +15,13 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Cell-wise polynomial mean stress, for B-bar with dilatant soil. B-bar takes
-   * the volumetric strains of a cell from polynomials of a degree, a constant
-   * with Q1 and splines, but dilatant points must expand under shear. If the
-   * points of a cell are sheared unequally, their stresses then rise until the
-   * next cells can follow: the soil locks. Here only the projection of the
-   * volumetric strains onto the polynomials M_j is prescribed, and a point may
-   * expand by an additional t_p, such that
+   * Polynomial mean stress in each cell, for the B-bar method with dilatant soil. B-bar
+   * takes the volumetric strains of a cell from polynomials of a degree, a constant
+   * with Q1 and splines, but dilatant points must expand under shear. If the points of
+   * a cell are sheared unequally, their stresses then rise until the next cells can
+   * follow: the soil locks. Here only the projection of the volumetric strains onto the
+   * polynomials M_j is prescribed, and a point may expand by an additional t_p, such
+   * that
    *   sum_p V_p M_j(x_p) t_p = 0,   pi_p = sum_j M_j(x_p) m_j,
    *   pi_p = tr(s_p)/n + K_f tr(e_p) - p_p,   e_p = h B_p v + t_p I/n,
    * with n the dimension, K_f and p_p those of the pore fluid in undrained
@@ -38,19 +38,20 @@ namespace geocone::GEOCONE_DIM
   class CellPressures
   {
   public:
-    /** Whether cell-wise polynomial pressures are required, i.e. B-bar is used with
-     *  dilatant soil; the same on all ranks. */
+    /** Returns true if B-bar is used with dilatant soil, which requires polynomial cell
+     *  pressures. The result is the same on all ranks. */
     static bool
     are_those_of(const MaterialPoints &points, const Materials &materials);
 
     CellPressures(const MaterialPoints &points, const Materials &materials);
 
-    /** Sets the elastic moduli to the values at t_n. */
+    /** Sets the elastic moduli of all points to the values at t_n. */
     void
     begin_step();
 
     /**
-     * Adds t_p I/n to the strains, so that pi_p is polynomial in each cell.
+     * Adds t_p I/n to the strains, so that the mean stress pi_p is polynomial in each
+     * cell.
      * @param update computes stresses and tangents from the strains of a range
      * of points [first, second)
      * @param strain_zz hoop strains, empty unless axisymmetric
@@ -63,16 +64,17 @@ namespace geocone::GEOCONE_DIM
       std::vector<Mandel>             &strain,
       const std::vector<double>       &strain_zz);
 
-    /** Largest difference between pi_p and the fitted polynomials after
-     *  equalise(), divided by the largest stress of the points of this rank. */
+    /** Largest relative difference between the mean stresses pi_p and the polynomials
+     *  fitted by equalise(). It is relative to the largest stress of the points of this
+     *  rank. */
     double
     difference() const
     {
       return largest_difference;
     }
 
-    /** Adds the rates of t_p I/n to the strain rates of B-bar at the points of
-     *  a cell. */
+    /** Adds the volumetric strain rates t_p I/n to the B-bar strain rates at the points
+     *  of a cell. */
     void
     equalise_rates(const unsigned int                    cell,
                    const std::vector<MandelMatrix>      &tangent,
@@ -83,8 +85,7 @@ namespace geocone::GEOCONE_DIM
     /** Maximum number of polynomials M_j in a cell: degree 2, used with Q3. */
     static constexpr int most_modes = dim == 2 ? 6 : 10;
 
-    /** Polynomial basis M_j of a cell, and the matrix G of this basis, weighted by
-     *  1/k_p of the points. */
+    /** Polynomial basis M_j of a cell, with its Gram matrix G weighted by 1/k_p. */
     struct Basis
     {
       using Matrix = Eigen::Matrix<double,
@@ -94,17 +95,18 @@ namespace geocone::GEOCONE_DIM
                                    most_modes,
                                    most_modes>;
 
-      /** Values of M_j at the points of a cell. For each j there is a point at which
-       *  M_j = 1 and all other M_i = 0. */
+      /** Values of the basis polynomials M_j at the points of a cell. For each j there
+       *  is a point at which M_j = 1 and all other M_i = 0. */
       Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>
         modes;
-      /** For each j, index of the point in the cell at which M_j = 1; -1 if M_j = 0
-       *  at all points. */
+      /** Index of the point of the cell at which M_j = 1, for each basis polynomial
+       *  M_j. The index is -1 if M_j = 0 at all points. */
       std::vector<int>    point;
       Eigen::LDLT<Matrix> compliance; ///< factorisation of G
     };
 
-    /** Terms of a cell's stiffness after elimination of the t_p, see condense(). */
+    /** Terms of the stiffness matrix of a cell after elimination of the t_p, see
+     *  condense(). */
     struct Condensed
     {
       std::vector<Mandel> left, right; ///< a_p/k_p, b_p/k_p, times the weight
@@ -113,7 +115,8 @@ namespace geocone::GEOCONE_DIM
     };
 
     /**
-     * Eliminates the t_p of a cell from the tangents C_p,
+     * Eliminates the volumetric strains t_p of a cell from the tangents C_p (static
+     * condensation). The tangents become
      *   C_p <- C_p - a_p b_p'/k_p,   a_p = C_p I/n,   b_p = C_p' I/n,
      * which then have no volumetric stiffness. The remainder of the stiffness is,
      * with a column for each M_j,
@@ -135,8 +138,8 @@ namespace geocone::GEOCONE_DIM
     double
     pore_pressure(const unsigned int point) const;
 
-    /** Computes pi_p and k_p of a point; k_p is bounded from below, as it would be 0
-     *  at the apex of a cone.
+    /** Computes the mean stress pi_p and the bulk stiffness k_p of a point. The latter
+     *  is bounded from below, as it would be 0 at the apex of a cone.
      *  @param mean_stress pi_p without the contribution of the strain (Pa) */
     void
     evaluate(const unsigned int  point,
@@ -145,9 +148,10 @@ namespace geocone::GEOCONE_DIM
              const double        volumetric_strain);
 
     /**
-     * Chooses a basis M_j, with M_j = 1 at the points where the soil is softest. Then
-     * G does not mix large and small 1/k_p, and sum V M t = 0 is satisfied to the last
-     * digit if the t_p of these points are computed from all others.
+     * Selects the polynomial basis of a cell with M_j = 1 at the points where the soil
+     * is softest. Then G does not mix large and small 1/k_p, and sum V M t = 0 is
+     * satisfied to the last digit if the t_p of these points are computed from all
+     * others.
      * @param softness V/k of the points of the cell from the first
      */
     void
@@ -155,13 +159,14 @@ namespace geocone::GEOCONE_DIM
                  const std::vector<double> &softness,
                  Basis                     &result) const;
 
-    /** Fits the polynomial closest to the pi_p of a cell in the metric of G.
+    /** Fits the closest polynomial to the mean stresses pi_p of a cell, in the metric
+     *  of G.
      *  @return the largest difference between pi_p and the polynomial (Pa); NaN if
      *  some pi_p is NaN */
     double
     fit(const unsigned int cell);
 
-    /** Performs a Newton step for the t_p of a cell after fit(). */
+    /** Performs a Newton step for the volumetric strains t_p of a cell after fit(). */
     void
     shift(const unsigned int cell);
 
@@ -169,10 +174,9 @@ namespace geocone::GEOCONE_DIM
     void
     shorten(const unsigned int cell, const double part);
 
-    /** Directional derivative sum_p V_p pi_p dt_p of the cell's potential along the
-     *  last Newton step. The potential, a function of the t_p, is minimal if the
-     *  pi_p are a polynomial, and convex, as pi_p never decreases if a point
-     *  expands. */
+    /** Directional derivative sum_p V_p pi_p dt_p of a cell's potential along the last
+     *  Newton step. The potential, a function of the t_p, is minimal if the pi_p are a
+     *  polynomial, and convex, as pi_p never decreases if a point expands. */
     double
     slope(const unsigned int cell) const;
 

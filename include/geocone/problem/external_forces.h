@@ -8,8 +8,8 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Term -F of the residual: external forces F, due to self-weight and surface
-   *  tractions. */
+  /** Term -F of the residual, with the external forces F due to self-weight and
+   *  surface tractions. */
   class ExternalForces : public Term
   {
   public:

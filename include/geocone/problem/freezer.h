@@ -15,8 +15,8 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Writes the incremental problems of selected steps, and of steps that did not
-   * converge, as data files into the run folder.
+   * Writes incremental problems as data files into the output folder. They are the
+   * problems of selected steps, and of steps that did not converge.
    */
   class Freezer : public dealii::ParameterAcceptor
   {
@@ -32,7 +32,8 @@ namespace geocone::GEOCONE_DIM
     void
     prepare(const std::string &folder);
 
-    /** Whether any steps, or all steps that do not converge, are selected. */
+    /** Returns true if any steps, or all steps that do not converge, are selected
+     *  for output. */
     bool
     is_used() const
     {
@@ -44,8 +45,9 @@ namespace geocone::GEOCONE_DIM
     set_step(const unsigned int number);
 
     /**
-     * Writes a problem after a solution attempt if the step is selected (first
-     * attempt only), or if the attempt did not converge and failures are selected.
+     * Writes an incremental problem to a file after an attempted solution, if
+     * selected. The problem is written if its step is selected (first attempt
+     * only), or if the attempt did not converge and failures are selected.
      * Collective.
      * @param start initial guess
      */

@@ -12,8 +12,8 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Incremental problem stored as data: the complete input of the solver in a
-   * step, without scene, mesh and spatial discretisation. The problem can be
+   * Incremental problem stored as data: the complete input of the solver in one
+   * step. It contains no scene, mesh or spatial discretisation. The problem can be
    * written, read and solved again with other solver options.
    */
   struct FrozenProblem
@@ -25,12 +25,12 @@ namespace geocone::GEOCONE_DIM
     double h               = 0.;    ///< step size (s)
     double consistent_part = 0.;    ///< fraction c of Inertia
 
-    /** Points, with only the data that an incremental problem uses. */
+    /** Material points, with only the data that an incremental problem uses. */
     MaterialPoints points;
 
     /** @name Nodal data by dof, dim dofs per node */
     /** @{ */
-    /** Kind of dof: 0 (free), Unknowns::prescribed_row or
+    /** Kind of each dof: 0 (free), Unknowns::prescribed_row or
      *  Unknowns::massless_row. */
     std::vector<int>    kind;
     std::vector<double> mass;       ///< lumped (kg/m); empty without inertia
@@ -40,8 +40,8 @@ namespace geocone::GEOCONE_DIM
     std::vector<double> start;      ///< initial guess (m/s)
     /** @} */
 
-    /** Data of all ghost stencils (GhostStencil): three nodes per stencil; three
-     *  coefficients and the stiffness k (Pa) per stencil. */
+    /** Ghost stencils (GhostStencil): three nodes per stencil. There are also
+     *  three coefficients and the stiffness k (Pa) per stencil. */
     std::vector<int>    ghost_nodes;
     std::vector<double> ghost_values;
 
@@ -50,12 +50,13 @@ namespace geocone::GEOCONE_DIM
     Eigen::MatrixXd  H;
     Eigen::VectorXd  q;
 
-    /** Writes the problem to an HDF5 file. @throws RunError if that fails */
+    /** Writes the incremental problem to an HDF5 file. @throws RunError if that
+     *  fails */
     void
     write(const std::string &file_name) const;
 
-    /** Reads a problem from an HDF5 file. @throws RunError naming the file and the
-     *  error */
+    /** Reads an incremental problem from an HDF5 file. @throws RunError naming the
+     *  file and the error */
     static FrozenProblem
     read(const std::string &file_name);
   };

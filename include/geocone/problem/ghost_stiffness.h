@@ -11,8 +11,8 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Three adjacent basis functions along a grid direction of splines; the last
-   *  one has very little material in the support. */
+  /** Three adjacent spline basis functions along a grid direction. The support of the
+   *  last basis function contains very little material. */
   struct GhostStencil
   {
     std::array<unsigned int, 3> node;        ///< local node numbers
@@ -21,12 +21,12 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Viscous force that couples low-mass basis functions to adjacent functions. A
-   * basis function whose support contains only a few particles near its boundary
-   * has almost no mass and stiffness: a load on it causes spurious velocities, a
-   * thousand times larger than in the surroundings. With x2 the Greville abscissa
-   * of the low-mass function, and x0, x1 those of the next two functions towards
-   * the material, the stiffness acts on
+   * Viscous force that couples low-mass basis functions to adjacent basis functions. A
+   * basis function whose support contains only a few particles near its boundary has
+   * almost no mass and stiffness: a load on it causes spurious velocities, a thousand
+   * times larger than in the surroundings. With x2 the Greville abscissa of the
+   * low-mass function, and x0, x1 those of the next two functions towards the
+   * material, the stiffness acts on
    *   g = v2 - (1 + a) v1 + a v0 = c.v,   a = (x2 - x1)/(x1 - x0),
    * which is zero for linear fields. Force and work in a step h are
    *   R += k h c g,   k = gamma E (1 - fill/0.2),   W = h^2 sum k g^2 >= 0.
@@ -59,8 +59,8 @@ namespace geocone::GEOCONE_DIM
     void
     add_elastic_diagonal(Vector &dst) const override;
 
-    /** Work W of the ghost forces in a step with the velocities v (J/m), summed
-     *  over all ranks. Collective. */
+    /** Work W of the ghost forces in a step with the velocities v (J/m).
+     *  Collective. */
     double
     work(const Vector &v) const;
 
@@ -74,13 +74,13 @@ namespace geocone::GEOCONE_DIM
     node_groups() const override;
 
   private:
-    /** Difference g = c.v of a stencil, for a velocity component. */
+    /** Velocity difference g = c.v of a stencil for one component of the velocity. */
     static double
     bend(const GhostStencil &stencil,
          const Vector       &v,
          const unsigned int  component);
 
-    /** Adds the forces k h c g(v) to @p part, including ghosts. */
+    /** Adds the forces k h c g(v) of all stencils to @p part, including ghosts. */
     void
     add_forces(Vector &part, const Vector &v) const;
 
@@ -90,8 +90,8 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Candidate stencils of ghost stiffness in a spline space: all triples of
-   * adjacent basis functions, each on the rank that owns a cell in the common
+   * Candidate stencils for the ghost stiffness of a spline space. They are all triples
+   * of adjacent basis functions, each on the rank that owns a cell in the common
    * support.
    */
   class GhostPlaces
@@ -99,11 +99,11 @@ namespace geocone::GEOCONE_DIM
   public:
     GhostPlaces(const BackgroundMesh &mesh, const Space &space);
 
-    /** Fill (see fill()) below which a basis function is low-mass. */
+    /** Threshold of fill() below which a basis function is low-mass. */
     static constexpr double least_fill = 0.2;
 
-    /** Fill of the support of a local node's basis function with material,
-     *  sum_p V_p N_i(x_p)/int N_i.
+    /** Fraction of the support of a basis function that contains material, sum_p V_p
+     *  N_i(x_p)/int N_i.
      *  @param volume see stencils() */
     double
     fill(const Vector &volume, const unsigned int node) const
@@ -112,8 +112,8 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * Stencils of all low-mass basis functions with nonzero mass, in each direction
-     * in which the adjacent functions have a larger fill.
+     * Stencils of all low-mass basis functions with nonzero mass. They are in each
+     * direction in which the adjacent functions have a larger fill.
      * @param volume at the dofs of each node sum_p V_p N_i (m^2) and sum_p V_p
      * E_p N_i (N), with ghosts
      * @param is_wanted selected nodes, by local node; empty: all

@@ -21,7 +21,7 @@ namespace geocone::GEOCONE_DIM
 {
   struct FrozenProblem;
 
-  /** Results of residual(), summed over the ranks. */
+  /** Norms and counts of an evaluated residual, summed over the ranks. */
   struct ResidualReport
   {
     double       norm       = 0.; ///< Euclidean norm over the free rows (N/m)
@@ -32,15 +32,15 @@ namespace geocone::GEOCONE_DIM
 
     double local_error = 0.; ///< see InternalForces::local_error()
 
-    /** Norm of the contact equations F over the potential contact nodes, and sum of
-     *  the reference forces Contact::Touch::size (N/m). Contact forces can be
+    /** Norm of the contact equations over the potential contact nodes, and sum of
+     *  their reference forces Contact::Touch::size (N/m). Contact forces can be
      *  small compared with the internal forces of the soil. */
     double contact_norm = 0., contact_size = 0.;
   };
 
   /**
-   * Root-finding problem of one implicit step (backward Euler) for the velocities
-   * v of the free dofs:
+   * Nonlinear problem of an implicit time step (backward Euler) for the nodal
+   * velocities v. At the free dofs,
    *   R(v) = M (v - vL)/h + sum_p V_p B_p' s_p(v) - F - H' lambda,   H v = q.
    * The residual is a sum of terms (Inertia, InternalForces, ExternalForces,
    * GhostStiffness) and of the reactions of linear constraints; prescribed
@@ -74,14 +74,14 @@ namespace geocone::GEOCONE_DIM
       std::vector<GhostStencil> ghosts          = {},
       const bool                has_contact     = false);
 
-    /** Appends a term to the residual; the term must outlive the problem. */
+    /** Appends a term to the residual. The term must outlive the problem. */
     void
     add(Term &term)
     {
       terms.push_back(&term);
     }
 
-    /** Appends the bars of the scene to the residual; they must outlive the
+    /** Appends the bars of the scene to the residual. They must outlive the
      *  problem. */
     void
     add(Bars &of_scene)
@@ -96,11 +96,11 @@ namespace geocone::GEOCONE_DIM
       return bars != nullptr;
     }
 
-    /** Copying is not possible, since the terms refer to data of the problem. */
+    /** Deleted copy constructor, since the terms refer to data of the problem. */
     IncrementalProblem(const IncrementalProblem &) = delete;
 
     /**
-     * Sets the loads, velocities and contacts of a step of size h.
+     * Sets the loads, prescribed velocities and contacts of a step of size h.
      * @param force F at the end of the step, or null for none
      * @param velocity_L vL, velocities at t_n
      * @param prescribed prescribed velocities at the end of the step
@@ -114,15 +114,15 @@ namespace geocone::GEOCONE_DIM
                ContactStep   touching = {});
 
     /**
-     * Evaluates the trial states and the residual R(v) by a local law. In the rows
-     * of prescribed dofs R is the reaction; in the rows of contact nodes, F of
-     * Contact. The ghosts of @p v must be up to date.
+     * Evaluates the trial states and the residual R(v) with the options of a local
+     * law. In the rows of prescribed dofs R is the reaction; in the rows of contact
+     * nodes, F of Contact. The ghosts of @p v must be up to date.
      */
     ResidualReport
     residual(Vector &dst, const Vector &v, const LocalLaw &law = {});
 
-    /** Creates the natural map, a local law that linearises the complementarity
-     *  problem in each residual(); arguments as for NaturalMap. */
+    /** Creates a natural map, which can replace the return maps in residual().
+     *  Arguments as for NaturalMap. */
     NaturalMap
     make_natural_map(const double rho, const std::vector<Mandel> &start) const
     {
@@ -134,7 +134,7 @@ namespace geocone::GEOCONE_DIM
     StepTraits
     traits() const;
 
-    /** Whether the Jacobian is symmetric positive definite. */
+    /** Returns true if the Jacobian is symmetric positive definite. */
     bool
     is_symmetric() const
     {
@@ -148,26 +148,28 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * Creates a zero matrix with the sparsity pattern of the Jacobian on the free
-     * dofs.
+     * Creates a sparse matrix with the sparsity pattern of the Jacobian on the free
+     * dofs. Its entries are zero.
      * @param one_triangle whether only the lower triangle of a symmetric Jacobian
      * is stored
      */
     SparseMatrix
     make_pattern(const bool one_triangle);
 
-    /** Node to which each row of the Jacobian belongs. Collective. */
+    /** Node of each row of the Jacobian matrix. Collective. */
     NodalRows
     nodal_rows() const;
 
-    /** Whether the Jacobian of the step needs a new sparsity pattern, as other dofs
-     *  are coupled than in the last pattern. Collective with contact. */
+    /** Returns true if the Jacobian of the step needs a new sparsity pattern. This
+     *  is so if other dofs are coupled than in the last pattern. Collective with
+     *  contact. */
     bool
     needs_pattern() const;
 
     /**
-     * Generalised Jacobian dR/dv = M/h + h sum V B' C B at the last residual(),
-     * with C replaced by (1 - w) C + w D, w the elastic blend.
+     * Assembles the generalised Jacobian dR/dv = M/h + h sum V B' C B at the last
+     * residual(). The tangent C is replaced by (1 - w) C + w D, w the elastic
+     * blend.
      * @return low-rank contribution of free obstacles or of bars
      */
     LowRank
@@ -178,7 +180,8 @@ namespace geocone::GEOCONE_DIM
     void
     apply_tangent(Vector &dst, const Vector &dv) const;
 
-    /** Sets the prescribed components of v to the values at the end of the step. */
+    /** Sets the prescribed components of the velocity v to their values at the end
+     *  of the step. */
     void
     set_prescribed(Vector &v) const;
 
@@ -196,7 +199,7 @@ namespace geocone::GEOCONE_DIM
       return lambda;
     }
 
-    /** Inertia term; only for a dynamic problem. */
+    /** Inertia term of the residual. It exists only in a dynamic problem. */
     const Inertia &
     inertia_term() const
     {
@@ -229,14 +232,14 @@ namespace geocone::GEOCONE_DIM
       return ghost;
     }
 
-    /** Internal forces, with the trial states of the points. */
+    /** Internal forces of the step, with the trial states of the points. */
     const InternalForces &
     internal_forces() const
     {
       return internal;
     }
 
-    /** Stress at t_n, by point. */
+    /** Stresses of all material points at t_n. */
     const std::vector<Mandel> &
     stress_at_start() const
     {
@@ -262,7 +265,7 @@ namespace geocone::GEOCONE_DIM
       return Vector(layout);
     }
 
-    /** Size h of the step (s). */
+    /** Size h of the time step (s). */
     double
     time_step() const
     {
@@ -270,15 +273,14 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * Exports the problem as data, on the first rank, without the data of the
-     * time stepper (parameters of materials, whether points move). Collective.
+     * Exports the problem as data on the first rank. Data of the time stepper are
+     * not included (parameters of materials, whether points move). Collective.
      */
     FrozenProblem
     freeze(const Vector &start) const;
 
   private:
-    /** Reduction, which formulates the problem for the stresses alone, accesses all
-     *  data. */
+    /** Friend, since Reduction formulates the problem in stresses from all data. */
     friend class Reduction;
 
     const MaterialPoints                                            &points;
@@ -309,8 +311,8 @@ namespace geocone::GEOCONE_DIM
     Links links_now; ///< Contact::links() of the current step
     Links links;     ///< Contact::links() of the last pattern
 
-    /** Factorisation of the constraint rows H in the metric of scale(), for the
-     *  current step, or empty. */
+    /** Factorisation of the constraint matrix H in the metric of scale(), for the
+     *  current step. It can be empty. */
     Multipliers::Factors row_factors;
   };
 } // namespace geocone::GEOCONE_DIM

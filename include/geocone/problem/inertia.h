@@ -9,8 +9,8 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Inertia term of a step, M (v - vL)/h. The mass matrix is M = (1 - c) diag(m) +
-   * c M_c, with M_c the sum of m_p N_p' N_p over the points.
+   * Inertia term M (v - vL)/h of the residual. The mass matrix is M = (1 - c)
+   * diag(m) + c M_c, with M_c the sum of m_p N_p' N_p over the points.
    */
   class Inertia : public Term
   {
@@ -25,7 +25,7 @@ namespace geocone::GEOCONE_DIM
             const Vector         &lumped_mass,
             const double          consistent_part);
 
-    /** Sets the data of a step. @param step size h (s)
+    /** Sets the step size and the velocities vL of a step. @param step size h (s)
      *  @param velocity_n vL, which must outlive the step */
     void
     begin_step(const double step, const Vector &velocity_n);
@@ -33,8 +33,9 @@ namespace geocone::GEOCONE_DIM
     void
     residual(Vector &part, const Vector &v, const LocalLaw &law) override;
 
-    /** Appends also 1e-6 |M vL/h|^2 to the squared reference norms: the only
-     *  nonzero reference of a body in free flight. */
+    /** Appends the squared reference norms of the inertia term, with 1e-6 |M
+     *  vL/h|^2 in addition. The latter is the only nonzero reference of a body in
+     *  free flight. */
     void
     add_sizes(const Vector &part, std::vector<double> &sizes) const override;
 

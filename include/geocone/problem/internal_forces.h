@@ -20,10 +20,10 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Residuals of a computed state in the cone law, independent of the solver:
-   * maxima over all points, with z = S (s - s_n) - h B v recomputed from the
-   * state, y = Psi(z), the stress scale max |s| + max k, and the strain scale
-   * max |y|, at least stress scale/2G (without plastic flow y is rounding).
+   * Residuals of the cone law at a computed state, independent of the solver. They
+   * are maxima over all points, with z = S (s - s_n) - h B v recomputed from the
+   * state, y = Psi(z), the stress scale max |s| + max k, and the strain scale max
+   * |y|, at least stress scale/2G (without plastic flow y is rounding).
    */
   struct Quality
   {
@@ -32,18 +32,18 @@ namespace geocone::GEOCONE_DIM
     double dual_violation  = 0.; ///< max(0, a |y_t| - y_n) / strain scale
     double complementarity = 0.; ///< |<y, s + (k/a) n>| / (both scales)
 
-    /** Violation max(0, |s_t| - a s_n - k) of the exact cone (Pa): nonzero with
-     *  lagged friction or friction with memory, for which the other members refer
-     *  to the law that was solved. */
+    /** Violation max(0, |s_t| - a s_n - k) of the exact friction cone (Pa). It is
+     *  nonzero with lagged friction or friction with memory, for which the other
+     *  members refer to the law that was solved. */
     double cone_excess = 0.;
 
-    /** Natural-map residual |s - P_C(s - 2G y)| / stress scale of the exact law;
-     *  equals natural_map if the exact law was solved. */
+    /** Relative natural-map residual |s - P_C(s - 2G y)| / stress scale of the
+     *  exact cone law. It equals natural_map if the exact law was solved. */
     double exact_natural_map = 0.;
 
-    /** Plastic work due to the difference between the strength used and the exact
-     *  strength, divided by the plastic work of the step; see
-     *  InternalForces::excess_work(). */
+    /** Ratio of excess plastic work to plastic work in the step, see
+     *  InternalForces::excess_work(). The excess is due to the difference between
+     *  the strength used and the exact strength. */
     double excess_share = 0.;
 
     void
@@ -72,8 +72,9 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Internal forces of a step,
-   *   sum_p V_p B_p' s_p(v),   s_p(v) = material(h B_p v, state at t_n).
+   * Internal forces sum_p V_p B_p' s_p(v) of a step. The stress of point p follows
+   * from the constitutive law,
+   *   s_p(v) = material(h B_p v, state at t_n).
    * Undrained soil additionally has an excess pore pressure,
    *   p_p(v) = p_p - K_w/n tr(h B_p v).
    * Equilibrium uses the total stress s_p - p_p I; the law, its modes and its
@@ -89,7 +90,7 @@ namespace geocone::GEOCONE_DIM
                    const Unknowns       &unknowns,
                    const MPI_Comm        comm);
 
-    /** Sets the step size. @param step h (s) */
+    /** Sets the size of the step. @param step h (s) */
     void
     begin_step(const double step);
 
@@ -112,19 +113,20 @@ namespace geocone::GEOCONE_DIM
     void
     add_elastic_diagonal(Vector &dst) const override;
 
-    /** Counts the points of this rank on the smooth part of the cone, the points at
-     *  the apex, and the points whose mode has changed since the previous
-     *  residual(). */
+    /** Counts the points of this rank that yield, and the points that change mode.
+     *  They are the points on the smooth part of the cone, the points at the apex,
+     *  and the points whose mode has changed since the previous residual(). */
     void
     count_modes(double *counts) const;
 
-    /** Largest local error: |R| of NaturalMap divided by the stress scale, or
-     *  CellPressures::difference(); 0 for the return map alone. Collective. */
+    /** Largest relative error of the local equations over all points. It is |R| of
+     *  NaturalMap divided by the stress scale, or CellPressures::difference(); 0
+     *  for the return map alone. Collective. */
     double
     local_error() const;
 
-    /** Whether CellPressures are used (B-bar with dilatant soil); the same on all
-     *  ranks. */
+    /** Returns true if cell pressures are used (B-bar with dilatant soil). The
+     *  result is the same on all ranks. */
     bool
     has_cell_pressures() const
     {
@@ -132,7 +134,8 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * Estimated rounding error N of the residual norm for a velocity field (N/m),
+     * Estimated rounding error N of the residual norm for a velocity field (N/m).
+     * It is
      *   N^2 = eps^2 sum_p sum_i |grad N_i|^2 (V_p K_p h sum_j |grad N_j| |v_j|)^2
      * with K_p = 2 (lambda + G). The terms of the strain e_p = h B_p v have the
      * relative error eps, but their sum is smaller by the ratio of the sizes of
@@ -143,8 +146,8 @@ namespace geocone::GEOCONE_DIM
     double
     rounding_floor(const Vector &v) const;
 
-    /** Evaluates the residuals of the trial states in the cone law; the same on all
-     *  ranks.
+    /** Evaluates the residuals of the cone law for the trial states. The result is
+     *  the same on all ranks.
      *  @param excess_work result of excess_work() (J/m) */
     Quality
     quality(const double excess_work) const;
@@ -154,14 +157,14 @@ namespace geocone::GEOCONE_DIM
     std::string
     not_a_number() const;
 
-    /** Excess work sum V |z_t| ||s_t| - a s_n - k| over the plastic points with
-     *  lagged friction or friction with memory (J/m): 0 for the exact law.
-     *  Collective. */
+    /** Excess plastic work due to lagged friction or friction with memory (J/m). It
+     *  is the sum of V |z_t| ||s_t| - a s_n - k| over the plastic points: 0 for the
+     *  exact law. Collective. */
     double
     excess_work() const;
 
-    /** Ratio of the excess work to the plastic work of the step; 0 for the exact
-     *  law. Collective. @param excess_work result of excess_work() (J/m) */
+    /** Ratio of the excess plastic work to the plastic work of the step; 0 for the
+     *  exact law. Collective. @param excess_work result of excess_work() (J/m) */
     double
     excess_share(const double excess_work) const;
 
@@ -172,7 +175,8 @@ namespace geocone::GEOCONE_DIM
     {
       return stress;
     }
-    /** Total stress: trial stress minus excess pore pressure, tension positive. */
+    /** Total trial stresses of the points: effective stress minus excess pore
+     *  pressure (tension positive). */
     const std::vector<Mandel> &
     total_stress() const
     {
@@ -188,12 +192,11 @@ namespace geocone::GEOCONE_DIM
     {
       return mode;
     }
-    /** Trial history variables, in the layout of the history variables of
-     *  MaterialPoints. */
+    /** Trial history variables of all points, in the layout of MaterialPoints. */
     std::vector<double>
     trial_history() const;
 
-    /** Plastic strain increment -z of a point. */
+    /** Plastic strain increment -z of a material point. */
     SpatialMandel
     plastic_strain_increment(const unsigned int point) const;
 
@@ -206,7 +209,7 @@ namespace geocone::GEOCONE_DIM
     whole_stress_n(const unsigned int point) const;
     /** @} */
 
-    /** Internal work at a point in the step, per volume (J/m^3). */
+    /** Internal work in the step at a point, per unit volume (J/m^3). */
     struct Work
     {
       double elastic; ///< s:S(s - s_n), plus p (p - p_n)/(K_w/n) of the fluid
@@ -216,23 +219,23 @@ namespace geocone::GEOCONE_DIM
     work(const unsigned int point) const;
     /** @} */
 
-    /** Calls f(p, dof, column of B_p for the local dof) for each nonzero column of
-     *  the strain matrices B_p. */
+    /** Calls f(p, dof, column of B_p) for each nonzero column of the strain matrix
+     *  B_p of each point p. The number dof is local. */
     void
     for_each_strain_column(
       const std::function<
         void(const unsigned int, const unsigned int, const Mandel &)> &f) const;
 
   private:
-    /** Contiguous points [begin, end) of one material. */
+    /** Contiguous range [begin, end) of points of one material. */
     struct Run
     {
       unsigned int begin, end, material;
     };
     std::vector<Run> runs;
 
-    /** Strain increment and state at t_n of a run of points, as input of the
-     *  material at the last residual(). */
+    /** Strain increments and states at t_n for a range of points. They are the
+     *  input of the material at the last residual(). */
     Increment
     increment_of(const Run &run) const;
 
@@ -242,8 +245,8 @@ namespace geocone::GEOCONE_DIM
       return {h, friction_lag};
     }
 
-    /** Updates stresses and modes of all points, run by run; the second version,
-     *  stresses, modes and tangents of the points [begin, end). */
+    /** Updates the stresses and modes of all points. The second version also
+     *  updates tangents, for the points [begin, end). */
     void
     update_materials(const bool with_tangent) const;
     void
@@ -251,7 +254,7 @@ namespace geocone::GEOCONE_DIM
     void
     update_material(const Run &run, const bool with_tangent) const;
 
-    /** Computes the tangents of the last residual() if necessary. */
+    /** Computes the tangents of all points at the last residual() if necessary. */
     void
     update_tangents() const
     {
@@ -259,8 +262,8 @@ namespace geocone::GEOCONE_DIM
         update_materials(true);
     }
 
-    /** Computes the strains strain[p] = factor B_p v of the points of a cell, and
-     *  the hoop strains in axisymmetric problems. */
+    /** Computes the strains factor B_p v at the points of a cell. In axisymmetric
+     *  problems hoop strains are included. */
     template <int n>
     void
     strains_of_cell(const unsigned int   c,
@@ -269,9 +272,9 @@ namespace geocone::GEOCONE_DIM
                     std::vector<Mandel> &strain,
                     std::vector<double> &strain_zz) const;
 
-    /** Adds the internal forces sum B_p' s_p of a cell to cell_f, where s_p is the
-     *  stress times the weight of the point, including the hoop stress in
-     *  axisymmetric problems. */
+    /** Adds the internal forces sum B_p' s_p of a cell to cell_f. The stress s_p is
+     *  multiplied by the weight of the point; in axisymmetric problems the hoop
+     *  stress is included. */
     template <int n, typename WeightedStress, typename WeightedHoopStress>
     void
     add_forces_of_cell(const unsigned int        c,
@@ -287,7 +290,7 @@ namespace geocone::GEOCONE_DIM
                            const CellPressures::Condensed &condensed,
                            double                         *K) const;
 
-    /** Computes the internal forces sum V B's of given stresses.
+    /** Computes the internal forces sum V B's from given stresses.
      *  @param hoop_stress of a point, for axisymmetric problems only */
     template <typename HoopStress>
     void
@@ -295,13 +298,13 @@ namespace geocone::GEOCONE_DIM
                const HoopStress          &hoop_stress,
                Vector                    &part) const;
 
-    /** Out-of-plane components of a point's tangent, including the pore fluid,
-     *  multiplied by h and the weight of the point. */
+    /** Out-of-plane components of the tangent at a point, including the pore fluid.
+     *  They are multiplied by h and the weight of the point. */
     OutOfPlaneTangent
     tangent_zz_of(const unsigned int p, const double blend) const;
 
-    /** Adds the out-of-plane components of a point's tangent to the stiffness
-     *  matrix K of a cell. */
+    /** Adds the stiffness of the out-of-plane components of a point's tangent to
+     *  the cell matrix K. */
     template <int n>
     void
     add_hoop_stiffness(const unsigned int       p,
@@ -320,7 +323,7 @@ namespace geocone::GEOCONE_DIM
       return !pressure.empty();
     }
 
-    /** Bulk modulus K_w/n of the pore fluid, with n the porosity, at a point
+    /** Bulk modulus of the pore fluid divided by the porosity, K_w/n, at a point
      *  (Pa). */
     double
     fluid_modulus(const unsigned int point) const
@@ -332,7 +335,7 @@ namespace geocone::GEOCONE_DIM
     void
     update_pressures();
 
-    /** Strain increment of a point, as a full tensor. */
+    /** Strain increment of a point as a full (three-dimensional) tensor. */
     SpatialMandel
     whole_strain(const unsigned int point) const;
 
@@ -356,7 +359,7 @@ namespace geocone::GEOCONE_DIM
     std::vector<Mode>                 previous_mode;
     mutable std::vector<MandelMatrix> tangent;
 
-    /** Cell pressures, for B-bar with dilatant soil; they keep the tangents of the
+    /** Cell pressures for B-bar with dilatant soil. They keep the tangents of the
      *  last residual() up to date. */
     mutable std::optional<CellPressures> cell_pressures;
 

@@ -13,8 +13,8 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Local part of the incremental problem for (v, s, z), formulated by the natural
-   * map (Guillet et al. 2025, eq 60). At each point
+   * Local equations of the incremental problem by the natural map (Guillet et al.
+   * 2025, eq 60). At each point
    *   z = S (s - s_n) - e,   R = s - P_C(s - rho Psi(z)),   e = h B v,
    * where s is an additional unknown, and a Newton step from (v, s) has
    *   A ds = rho J Psi' de - R,   A = I - J + rho J Psi' S,
@@ -29,7 +29,7 @@ namespace geocone::GEOCONE_DIM
   {
   public:
     /**
-     * Creates the natural map with an initial guess of the stresses s.
+     * Creates the natural map with an initial guess for the stresses s.
      * @param step for Material::step_cone(), the cones of the points
      * @param rho as a multiple of 2G of each point
      * @param start initial guess of s, by point (Pa)
@@ -40,7 +40,7 @@ namespace geocone::GEOCONE_DIM
                const double               rho,
                const std::vector<Mandel> &start);
 
-    /** Largest natural-map residual |R| over the points, and the reference stress
+    /** Largest natural-map residual |R| over all points, and the reference stress
      *  (Pa). */
     struct Error
     {
@@ -49,23 +49,23 @@ namespace geocone::GEOCONE_DIM
     };
 
     /**
-     * Updates the stresses s by a Newton step with the strain increments e, and
-     * linearises the natural map at the new (v, s).
+     * Updates the stresses s by a Newton step for the strain increments e. Then
+     * the natural map is linearised at the new (v, s).
      * @param[out] mode region of s - rho Psi(z): inside C, projected onto the
      * smooth part of C, or projected onto the apex
      */
     Error
     update(const std::vector<Mandel> &strain, std::vector<Mode> &mode);
 
-    /** Stress s - A^-1 R of the last update(), by point (Pa); before the first
-     *  update(), the initial guess. */
+    /** Stress s - A^-1 R of each point after the last update() (Pa). Before the
+     *  first update() it is the initial guess. */
     const std::vector<Mandel> &
     stress() const
     {
       return iterate;
     }
 
-    /** Tangent T of the last update(), by point (Pa). */
+    /** Tangent T of each point after the last update() (Pa). */
     const std::vector<MandelMatrix> &
     tangent() const
     {

@@ -12,12 +12,12 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Points at which a plate is tied to the body, the same on all ranks. They
-   * include the corners of the plate's polyline. If the plate has a spacing, the
-   * corners are joined by points at most this distance apart; otherwise by the
-   * points where the plate crosses cell sides, with @p degree intervals between
-   * two crossings. Along sides of the mesh these are the nodes. Crossings very
-   * close to others are omitted.
+   * Computes the points at which a plate is tied to the body. They are the same
+   * on all ranks. They include the corners of the plate's polyline. If the plate
+   * has a spacing, the corners are joined by points at most this distance apart;
+   * otherwise by the points where the plate crosses cell sides, with @p degree
+   * intervals between two crossings. Along sides of the mesh these are the
+   * nodes. Crossings very close to others are omitted.
    * @param degree polynomial degree of the displacements
    */
   std::vector<dealii::Point<dim>>

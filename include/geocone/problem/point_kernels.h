@@ -15,13 +15,12 @@
 #include <vector>
 
 /**
- * Kernels of strains, nodal forces and stiffness at points, for a number n of
- * nodes per cell known at compile time: g stores grad N as n values d/dx, n
- * values d/dy and so on; cell vectors are interleaved (v_x, v_y, ... per node).
+ * Kernels for strains, nodal forces and stiffness matrices, with the number n of
+ * nodes per cell known at compile time.
  */
 namespace geocone::kernels
 {
-  /** n to the power dim: number of nodes of a tensor-product cell. */
+  /** Number n^dim of nodes of a tensor-product cell with n nodes per direction. */
   template <int n>
   constexpr int power = dim == 2 ? n *n : n *n *n;
 
@@ -65,7 +64,7 @@ namespace geocone::kernels
       }
   }
 
-  /** Computes B v, the strain rate in Mandel notation of nodal velocities v. */
+  /** Computes the strain rate B v of nodal velocities v, in Mandel notation. */
   template <int n>
   inline Mandel
   strain(const double *g, const double *v)
@@ -90,7 +89,7 @@ namespace geocone::kernels
     return e;
   }
 
-  /** Adds the nodal forces B' s of a stress s to f. */
+  /** Adds the nodal forces B's of a stress s to the cell vector f. */
   template <int n>
   inline void
   add_force(const double *g, const Mandel &s, double *f)
@@ -144,10 +143,10 @@ namespace geocone::kernels
     return (... + (g[n * ((d + k) % dim)] * at(place.of[d][(d + k) % dim])));
   }
 
-  /** Number of columns of a stiffness matrix that are summed together. */
+  /** Number of columns of the stiffness matrix that are accumulated together. */
   constexpr int block = 4;
 
-  /** Required length of the scratch array of stiffness(). */
+  /** Required length of the work array of stiffness(). */
   inline std::size_t
   scratch_size(const unsigned int n_points, const unsigned int n_nodes)
   {
@@ -156,9 +155,9 @@ namespace geocone::kernels
   }
 
   /**
-   * Computes the stiffness matrix K = sum_q B_q' C_q B_q of a cell, row-major
-   * (dim n)^2. The blocks, of a node's rows and a few columns, are so small that
-   * the sums over the points stay in registers.
+   * Computes the stiffness matrix K = sum_q B_q' C_q B_q of a cell. K is stored
+   * row by row with (dim n)^2 entries. The blocks, of a node's rows and a few
+   * columns, are so small that the sums over the points stay in registers.
    * @tparam upper whether only the blocks of nodes i <= j are needed
    * @param g gradients of the points one after another, dim n each
    * @param C tangents times weights
@@ -235,8 +234,8 @@ namespace geocone::kernels
       }
   }
 
-  /** Computes a, the modified gradients of the volumetric strain (B-bar) minus the
-   *  gradients at the point, including N/r in axisymmetric problems.
+  /** Computes the difference a between the B-bar gradients and the gradients at a
+   *  point. In axisymmetric problems the gradients include N/r.
    *  @param hoop N/r, or null */
   template <int n>
   inline void
@@ -254,10 +253,9 @@ namespace geocone::kernels
   }
 
   /**
-   * Adds the B-bar contribution, from the modified gradients of the volumetric
-   * strain, to the stiffness matrix K. With I the unit tensor and a from
-   * volumetric_change(), the strain matrix is B + I a'/dim, so that with
-   * w = C I/dim
+   * Adds the contribution of the B-bar method to the stiffness matrix K of a cell.
+   * With I the unit tensor and a from volumetric_change(), the strain matrix is B
+   * + I a'/dim, so that with w = C I/dim
    *   K += sum_q a_q (C_q' I/dim)' B_q + (B_q' w_q) a_q'
    *          + (I' w_q/dim) a_q a_q'.
    * @param hoop N/r in axisymmetric problems, part of the volumetric strain; or
@@ -308,7 +306,7 @@ namespace geocone::kernels
   }
 
 #if defined(__x86_64__)
-  /** Computes stiffness_body() with the instructions AVX2 and FMA. */
+  /** Variant of stiffness_body() compiled for AVX2 and FMA instructions. */
   template <int n, bool upper>
   [[gnu::target("avx2,fma")]] void
   stiffness_avx2(const double       *g,
@@ -323,8 +321,8 @@ namespace geocone::kernels
   }
 #endif
 
-  /** Computes the stiffness matrix K of a cell, without out-of-plane components,
-   *  by the fastest variant for the processor.
+  /** Computes the in-plane stiffness matrix K of a cell by the fastest kernel for
+   *  the processor.
    *  @param volumetric modified gradients of B-bar, or null */
   template <int n, bool upper>
   void
@@ -346,7 +344,7 @@ namespace geocone::kernels
     stiffness_body<n, upper>(g, hoop, volumetric, C, n_points, scratch, K);
   }
 
-  /** Gathers the entries of a cell's nodes from a global vector into a cell
+  /** Copies the entries at the nodes of a cell from a global vector to a cell
    *  vector. */
   template <int n>
   inline void

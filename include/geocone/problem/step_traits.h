@@ -9,8 +9,7 @@
 
 namespace geocone
 {
-  /** Features of a step's incremental problem that determine the solution
-   *  strategy. */
+  /** Features of an incremental problem that determine the solution strategy. */
   struct StepTraits
   {
     LawTraits     law;
@@ -21,8 +20,8 @@ namespace geocone
     bool          points_move        = false; ///< material points (MPM)
     bool          scales_loads       = false; ///< load stepping to the limit
 
-    /** Whether stresses must be computed by return maps: some laws have no natural
-     *  map, and cell pressures exclude it. */
+    /** Returns true if stresses must be computed by return maps. Some laws have no
+     *  natural map, and cell pressures exclude it. */
     bool
     needs_return_map() const
     {

@@ -11,29 +11,28 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Local law: options by which residual() computes stresses and contact
-   *  forces. */
+  /** Options by which residual() evaluates stresses and contact forces. */
   struct LocalLaw
   {
     /** Fraction of the normal stress that is taken from t_n when return maps
      *  evaluate the strength (lagged friction, Increment::friction_lag). */
     double friction_lag = 0.;
 
-    /** Natural map that replaces the return maps, updated in each residual(); or
-     *  null. */
+    /** Natural map that replaces the return maps; null if return maps are used.
+     *  Each residual() updates it. */
     NaturalMap *natural_map = nullptr;
 
-    /** Whether contact has friction; the solution without friction is an initial
+    /** True if contact has friction. The solution without friction is an initial
      *  guess for the solution with friction. */
     bool contact_friction = true;
 
-    /** Whether initially active contacts are bilateral; the bilateral solution is
+    /** True if initially active contacts are bilateral. The bilateral solution is
      *  an initial guess for the solution with separation. */
     bool contact_is_bilateral = false;
   };
 
   /**
-   * Term of the residual R(v) of an implicit step; R is the sum of all terms.
+   * Term of the residual R(v) of an implicit step. R is the sum of all terms.
    * Member functions not overridden contribute zero. Forces are per metre of
    * thickness (N/m); at rotated dofs (Unknowns::turned_nodes) they have the
    * components along the rotated axes.
@@ -44,15 +43,15 @@ namespace geocone::GEOCONE_DIM
     virtual ~Term() = default;
 
     /**
-     * Evaluates the term in all owned rows, and stores the data for its tangent.
+     * Evaluates the term in all owned rows and stores the data for its tangent.
      * @param[out] part value of the term
      * @param v with its ghosts
      */
     virtual void
     residual(Vector &part, const Vector &v, const LocalLaw &law) = 0;
 
-    /** Appends squared reference norms of the term, as sums on this rank, by which
-     *  the residual is normalised: |part|^2 unless overridden. */
+    /** Appends the squared reference norms of the term, by which the residual is
+     *  normalised. They are sums on this rank: |part|^2 unless overridden. */
     virtual void
     add_sizes(const Vector &part, std::vector<double> &sizes) const
     {

@@ -12,7 +12,7 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Transformation of cell vectors and matrices to the rotated dofs of nodes
+   * Transforms cell vectors and cell matrices to the rotated dofs of nodes
    * (Unknowns::turned_nodes). Without rotated dofs it has no cost.
    */
   class TurnedDofs
@@ -64,8 +64,8 @@ namespace geocone::GEOCONE_DIM
     void
     turn_forces(const unsigned int c, double *cell_f) const;
 
-    /** Rotated axes, ordered by cell; the entries of cell c begin at first_turn[c].
-     *  Empty without rotated dofs. */
+    /** Rotated axes of all nodes with rotated dofs, ordered by cell. The entries of
+     *  cell c begin at first_turn[c]. Empty without rotated dofs. */
     std::vector<Turn>         turns;
     std::vector<unsigned int> first_turn;
   };
