@@ -16,11 +16,11 @@
 namespace geocone
 {
   /**
-   * Checkpoint files of a run: checkpoint-NNNNNN.h5 in the folder of the run contains the
-   * full state after NNNNNN completed steps, from which `geocone --resume FOLDER`
-   * continues. Checkpoints are written at regular intervals, and if a signal stops the
-   * run. A checkpoint and the corresponding tables are complete on the disk before an
-   * older checkpoint is deleted.
+   * Writer and reader of the checkpoint files of a run. The file checkpoint-NNNNNN.h5
+   * in the folder of the run contains the full state after NNNNNN completed steps, from
+   * which `geocone --resume FOLDER` continues. Checkpoints are written at regular
+   * intervals, and if a signal stops the run. A checkpoint and the corresponding tables
+   * are complete on the disk before an older checkpoint is deleted.
    */
   class Checkpoint : public dealii::ParameterAcceptor
   {
@@ -30,7 +30,7 @@ namespace geocone
     void
     prepare(const MPI_Comm comm);
 
-    /** Whether a checkpoint is due after a completed step. Collective. */
+    /** Returns true if a checkpoint is due after a completed step. Collective. */
     bool
     is_due(const unsigned int step);
 
@@ -43,8 +43,8 @@ namespace geocone
           const std::function<void(Archive &)> &save);
 
     /**
-     * Reads the latest valid checkpoint of a folder, with warnings about invalid
-     * checkpoints. Collective.
+     * Reads the latest valid checkpoint of a folder. Invalid checkpoints cause
+     * warnings. Collective.
      * @param load loads a checkpoint; returns on all ranks the reason why the run cannot
      * continue from the checkpoint, or an empty string
      * @param parameter name of the parameter for the folder

@@ -17,9 +17,9 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Control of the substep size. A step of the loading programme is subdivided into
-   * substeps: a failed substep is halved; after a substep with few iterations, the size
-   * increases by half, up to the full step.
+   * Control of the substep size in implicit runs. A step of the loading programme is
+   * subdivided into substeps: a failed substep is halved; after a substep with few
+   * iterations, the size increases by half, up to the full step.
    */
   class StepControl : public dealii::ParameterAcceptor
   {
@@ -34,7 +34,8 @@ namespace geocone::GEOCONE_DIM
     double       accepted_excess = 0.01; ///< see NonsmoothNewton::Hints
   };
 
-  /** Initial state of the points from another run, an alternative to InitialStress. */
+  /** Initial state of the material points from the results of another run. It is an
+   *  alternative to InitialStress. */
   class StartOfRun : public dealii::ParameterAcceptor
   {
   public:
@@ -48,9 +49,9 @@ namespace geocone::GEOCONE_DIM
   class ImplicitSimulation : public SceneSimulation
   {
   public:
-    /** Function that returns the cell sizes of a mesh adapted by limit analysis ("from
-     *  the bounds") and the bounds of the load; both are valid on the first rank.
-     *  Collective. */
+    /** Function that returns, from limit analysis, the cell sizes of an adapted mesh
+     *  ("from the bounds") and the bounds of the load. Both are valid on the first
+     *  rank. Collective. */
     using SizesOfScene = std::function<std::pair<CellSizes, LoadBracket>(
       const MeshParameters &, const Scene &, const MPI_Comm, Log &)>;
 
@@ -104,13 +105,14 @@ namespace geocone::GEOCONE_DIM
     void
     load(const Archive &archive) override;
 
-    /** Largest substep of a step h (s). Friction with memory limits the substep to tau/2,
-     *  for which the tangent is nearly elliptic (doc/theory/friction_memory.md). */
+    /** Largest substep size in a step of size h (s). Friction with memory limits the
+     *  substep to tau/2, for which the tangent is nearly elliptic
+     *  (doc/theory/friction_memory.md). */
     double
     largest_substep(const double h) const;
 
-    /** Smallest substep of a step h (s); if a smaller substep is necessary, the step
-     *  fails. */
+    /** Smallest substep size in a step of size h (s). If a smaller substep is
+     *  necessary, the step fails. */
     double
     smallest_substep(const double h) const;
 
@@ -131,7 +133,7 @@ namespace geocone::GEOCONE_DIM
     Json
     cost() const;
 
-    /** Maximum of halved_for_excess: if the exact law has no solution near the iterate,
+    /** Maximum of halved_for_excess. If the exact law has no solution near the iterate,
      *  smaller substeps do not help. */
     static constexpr unsigned int most_halved_for_excess = 3;
 
@@ -157,7 +159,8 @@ namespace geocone::GEOCONE_DIM
     double         last_size  = 0.; ///< size of the current or last step (s)
     double         done       = 0.; ///< completed part of the current step (s)
     bool           is_in_step = false; ///< whether a step has begun
-    /** Number of consecutive substeps halved because of SolverReport::exceeds. */
+    /** Number of consecutive halvings of the substep because of
+     *  SolverReport::exceeds. */
     unsigned int   halved_for_excess = 0;
     ImplicitRecord present;      ///< record of the current or last step
     double         reached = 0.; ///< time of the last converged substep (s)

@@ -33,14 +33,15 @@ namespace geocone::GEOCONE_DIM
     }
   };
 
-  /** Output of a seepage run: seepage.csv with a line per mesh and time, the fields on
-   *  the finest mesh, and the summary. */
+  /** Output of a seepage run. It contains seepage.csv with a line per mesh and time,
+   *  the fields on the finest mesh, and the summary. */
   class SeepageOutput : public TableOutput<FlowLevel>
   {
   public:
     using TableOutput::TableOutput;
 
-    /** @param names names of the boundaries @param geometry determines the units */
+    /** Creates the output folder and the columns of seepage.csv.
+     *  @param names names of the boundaries @param geometry determines the units */
     void
     prepare(const RunOptions               &options,
             const std::vector<std::string> &names,
@@ -119,11 +120,11 @@ namespace geocone::GEOCONE_DIM
     void
     finish(const double t) override;
 
-    /** Record of the current flow at a time. */
+    /** Returns the results of the current flow for a given time. */
     FlowLevel
     record_of(const double time) const;
 
-    /** Solves the next flow, on all meshes. @return one record per mesh */
+    /** Solves the next flow problem on all meshes. @return one record per mesh */
     std::vector<FlowLevel>
     solve_next();
 

@@ -17,7 +17,7 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Sequence of operations of a run, common to all methods: stages, steps, fields,
+  /** Sequence of operations common to the runs of all methods: stages, steps, fields,
    *  summaries, checkpoints and termination. Derived classes define a step and the
    *  records of a step. */
   class Simulation
@@ -26,6 +26,7 @@ namespace geocone::GEOCONE_DIM
     virtual ~Simulation() = default;
 
     /**
+     * Executes the run.
      * @return whether the results satisfy all expectations of the parameter file
      * @throws InputError before anything is written, RunError afterwards
      */
@@ -65,8 +66,8 @@ namespace geocone::GEOCONE_DIM
     /** @name Functions implemented by a method. All collective. */
     /** @{ */
 
-    /** Checks the complete input, however expensive the check, and sets the state at t =
-     *  0.
+    /** Checks the complete input and sets the initial state at t = 0. Expensive checks
+     *  are included.
      *  @return warnings. @throws InputError */
     virtual std::vector<std::string>
     prepare(const RunOptions &options) = 0;
@@ -83,14 +84,15 @@ namespace geocone::GEOCONE_DIM
     virtual std::string
     headline(const std::string &name) const = 0;
 
-    /** Model data for a plot (geometry, materials, conditions); null if not available. */
+    /** Data for a plot of the model (geometry, materials, boundary conditions). They
+     *  are null if not available. */
     virtual Json
     model()
     {
       return {};
     }
 
-    /** Records the initial state; called at the start of a run that is not resumed. */
+    /** Records the initial state. Called at the start of a run that is not resumed. */
     virtual void
     record_start()
     {}
@@ -107,11 +109,12 @@ namespace geocone::GEOCONE_DIM
     virtual StepOutcome
     advance(TimePoint &now) = 0;
 
-    /** Appends the completed step to the tables. @param now at the end of the step */
+    /** Appends a line for the completed step to the tables. @param now at the end of
+     *  the step */
     virtual void
     record(const TimePoint &now) = 0;
 
-    /** Text on the last step for the progress line. */
+    /** Text about the last step for the progress line. */
     virtual std::string
     progress(const TimePoint &now) const = 0;
 
@@ -120,7 +123,7 @@ namespace geocone::GEOCONE_DIM
     end(const TimePoint &)
     {}
 
-    /** Whether fields are written after a step that is not the last step of a stage. */
+    /** Returns true if fields are also written after steps that do not end a stage. */
     virtual bool
     wants_fields(const TimePoint &) const
     {
@@ -131,7 +134,7 @@ namespace geocone::GEOCONE_DIM
     write_fields(const double)
     {}
 
-    /** Topics of summary.json in order: results, size, cost. */
+    /** Topics of summary.json, in the order results, size, cost. */
     virtual Json
     topics() = 0;
 
@@ -167,19 +170,20 @@ namespace geocone::GEOCONE_DIM
     void
     print_progress();
 
-    /** @param status running | finished | failed: reason */
+    /** Writes summary.json with the given status.
+     *  @param status running | finished | failed: reason */
     void
     write_summary(const std::string &status);
 
-    /** Writes the fields, the summary and a checkpoint if due after the step. */
+    /** Writes fields, summary and checkpoint after a step, each if due. */
     void
     write_if_due(const bool is_last);
 
     void
     save_checkpoint();
 
-    /** Resumes from the latest valid checkpoint. @throws InputError if no checkpoint is
-     *  valid */
+    /** Resumes the run from its latest valid checkpoint. @throws InputError if no
+     *  checkpoint is valid */
     void
     resume();
 
