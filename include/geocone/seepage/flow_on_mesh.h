@@ -17,18 +17,19 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Seepage through the body of a scene: steady flow on meshes refined at the
-   *  free surface and where the velocity varies, transient flow on one mesh. */
+  /** Seepage through the body of a scene. Steady flow is solved on meshes
+   *  refined at the free surface and where the velocity varies, transient flow
+   *  on one mesh. */
   class FlowOnMesh
   {
   public:
-    /** Creates the first mesh. Collective.
+    /** Creates the first mesh of the seepage analysis. Collective.
      *  @throws InputError for materials without a permeability or, in transient
      *  flow, a drainable porosity, and for water levels that are not above the
      *  lowest point of their boundary */
     FlowOnMesh(const Scene &scene, const MPI_Comm comm);
 
-    /** Solves steady flow on successively refined meshes, or a time step of
+    /** Solves steady flow on successively refined meshes, or one time step of
      *  transient flow on the current mesh. Collective.
      *  @param after_mesh called after each mesh
      *  @throws RunError, Stopped */
@@ -41,7 +42,7 @@ namespace geocone::GEOCONE_DIM
     void
     solve_on_first_mesh(const Seepage::Levels &levels);
 
-    /** Whether the flow on the current mesh has been solved. */
+    /** Returns true if the flow on the current mesh has been solved. */
     bool
     is_solved() const
     {
@@ -53,7 +54,7 @@ namespace geocone::GEOCONE_DIM
     double
     stored() const;
 
-    /** Pore pressures and free surface of the solved flow. */
+    /** Pore pressures and free surface of the computed flow. */
     Water::Flow
     result() const;
 
@@ -73,27 +74,27 @@ namespace geocone::GEOCONE_DIM
     std::vector<dealii::Tensor<1, dim>>
     velocities() const;
 
-    /** Flow rate into the body through each boundary of the list (m^2/s; m^3/s
-     *  in axisymmetry). */
+    /** Flow rate into the body through each seepage boundary of the scene
+     *  (m^2/s; m^3/s in axisymmetry). */
     std::vector<double>
     inflows() const;
 
-    /** Discharge through the body: larger of total inflow and total outflow
+    /** Discharge through the body: the larger of total inflow and total outflow
      *  (m^2/s; m^3/s in axisymmetry). */
     double
     discharge() const;
 
-    /** Relative change of the discharge from the previous mesh; no value on the
+    /** Relative change of the discharge from the previous mesh. Empty on the
      *  first mesh and for transient flow. */
     std::optional<double>
     change() const;
 
-    /** Whether the discharge exceeds rounding errors. */
+    /** Returns true if the discharge exceeds rounding errors. */
     bool
     flows() const;
 
-    /** Error of the water balance: net inflow through all boundaries minus rate
-     *  of storage, over the discharge (-). */
+    /** Relative error of the water balance (-). It is the net inflow through
+     *  all boundaries minus the rate of storage, divided by the discharge. */
     double
     imbalance() const;
 
@@ -105,16 +106,16 @@ namespace geocone::GEOCONE_DIM
     unsigned int
     n_levels() const;
 
-    /** Sets the current mesh, and computes its seepage boundaries and the
-     *  drainable volumes of its vertices. */
+    /** Sets the current mesh and computes its seepage boundaries and drainable
+     *  volumes. The latter belong to the vertices. */
     void
     take(const Triangles &next);
 
-    /** Generates a mesh of triangles with given cell sizes. Collective. */
+    /** Generates a triangle mesh with given cell sizes. Collective. */
     Triangles
     mesh_with(const CellSizes &sizes) const;
 
-    /** Indices of the mesh edges on a seepage boundary or a drain.
+    /** Indices of the mesh edges on a seepage boundary or on a drain.
      *  @throws InputError if there are none */
     std::vector<unsigned int>
     edges_of(const SeepageBoundary &boundary) const;
@@ -135,8 +136,8 @@ namespace geocone::GEOCONE_DIM
     std::vector<double>
     hydrostatic(const Seepage::Levels &levels) const;
 
-    /** Refines the mesh adaptively to twice as many triangles, and solves
-     *  steady flow. Collective. */
+    /** Refines the mesh adaptively to twice as many triangles and solves steady
+     *  flow. Collective. */
     void
     refine(const Seepage::Levels &levels);
 
@@ -144,12 +145,12 @@ namespace geocone::GEOCONE_DIM
     void
     advance(const Seepage::Step &step);
 
-    /** Error indicator of each cell: jumps of the normal velocity across its
-     *  edges. */
+    /** Error indicator of each cell: jumps of the normal velocity across the
+     *  edges of the cell. */
     std::vector<double>
     jumps() const;
 
-    /** Relative permeability chi of each vertex, not limited to [0, 1]. */
+    /** Relative permeability chi at each vertex, not limited to [0, 1]. */
     std::vector<double>
     saturation() const;
 
@@ -173,8 +174,8 @@ namespace geocone::GEOCONE_DIM
     double                rate_of_storage = 0.; ///< (m^2/s)
   };
 
-  /** Solves all flow problems of a scene, and passes the pore pressures to
-   *  Scene::water. Collective.
+  /** Solves all seepage flow problems of a scene. The pore pressures are passed
+   *  to Scene::water. Collective.
    *  @param dry_run whether to solve only the first flow problem, on a coarse
    *  mesh
    *  @param time at which the pressures are the initial pore pressures (s) */

@@ -12,8 +12,8 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Boundary conditions of a flow problem at the vertices of a mesh; the
-   *  remaining boundary is impervious. */
+  /** Boundary conditions of a seepage flow problem at the vertices of a mesh.
+   *  The remaining boundary is impervious. */
   struct FlowConditions
   {
     enum class Kind : char
@@ -33,32 +33,33 @@ namespace geocone::GEOCONE_DIM
     /** @} */
   };
 
-  /** Solution of a flow problem, by vertices of the mesh. */
+  /** Solution of a seepage flow problem at the vertices of a mesh. */
   struct FlowSolution
   {
-    /** Pressure head psi = u/gamma_w >= 0 (m). */
+    /** Pressure head psi = u/gamma_w >= 0 at each vertex (m). */
     std::vector<double> head;
 
-    /** Relative permeability chi in [0, 1]: 1 where psi > 0. */
+    /** Relative permeability chi in [0, 1] at each vertex: 1 where psi > 0. */
     std::vector<double> saturation;
 
-    /** Flow rate into the body through the boundary, including rain (m^2/s, in
-     *  axisymmetry m^3/s). */
+    /** Flow rate into the body through the boundary at each vertex, including
+     *  rain (m^2/s; m^3/s in axisymmetry). */
     std::vector<double> inflow;
 
-    /** Variable s of the normal map. Positive: psi, or at seepage faces the
-     *  scaled outflow; negative: chi - 1. */
+    /** Variable s of the normal map at each vertex. Positive: psi, or at
+     *  seepage faces the scaled outflow; negative: chi - 1. */
     std::vector<double> s;
 
     unsigned int iterations = 0;
 
-    /** Largest relative error of the water balance of a vertex: imbalance over
-     *  flow through its edges. */
+    /** Largest relative error of the water balance over all vertices. At a
+     *  vertex, it is the imbalance divided by the flow through the edges. */
     double error = 0.;
   };
 
   /**
-   * Steady flow of water through a porous body with a free surface:
+   * Solves the steady seepage flow through a porous body with a free surface,
+   * or a time step of transient flow. Steady flow satisfies
    *   div q = 0, q = -k (grad psi + chi e_y),
    *   psi >= 0, 1 - chi >= 0, psi (1 - chi) = 0,
    * with the outflow Q >= 0, psi = 0 and (1 - chi) Q = 0 on seepage faces. psi

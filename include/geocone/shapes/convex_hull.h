@@ -14,16 +14,16 @@
 namespace geocone::GEOCONE_DIM
 {
   /** Vertices of the convex hull of points in the plane of the first two
-   *  coordinates, counterclockwise; fewer than three if the points are
-   *  collinear (Andrew 1979). */
+   *  coordinates, counterclockwise (Andrew 1979). There are fewer than three if
+   *  the points are collinear. */
   std::vector<dealii::Point<dim>>
   convex_hull(std::vector<dealii::Point<dim>> points);
 
   /**
    * Unit vector along the shortest connection between the convex hulls of two
-   * sets of points: normal of the separating plane with the largest margin
-   * (Gilbert, Johnson and Keerthi 1988). Zero if the hulls intersect or a set
-   * is empty.
+   * point sets. It is the normal of the separating plane with the largest
+   * margin (Gilbert, Johnson and Keerthi 1988). Zero if the hulls intersect or
+   * a set is empty.
    */
   dealii::Tensor<1, dim>
   way_between(const std::vector<dealii::Point<dim>> &from,

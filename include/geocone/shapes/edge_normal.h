@@ -10,8 +10,8 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Normal on the right of the edge from a to b, scaled by the edge length;
-   *  outward if the body is on the left. */
+  /** Normal to the edge from a to b, on its right-hand side, with the length of
+   *  the edge. It points outward if the body is on the left. */
   inline dealii::Tensor<1, dim>
   edge_normal(const dealii::Point<dim> &a, const dealii::Point<dim> &b)
   {

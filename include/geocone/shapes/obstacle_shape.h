@@ -14,7 +14,7 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Convex shape of an obstacle, in the frame of the obstacle. */
+  /** Convex shape of an obstacle, in the reference frame of the obstacle. */
   class ObstacleShape
   {
   public:
@@ -23,7 +23,8 @@ namespace geocone::GEOCONE_DIM
 
     virtual ~ObstacleShape() = default;
 
-    /** Signed distance and normal at the nearest point of the boundary. */
+    /** Signed distance from a point to the boundary, and outward normal at the
+     *  nearest boundary point. */
     struct Nearest
     {
       double distance; ///< signed (m), negative inside; infinite if covered
@@ -31,16 +32,17 @@ namespace geocone::GEOCONE_DIM
       bool   is_edge = false; ///< nearest point on an edge or vertex
     };
 
-    /** Other obstacles that cover parts of the boundary. */
+    /** Other obstacles that cover parts of the boundary of a shape. */
     struct Cover
     {
-      /** Whether a point lies in another obstacle; empty function: no
-       *  others. */
+      /** Function that returns true if a point lies in another obstacle; empty
+       *  without other obstacles. */
       std::function<bool(const Point &)> covers;
       double margin = 0.; ///< tolerance for adjacency (m)
     };
 
-    /** Signed distance and normal at x.
+    /** Computes the signed distance from a point x to the boundary, and the
+     *  normal at the nearest boundary point.
      *  @param approach direction of the motion relative to x: at an edge the
      *  approaching side is chosen */
     virtual Nearest
@@ -56,26 +58,26 @@ namespace geocone::GEOCONE_DIM
     virtual double
     width() const = 0;
 
-    /** Extent in the direction n: max n.x over the shape (m); can be
-     *  infinite. */
+    /** Extent of the shape in the direction n: the maximum of n.x (m). It can
+     *  be infinite. */
     virtual double
     reach(const Vector &n) const = 0;
 
     /** @name Candidates for separating directions of two shapes */
     /** @{ */
-    /** Outward normals of flat sides. */
+    /** Outward unit normals of the flat sides. */
     virtual std::vector<Vector>
     side_normals() const
     {
       return {};
     }
-    /** Unit vectors along straight edges, in three dimensions. */
+    /** Unit vectors along the straight edges of a three-dimensional shape. */
     virtual std::vector<Vector>
     edge_directions() const
     {
       return {};
     }
-    /** Vertices, or points on curved edges. */
+    /** Vertices of the shape, or points on its curved edges. */
     virtual std::vector<Point>
     corners() const
     {
@@ -85,18 +87,20 @@ namespace geocone::GEOCONE_DIM
 
     using Triangle = std::array<Point, 3>;
 
-    /** Triangles for visualisation: of the area of the shape, in three
-     *  dimensions of its surface; for infinite shapes, of a part near a body.
+    /** Triangulation of the shape for visualisation. It covers the area of the
+     *  shape or, in three dimensions, the surface; of an infinite shape only a
+     *  part near a body.
      *  @param body a point in the body @param size width of the body (m) */
     virtual std::vector<Triangle>
     triangles(const Point &body, const double size) const = 0;
   };
 
-  /** The half-space behind a plane; in two dimensions, behind a line. */
+  /** Half-space bounded by a plane, or half-plane bounded by a line. */
   class HalfSpace : public ObstacleShape
   {
   public:
-    /** @param normal outward unit normal */
+    /** Creates the half-space behind a plane through a point.
+     *  @param normal outward unit normal */
     HalfSpace(const Point &place, const Vector &normal);
 
     Nearest
@@ -125,7 +129,7 @@ namespace geocone::GEOCONE_DIM
     const Vector normal;
   };
 
-  /** A ball; in two dimensions a disc. */
+  /** Ball, or disc in two dimensions. */
   class Ball : public ObstacleShape
   {
   public:
@@ -155,11 +159,12 @@ namespace geocone::GEOCONE_DIM
     const double radius;
   };
 
-  /** A solid cylinder, in three dimensions. */
+  /** Solid circular cylinder in three dimensions. */
   class Cylinder : public ObstacleShape
   {
   public:
-    /** @param middle midpoint of the axis @param axis unit vector along the
+    /** Creates a cylinder from its axis, radius and height.
+     *  @param middle midpoint of the axis @param axis unit vector along the
      *  axis */
     Cylinder(const Point  &middle,
              const Vector &axis,
@@ -195,11 +200,12 @@ namespace geocone::GEOCONE_DIM
     const double radius, half_height;
   };
 
-  /** A convex polygon; in three dimensions a convex polyhedron. */
+  /** Convex polygon, or convex polyhedron in three dimensions. */
   class Polytope : public ObstacleShape
   {
   public:
-    /** @param vertices of a polygon counterclockwise; of a polyhedron in any
+    /** Creates a convex polygon or polyhedron from its vertices.
+     *  @param vertices of a polygon counterclockwise; of a polyhedron in any
      *  order
      *  @param[out] valid whether all vertices are vertices of a convex body */
     Polytope(const std::vector<Point> &vertices, bool &valid);
@@ -227,7 +233,8 @@ namespace geocone::GEOCONE_DIM
     }
 
   private:
-    /** An end of a flat side: an edge; for a polygon a vertex (a = b). */
+    /** End of a flat side: an edge of a polyhedron, or a vertex of a polygon (a
+     *  = b). */
     struct End
     {
       Point  a, b;
@@ -236,7 +243,7 @@ namespace geocone::GEOCONE_DIM
       Point
       nearest(const Point &x) const;
 
-      /** Distance of a point beyond the end (m). */
+      /** Distance by which a point lies beyond this end of the side (m). */
       double
       beyond(const Point &x) const
       {
@@ -251,19 +258,19 @@ namespace geocone::GEOCONE_DIM
       Point            middle; ///< mean of the vertices
       std::vector<End> ends;
 
-      /** Nearest point of the side.
+      /** Point of the side that is nearest to a point x.
        *  @param[out] is_end whether it is on an end of the side, farther than
        *  @p tolerance from the projection of x */
       Point
       nearest(const Point &x, const double tolerance, bool &is_end) const;
 
-      /** Point of the side near @p p with the minimum distance @p by from the
-       *  ends, or the midpoint of the side. */
+      /** Point of the side near @p p with the minimum distance @p by from all
+       *  ends. If the side is too narrow, it is the midpoint. */
       Point
       inset(const Point &p, const double by) const;
 
-      /** Distance from a covered point of the side to the uncovered part of the
-       *  side (m); infinite if all ends of the side are covered. */
+      /** Distance from a covered point of a side to the uncovered part of the
+       *  side (m). It is infinite if all ends of the side are covered. */
       double
       way_to_bare(const Point &from, const Cover &cover) const;
 

@@ -15,8 +15,9 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** End points of the part of the segment ab inside a box given by two
-   *  corners; no value if the segment does not intersect the box. */
+  /** Clips the segment ab to a box given by two corners. Returns the end points
+   *  of the clipped segment; no value if the segment does not intersect the
+   *  box. */
   inline std::optional<std::array<dealii::Point<dim>, 2>>
   part_in_box(const std::array<dealii::Point<dim>, 2> &box,
               const dealii::Point<dim>                &a,

@@ -13,10 +13,10 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Displacement, velocity or loads of a rigid body: translation of the
-   *  centre, or force (m, m/s, N/m), and counterclockwise rotation about the
-   *  centre, or moment (rad, rad/s, N). In three dimensions the rotation is a
-   *  rotation vector. */
+  /** Displacement, velocity or load of a rigid body. It consists of the
+   *  translation of the centre, or the force (m, m/s, N/m), and the
+   *  counterclockwise rotation about the centre, or the moment (rad, rad/s, N).
+   *  In three dimensions the rotation is a rotation vector. */
   struct RigidMotion
   {
     static constexpr unsigned int n_components = dim + n_rotations;
@@ -35,8 +35,8 @@ namespace geocone::GEOCONE_DIM
       return k < dim ? centre[k] : rotation[k - dim];
     }
 
-    /** Velocity of a point of the body for a unit component k of the rigid
-     *  motion, by V + w x arm.
+    /** Velocity V + w x arm of a body point for a unit component k of the rigid
+     *  motion.
      *  @param arm from the centre to the point (m) */
     static dealii::Tensor<1, dim>
     of_point(const unsigned int k, const dealii::Tensor<1, dim> &arm)
@@ -53,8 +53,8 @@ namespace geocone::GEOCONE_DIM
       return v;
     }
 
-    /** Velocity of a point of the body. @param arm from the centre to the point
-     *  (m) */
+    /** Velocity of a point of the rigid body. @param arm from the centre to the
+     *  point (m) */
     dealii::Tensor<1, dim>
     at(const dealii::Tensor<1, dim> &arm) const
     {
@@ -64,7 +64,8 @@ namespace geocone::GEOCONE_DIM
       return v;
     }
 
-    /** Rotates a vector with the body; by the inverse rotation if @p back. */
+    /** Rotates a vector with the rigid body. If @p back, the rotation is
+     *  inverse. */
     dealii::Tensor<1, dim>
     turned(const dealii::Tensor<1, dim> &x, const bool back = false) const
     {
@@ -86,8 +87,8 @@ namespace geocone::GEOCONE_DIM
              (1. - std::cos(angle)) * axis.at(once);
     }
 
-    /** Composes this motion with the following motion @p next: displacements
-     *  and, in the plane, angles are summed. */
+    /** Composes this rigid motion with the subsequent motion @p next.
+     *  Displacements and, in the plane, angles are summed. */
     void
     add(const RigidMotion &next)
     {
