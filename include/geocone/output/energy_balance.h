@@ -50,8 +50,8 @@ namespace geocone
         const double    removed,
         const double    removed_potential);
 
-    /** Includes the energy change due to parts added to or removed from the body in
-     *  the balance, given the energies before and after. */
+    /** Updates the energy balance for parts added to or removed from the body. The
+     *  change follows from the energies before and after. */
     void
     change_body(const Energies &before, const Energies &after);
 
@@ -89,8 +89,8 @@ namespace geocone
       return kinetic_max;
     }
 
-    /** Sum E + D + R - W of the energy balance (J/m). It decreases by the numerical
-     *  loss. */
+    /** Sum of energy, dissipation and removed energy minus external work, E + D + R
+     *  - W (J/m). It decreases by the numerical loss. */
     double
     total() const
     {

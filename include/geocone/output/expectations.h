@@ -24,8 +24,8 @@ namespace geocone
      */
     Expectation(const std::string &text, const std::string &parameter);
 
-    /** Returns true if a summary satisfies the criterion, false also if the value
-     *  is missing. */
+    /** Returns true if a summary satisfies the criterion. Returns false if the
+     *  value is missing. */
     bool
     holds(const Json &summary) const;
 

@@ -144,8 +144,8 @@ namespace geocone::GEOCONE_DIM
                  const double       time,
                  const MPI_Comm     comm) const;
 
-    /** Appends the .vtu files of all ranks, already written, to the time series
-     *  base.pvd. */
+    /** Appends the .vtu files of all ranks to the time series base.pvd. They must
+     *  already be written. */
     void
     record_vtu(const FieldTable  &table,
                const std::string &folder,
@@ -186,7 +186,7 @@ namespace geocone::GEOCONE_DIM
     const FieldsFormat format;
     unsigned int       number = 0;
 
-    /** Times and file names of the series, stored on the first rank. */
+    /** Times and file names of the time series, stored on the first rank. */
     std::vector<std::pair<double, std::string>> vtu;
     std::vector<Hdf5State>                      hdf5;
   };

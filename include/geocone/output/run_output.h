@@ -223,8 +223,8 @@ namespace geocone::GEOCONE_DIM
     bool
     load_is_number() const;
 
-    /** Warns once if the load of a single step deviates by more than half from its
-     *  neighbours. */
+    /** Warns once if the load of a step deviates by more than half from the loads of
+     *  the adjacent steps. */
     void
     warn_of_jump();
 

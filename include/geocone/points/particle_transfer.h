@@ -100,8 +100,8 @@ namespace geocone::GEOCONE_DIM
                   const dealii::Tensor<2, dim> &gradient,
                   const double                  size);
 
-  /** Lower limit of d/size^2 in affine_velocity(); smaller eigenvalues d are
-   *  treated as zero. */
+  /** Threshold of d/size^2 below which affine_velocity() treats an eigenvalue d
+   *  as zero. */
   constexpr double vanishing_moment = 1e-10;
 } // namespace geocone::GEOCONE_DIM
 

@@ -118,8 +118,8 @@ namespace geocone::GEOCONE_DIM
       this->reserve(width * n);
     }
 
-    /** Copies the components of the variable between point @p p and a row, and
-     *  advances @p row. */
+    /** Copies the components of the variable from point @p p to a row or back,
+     *  and advances @p row. */
     void
     get(const std::size_t p, double *&row) const
     {
@@ -359,8 +359,8 @@ namespace geocone::GEOCONE_DIM
       return n;
     }
 
-    /** Copies all state variables between a point and a row, in the order of
-     *  variables(). The position comes first. */
+    /** Copies all state variables from a point to a row or back, in the order
+     *  of variables(). The position comes first. */
     void
     get(const std::size_t p, double *row) const
     {

@@ -147,14 +147,16 @@ namespace geocone::GEOCONE_DIM
     std::vector<std::vector<unsigned int>>
     node_groups() const override;
 
-    /** Adds the tangent stiffness of the assembled bars to the Jacobian. */
+    /** Adds the tangent stiffness of the bars selected for assembly to the
+     *  Jacobian. */
     void
     linearise(const JacobianPattern &pattern,
               const double           elastic_blend,
               SparseMatrix          &matrix) const override;
 
-    /** Tangent stiffness of the bars that are not assembled, as a low-rank matrix
-     *  over the owned free dofs. It belongs to the last residual().
+    /** Low-rank tangent stiffness of the bars that are not assembled into the
+     *  Jacobian, over the owned free dofs. It belongs to the last call of
+     *  residual().
      *  @param elastic_blend as in linearise() */
     LowRank
     low_rank(const double elastic_blend) const;
@@ -209,9 +211,8 @@ namespace geocone::GEOCONE_DIM
       bool             bends     = false; ///< bending at a node of a plate
       double           k = 0.; ///< EA/L (N/m^2), or EI over a length (N)
 
-      /** True if some rank assembles the tangent stiffness of the bar, and true if
-       *  this rank does. Then the coefficients b on this rank, including
-       *  ghosts. */
+      /** Flags for the assembly of the bar's tangent stiffness: by any rank, and
+       *  by this rank. Then the coefficients b on this rank, including ghosts. */
       bool is_assembled = false, is_assembled_here = false;
       Row  assembled;
 
@@ -283,8 +284,8 @@ namespace geocone::GEOCONE_DIM
     /** Weight vectors of point displacements in a linear functional. */
     using Factors = std::vector<std::pair<const Tie *, dealii::Tensor<1, dim>>>;
 
-    /** Coefficients b of a weighted sum of point displacements, including ghosts.
-     *  Collective. */
+    /** Coefficients b that express a weighted sum of point displacements by the
+     *  dofs, including ghosts. Collective. */
     Vector
     row_of(const Factors &factors) const;
 

@@ -50,8 +50,8 @@ namespace geocone::GEOCONE_DIM
     begin_step();
 
     /**
-     * Adds t_p I/n to the strains, so that the mean stress pi_p is polynomial in each
-     * cell.
+     * Adds volumetric strains t_p I/n to the strains, so that the mean stress pi_p is
+     * polynomial in each cell.
      * @param update computes stresses and tangents from the strains of a range
      * of points [first, second)
      * @param strain_zz hoop strains, empty unless axisymmetric
@@ -105,8 +105,8 @@ namespace geocone::GEOCONE_DIM
       Eigen::LDLT<Matrix> compliance; ///< factorisation of G
     };
 
-    /** Terms of the stiffness matrix of a cell after elimination of the t_p, see
-     *  condense(). */
+    /** Terms of the stiffness matrix of a cell after elimination of the volumetric
+     *  strains t_p, see condense(). */
     struct Condensed
     {
       std::vector<Mandel> left, right; ///< a_p/k_p, b_p/k_p, times the weight

@@ -32,8 +32,8 @@ namespace geocone::GEOCONE_DIM
     void
     prepare(const std::string &folder);
 
-    /** Returns true if any steps, or all steps that do not converge, are selected
-     *  for output. */
+    /** Returns true if any incremental problems are selected for output. They are
+     *  selected by step, or as all steps that do not converge. */
     bool
     is_used() const
     {
@@ -45,10 +45,9 @@ namespace geocone::GEOCONE_DIM
     set_step(const unsigned int number);
 
     /**
-     * Writes an incremental problem to a file after an attempted solution, if
-     * selected. The problem is written if its step is selected (first attempt
-     * only), or if the attempt did not converge and failures are selected.
-     * Collective.
+     * Writes the incremental problem of a selected or failed step to a file. The
+     * problem is written if its step is selected (first attempt only), or if the
+     * attempt did not converge and failures are selected. Collective.
      * @param start initial guess
      */
     void

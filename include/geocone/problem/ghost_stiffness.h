@@ -112,8 +112,8 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * Stencils of all low-mass basis functions with nonzero mass. They are in each
-     * direction in which the adjacent functions have a larger fill.
+     * Ghost stencils of all low-mass basis functions with nonzero mass. They exist in
+     * each direction in which the adjacent functions have a larger fill.
      * @param volume at the dofs of each node sum_p V_p N_i (m^2) and sum_p V_p
      * E_p N_i (N), with ghosts
      * @param is_wanted selected nodes, by local node; empty: all

@@ -114,9 +114,9 @@ namespace geocone::GEOCONE_DIM
                ContactStep   touching = {});
 
     /**
-     * Evaluates the trial states and the residual R(v) with the options of a local
-     * law. In the rows of prescribed dofs R is the reaction; in the rows of contact
-     * nodes, F of Contact. The ghosts of @p v must be up to date.
+     * Evaluates the trial states and the residual R(v) with the options of
+     * LocalLaw. In the rows of prescribed dofs R is the reaction; in the rows of
+     * contact nodes, F of Contact. The ghosts of @p v must be up to date.
      */
     ResidualReport
     residual(Vector &dst, const Vector &v, const LocalLaw &law = {});
@@ -156,7 +156,7 @@ namespace geocone::GEOCONE_DIM
     SparseMatrix
     make_pattern(const bool one_triangle);
 
-    /** Node of each row of the Jacobian matrix. Collective. */
+    /** Number of the node to which each row of the Jacobian belongs. Collective. */
     NodalRows
     nodal_rows() const;
 

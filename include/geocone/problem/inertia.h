@@ -33,9 +33,9 @@ namespace geocone::GEOCONE_DIM
     void
     residual(Vector &part, const Vector &v, const LocalLaw &law) override;
 
-    /** Appends the squared reference norms of the inertia term, with 1e-6 |M
-     *  vL/h|^2 in addition. The latter is the only nonzero reference of a body in
-     *  free flight. */
+    /** Appends the squared reference norms of the inertia term, including 1e-6 |M
+     *  vL/h|^2. The latter is the only nonzero reference of a body in free
+     *  flight. */
     void
     add_sizes(const Vector &part, std::vector<double> &sizes) const override;
 
@@ -61,7 +61,7 @@ namespace geocone::GEOCONE_DIM
       return mass;
     }
 
-    /** Fraction c of the consistent mass matrix in M. */
+    /** Fraction c of the consistent mass matrix in the mass matrix M. */
     double
     consistent_part() const
     {

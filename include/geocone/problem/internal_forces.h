@@ -113,9 +113,10 @@ namespace geocone::GEOCONE_DIM
     void
     add_elastic_diagonal(Vector &dst) const override;
 
-    /** Counts the points of this rank that yield, and the points that change mode.
-     *  They are the points on the smooth part of the cone, the points at the apex,
-     *  and the points whose mode has changed since the previous residual(). */
+    /** Counts the yielding points of this rank, and the points whose plastic mode
+     *  has changed. They are the points on the smooth part of the cone, the points
+     *  at the apex, and the points whose mode has changed since the previous
+     *  residual(). */
     void
     count_modes(double *counts) const;
 
@@ -245,8 +246,8 @@ namespace geocone::GEOCONE_DIM
       return {h, friction_lag};
     }
 
-    /** Updates the stresses and modes of all points. The second version also
-     *  updates tangents, for the points [begin, end). */
+    /** Updates the stresses and plastic modes (elastic, cone, apex) of all points.
+     *  The second version also updates tangents, for the points [begin, end). */
     void
     update_materials(const bool with_tangent) const;
     void
@@ -262,8 +263,8 @@ namespace geocone::GEOCONE_DIM
         update_materials(true);
     }
 
-    /** Computes the strains factor B_p v at the points of a cell. In axisymmetric
-     *  problems hoop strains are included. */
+    /** Computes the strains B_p v, multiplied by a factor, at the points of a cell.
+     *  In axisymmetric problems hoop strains are included. */
     template <int n>
     void
     strains_of_cell(const unsigned int   c,

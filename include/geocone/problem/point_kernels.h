@@ -143,7 +143,7 @@ namespace geocone::kernels
     return (... + (g[n * ((d + k) % dim)] * at(place.of[d][(d + k) % dim])));
   }
 
-  /** Number of columns of the stiffness matrix that are accumulated together. */
+  /** Number of stiffness-matrix columns computed as one block. */
   constexpr int block = 4;
 
   /** Required length of the work array of stiffness(). */
@@ -234,8 +234,8 @@ namespace geocone::kernels
       }
   }
 
-  /** Computes the difference a between the B-bar gradients and the gradients at a
-   *  point. In axisymmetric problems the gradients include N/r.
+  /** Computes the difference a between the B-bar gradients and the shape function
+   *  gradients at a point. In axisymmetric problems the gradients include N/r.
    *  @param hoop N/r, or null */
   template <int n>
   inline void

@@ -14,8 +14,8 @@ namespace geocone::GEOCONE_DIM
   /** Options by which residual() evaluates stresses and contact forces. */
   struct LocalLaw
   {
-    /** Fraction of the normal stress that is taken from t_n when return maps
-     *  evaluate the strength (lagged friction, Increment::friction_lag). */
+    /** Fraction of the lagged normal stress (at t_n) in the strength evaluated by
+     *  return maps (Increment::friction_lag). */
     double friction_lag = 0.;
 
     /** Natural map that replaces the return maps; null if return maps are used.

@@ -64,7 +64,7 @@ namespace geocone::GEOCONE_DIM
       return m.size() > 0;
     }
 
-    /** Nodal vector diag(m) G's for stresses s. It requires the factors of W. */
+    /** Nodal vector diag(m) G's of stresses s, from the factors G and m of W. */
     Eigen::VectorXd
     nodal(const Eigen::VectorXd &s) const;
 
@@ -97,8 +97,8 @@ namespace geocone::GEOCONE_DIM
     projected() const;
 
     /**
-     * Relative error of stresses s by the natural map, independent of the solver. It
-     * is (Guillet et al. 2025, eq 59)
+     * Relative natural-map error of stresses s, independent of the solver. It is
+     * (Guillet et al. 2025, eq 59)
      *   max_p |s_p - P_C(s_p - rho_p Psi(z_p))| / (max_p |s_p| + max_p k_p),
      * with rho_p = 3/trace(W_pp) and lambda = multipliers(s). Dimensionless; infinite for
      * s = 0 without cohesion, unless s = 0 is the solution.

@@ -8,8 +8,8 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Parameter value that selects the Gauss-Seidel method, as a formulation or for the
-   *  first iterate. */
+  /** Parameter value that selects the Gauss-Seidel method. It applies to the
+   *  formulation and to the first iterate. */
   constexpr const char *gauss_seidel = "Gauss-Seidel";
 
   /** Returns the solution methods with stresses as the only unknowns. They are reduced

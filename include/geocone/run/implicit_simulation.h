@@ -49,9 +49,9 @@ namespace geocone::GEOCONE_DIM
   class ImplicitSimulation : public SceneSimulation
   {
   public:
-    /** Function that returns, from limit analysis, the cell sizes of an adapted mesh
-     *  ("from the bounds") and the bounds of the load. Both are valid on the first
-     *  rank. Collective. */
+    /** Function that returns the cell sizes of an adapted mesh and the bounds of the
+     *  load from limit analysis. The cell sizes are those "from the bounds"; both
+     *  results are valid on the first rank. Collective. */
     using SizesOfScene = std::function<std::pair<CellSizes, LoadBracket>(
       const MeshParameters &, const Scene &, const MPI_Comm, Log &)>;
 
@@ -159,8 +159,8 @@ namespace geocone::GEOCONE_DIM
     double         last_size  = 0.; ///< size of the current or last step (s)
     double         done       = 0.; ///< completed part of the current step (s)
     bool           is_in_step = false; ///< whether a step has begun
-    /** Number of consecutive halvings of the substep because of
-     *  SolverReport::exceeds. */
+    /** Number of consecutive halvings of the substep because lagged friction differs
+     *  too much from the exact law (SolverReport::exceeds). */
     unsigned int   halved_for_excess = 0;
     ImplicitRecord present;      ///< record of the current or last step
     double         reached = 0.; ///< time of the last converged substep (s)

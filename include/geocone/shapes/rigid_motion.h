@@ -127,7 +127,8 @@ namespace geocone::GEOCONE_DIM
     }
   };
 
-  /** Number of components of a rigid motion: translations, then rotations. */
+  /** Number of components of a rigid motion, which are translations followed by
+   *  rotations. */
   constexpr unsigned int n_motions = RigidMotion::n_components;
 } // namespace geocone::GEOCONE_DIM
 
