@@ -150,8 +150,8 @@ namespace geocone::GEOCONE_DIM
     {
       constexpr unsigned int most = dim == 2 ? 240 : 48;
       const auto [low, high]      = geometry.bounding_box();
-      const auto   size           = high - low;
-      double       largest        = 0.;
+      const auto size             = high - low;
+      double     largest          = 0.;
       for (unsigned int d = 0; d < dim; ++d)
         largest = std::max(largest, size[d]);
       std::array<unsigned int, 3> n{{1, 1, 1}};
