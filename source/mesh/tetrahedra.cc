@@ -108,6 +108,30 @@ namespace geocone::GEOCONE_DIM
         material.resize(cells.size(), cell.material_id);
       }
 
+    const std::map<Triple, unsigned int> number = connect();
+    for (const auto &face : mesh.boundary.boundary_quads)
+      for (unsigned int left_out = 0; left_out < face.vertices.size();
+           ++left_out)
+        {
+          // Of a quadrilateral two of four triples are facets.
+          if (face.vertices.size() == 3 && left_out > 0)
+            break;
+          Triple       triple;
+          unsigned int n = 0;
+          for (unsigned int i = 0; i < face.vertices.size(); ++i)
+            if (face.vertices.size() == 3 || i != left_out)
+              triple[n++] = face.vertices[i];
+          if (const auto found = number.find(sorted_triple(triple));
+              found != number.end())
+            facets[found->second].side = face.boundary_id;
+        }
+  }
+
+  std::map<Triple, unsigned int>
+  Tetrahedra::connect()
+  {
+    facets.clear();
+    facets_of_cell.clear();
     std::map<Triple, unsigned int> number;
     for (unsigned int c = 0; c < cells.size(); ++c)
       {
@@ -127,22 +151,26 @@ namespace geocone::GEOCONE_DIM
             facets_of_cell[c][i] = entry->second;
           }
       }
-    for (const auto &face : mesh.boundary.boundary_quads)
-      for (unsigned int left_out = 0; left_out < face.vertices.size();
-           ++left_out)
+    return number;
+  }
+
+  void
+  Tetrahedra::state(StateRow &row)
+  {
+    std::vector<Triple> outer;
+    std::vector<int>    side;
+    for (const Facet &facet : facets)
+      if (facet.side >= 0)
         {
-          // Of a quadrilateral two of four triples are facets.
-          if (face.vertices.size() == 3 && left_out > 0)
-            break;
-          Triple       triple;
-          unsigned int n = 0;
-          for (unsigned int i = 0; i < face.vertices.size(); ++i)
-            if (face.vertices.size() == 3 || i != left_out)
-              triple[n++] = face.vertices[i];
-          if (const auto found = number.find(sorted_triple(triple));
-              found != number.end())
-            facets[found->second].side = face.boundary_id;
+          outer.push_back(facet.vertices);
+          side.push_back(facet.side);
         }
+    row(vertices, cells, material, outer, side);
+    if (!row.is_read())
+      return;
+    const std::map<Triple, unsigned int> number = connect();
+    for (std::size_t i = 0; i < outer.size(); ++i)
+      facets[number.at(outer[i])].side = side[i];
   }
 
   std::vector<unsigned int>
@@ -164,11 +192,19 @@ namespace geocone::GEOCONE_DIM
             std::vector<Point<dim>> corners;
             for (const unsigned int v : facets[f].vertices)
               corners.push_back(vertices[v]);
-            const double part =
-              area_in_box(corners, *condition.wide_box()) / area(f);
-            if (part < 1e-6)
+            const auto   wide = *condition.wide_box();
+            const double part = area_in_box(corners, wide) / area(f);
+            // The strip by which the box is wider covers more of a small facet.
+            const double strip =
+              ((*condition.box_corners())[0][0] - wide[0][0]) *
+              (corners[0].distance(corners[1]) +
+               corners[1].distance(corners[2]) +
+               corners[2].distance(corners[0])) /
+              area(f);
+            const double rounding = 1e-6 + strip;
+            if (part < rounding)
               continue;
-            if (part < 1. - 1e-6)
+            if (part < 1. - rounding)
               throw InputError(
                 condition.parameter("Box"),
                 condition.part(),

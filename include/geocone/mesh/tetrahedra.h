@@ -4,6 +4,7 @@
 #ifndef geocone_mesh_tetrahedra_h
 #define geocone_mesh_tetrahedra_h
 
+#include <geocone/base/state_row.h>
 #include <geocone/mesh/coarse_mesh.h>
 #include <geocone/scene/boundary_conditions.h>
 
@@ -68,6 +69,16 @@ namespace geocone::GEOCONE_DIM
     /** Local index (0 to 3) of a vertex in a given tetrahedron. */
     unsigned int
     index_in_cell(const unsigned int cell, const unsigned int vertex) const;
+
+    /** Checkpoint data: the mesh without the names of its sides. */
+    void
+    state(StateRow &row);
+
+  private:
+    /** Orients the cells and finds their facets, none of which has a side yet.
+     *  @return numbers of the facets by vertices */
+    std::map<std::array<unsigned int, 3>, unsigned int>
+    connect();
   };
 } // namespace geocone::GEOCONE_DIM
 

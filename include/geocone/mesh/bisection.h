@@ -1,0 +1,30 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_mesh_bisection_h
+#define geocone_mesh_bisection_h
+
+#include <geocone/mesh/tetrahedra.h>
+
+#include <cstddef>
+#include <vector>
+
+namespace geocone::GEOCONE_DIM
+{
+  /**
+   * Bisects tetrahedra at their longest edges until all contributions to an error are
+   * about equal. The new mesh is nested in the given one and keeps its materials and
+   * sides. Contributions scale with V^(4/3) of the volume. They are averaged with those of
+   * the cells at the same vertices, as a coarse cell beside refined ones would otherwise be
+   * refined one mesh later. No cell is divided into more than 16 parts, except where its
+   * neighbours require it.
+   * @param error contribution of each cell
+   * @param n_wanted number of tetrahedra; a few more close the mesh
+   */
+  CoarseMesh
+  bisected(const Tetrahedra          &tetrahedra,
+           const std::vector<double> &error,
+           const std::size_t          n_wanted);
+} // namespace geocone::GEOCONE_DIM
+
+#endif

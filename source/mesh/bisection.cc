@@ -1,0 +1,264 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/mesh/bisection.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <queue>
+#include <tuple>
+#include <utility>
+
+namespace geocone::GEOCONE_DIM
+{
+  using dealii::Point;
+
+  namespace
+  {
+    /** A conforming mesh of tetrahedra that are bisected at their longest edges. */
+    class BisectedMesh
+    {
+    public:
+      BisectedMesh(const Tetrahedra          &tetrahedra,
+                   const std::vector<double> &error);
+
+      std::size_t
+      n_cells() const
+      {
+        return cells.size();
+      }
+
+      /** Bisects the cell with the largest error. @return whether there is one that may be
+       *  bisected */
+      bool
+      bisect_largest();
+
+      CoarseMesh
+      mesh(
+        const std::map<std::string, dealii::types::boundary_id> &sides) const;
+
+    private:
+      using Edge =
+        std::array<unsigned int, 2>; ///< vertices in increasing order
+
+      struct Cell
+      {
+        std::array<unsigned int, 4> vertices;
+        std::array<int, 4> side; ///< of the facet opposite to a vertex, or -1
+        unsigned int       material, depth;
+        double             error;
+      };
+
+      /** Position of an edge in an order by length. Ties are broken by the vertices, so
+       *  that cells with a common longest edge agree on it. */
+      std::tuple<double, unsigned int, unsigned int>
+      rank(const Edge &edge) const
+      {
+        return {
+          points[edge[0]].distance_square(points[edge[1]]), edge[0], edge[1]};
+      }
+
+      Edge
+      longest_edge(const unsigned int cell) const;
+
+      std::vector<unsigned int>
+      cells_around(const Edge &edge) const;
+
+      /** Bisects all cells around the longest edge of a cell, after those of them with
+       *  still longer edges. */
+      void
+      bisect(const unsigned int cell);
+
+      void
+      bisect_at(const Edge &edge);
+
+      /** Replaces a vertex of a cell by the midpoint of the edge to another one. */
+      static Cell
+      half_of(Cell               cell,
+              const unsigned int replaced,
+              const unsigned int other,
+              const unsigned int midpoint);
+
+      void
+      put(const unsigned int place, const Cell &cell);
+
+      std::vector<Point<dim>>                points;
+      std::vector<Cell>                      cells;
+      std::vector<std::vector<unsigned int>> cells_at; ///< of each vertex
+
+      /** Cells by error; entries of cells bisected since then are outdated. */
+      std::priority_queue<std::tuple<double, unsigned int, unsigned int>>
+        largest;
+    };
+
+    BisectedMesh::BisectedMesh(const Tetrahedra          &tetrahedra,
+                               const std::vector<double> &error)
+      : points(tetrahedra.vertices)
+      , cells_at(points.size())
+    {
+      std::vector<double> mean(points.size(), 0.), n(points.size(), 0.);
+      for (unsigned int c = 0; c < error.size(); ++c)
+        for (const unsigned int v : tetrahedra.cells[c])
+          {
+            mean[v] += std::max(error[c], 0.);
+            n[v] += 1.;
+          }
+      for (unsigned int c = 0; c < error.size(); ++c)
+        {
+          Cell cell = {tetrahedra.cells[c], {}, tetrahedra.material[c], 0, 0.};
+          for (unsigned int i = 0; i < 4; ++i)
+            {
+              cell.side[i] =
+                tetrahedra.facets[tetrahedra.facets_of_cell[c][i]].side;
+              cell.error += mean[cell.vertices[i]] / n[cell.vertices[i]] / 4.;
+            }
+          cells.emplace_back();
+          for (const unsigned int v : cell.vertices)
+            cells_at[v].push_back(c);
+          put(c, cell);
+        }
+    }
+
+    void
+    BisectedMesh::put(const unsigned int place, const Cell &cell)
+    {
+      cells[place] = cell;
+      if (cell.depth < 4)
+        largest.push({cell.error, place, cell.depth});
+    }
+
+    BisectedMesh::Edge
+    BisectedMesh::longest_edge(const unsigned int cell) const
+    {
+      const auto &v    = cells[cell].vertices;
+      Edge        edge = {{0, 0}};
+      for (unsigned int i = 0; i < 4; ++i)
+        for (unsigned int j = 0; j < i; ++j)
+          if (const Edge other = {{std::min(v[i], v[j]), std::max(v[i], v[j])}};
+              edge[0] == edge[1] || rank(other) > rank(edge))
+            edge = other;
+      return edge;
+    }
+
+    std::vector<unsigned int>
+    BisectedMesh::cells_around(const Edge &edge) const
+    {
+      std::vector<unsigned int> around;
+      for (const unsigned int c : cells_at[edge[0]])
+        if (const auto &v = cells[c].vertices;
+            std::find(v.begin(), v.end(), edge[1]) != v.end())
+          around.push_back(c);
+      return around;
+    }
+
+    void
+    BisectedMesh::bisect(const unsigned int cell)
+    {
+      const Edge edge = longest_edge(cell);
+      for (bool waits = true; waits;)
+        {
+          waits = false;
+          for (const unsigned int c : cells_around(edge))
+            if (longest_edge(c) != edge)
+              {
+                bisect(c); // at a longer edge
+                waits = true;
+                break;
+              }
+        }
+      bisect_at(edge);
+    }
+
+    BisectedMesh::Cell
+    BisectedMesh::half_of(Cell               cell,
+                          const unsigned int replaced,
+                          const unsigned int other,
+                          const unsigned int midpoint)
+    {
+      for (unsigned int i = 0; i < 4; ++i)
+        if (cell.vertices[i] == replaced)
+          cell.vertices[i] = midpoint;
+        else if (cell.vertices[i] == other)
+          cell.side[i] = -1; // the facet between the halves
+      ++cell.depth;
+      cell.error *= std::pow(2., -4. / 3.);
+      return cell;
+    }
+
+    void
+    BisectedMesh::bisect_at(const Edge &edge)
+    {
+      const auto [a, b]           = edge;
+      const unsigned int midpoint = points.size();
+      points.push_back(Point<dim>(points[a] + (points[b] - points[a]) / 2.));
+      cells_at.emplace_back();
+      for (const unsigned int c : cells_around(edge))
+        {
+          const Cell         whole  = cells[c];
+          const unsigned int second = cells.size();
+          cells.emplace_back();
+          put(c, half_of(whole, b, a, midpoint));
+          put(second, half_of(whole, a, b, midpoint));
+          for (const unsigned int v : whole.vertices)
+            if (v == b)
+              *std::find(cells_at[v].begin(), cells_at[v].end(), c) = second;
+            else if (v != a)
+              cells_at[v].push_back(second);
+          cells_at[midpoint].push_back(c);
+          cells_at[midpoint].push_back(second);
+        }
+    }
+
+    bool
+    BisectedMesh::bisect_largest()
+    {
+      while (!largest.empty())
+        {
+          const auto [error, cell, depth] = largest.top();
+          largest.pop();
+          if (cells[cell].depth == depth)
+            {
+              bisect(cell);
+              return true;
+            }
+        }
+      return false;
+    }
+
+    CoarseMesh
+    BisectedMesh::mesh(
+      const std::map<std::string, dealii::types::boundary_id> &sides) const
+    {
+      CoarseMesh mesh;
+      mesh.points = points;
+      mesh.sides  = sides;
+      for (const Cell &cell : cells)
+        {
+          const auto &v = cell.vertices;
+          mesh.cells.emplace_back(4);
+          mesh.cells.back().vertices.assign(v.begin(), v.end());
+          mesh.cells.back().material_id = cell.material;
+          for (unsigned int i = 0; i < 4; ++i)
+            if (cell.side[i] >= 0)
+              mesh.add_boundary({{v[(i + 1) % 4],
+                                  v[(i + 2) % 4],
+                                  v[(i + 3) % 4],
+                                  CoarseMesh::no_vertex}},
+                                cell.side[i]);
+        }
+      return mesh;
+    }
+  } // namespace
+
+  CoarseMesh
+  bisected(const Tetrahedra          &tetrahedra,
+           const std::vector<double> &error,
+           const std::size_t          n_wanted)
+  {
+    BisectedMesh mesh(tetrahedra, error);
+    while (mesh.n_cells() < n_wanted && mesh.bisect_largest())
+      {}
+    return mesh.mesh(tetrahedra.sides);
+  }
+} // namespace geocone::GEOCONE_DIM
