@@ -58,8 +58,7 @@ namespace geocone::GEOCONE_DIM
       "Growth of meshes",
       growth,
       "Ratio of the number of " + name_of_cells +
-        " of a mesh to that of the previous mesh [-]" +
-        (is_plane ? "." : ", approximately: all cells become smaller."));
+        " of a mesh to that of the previous mesh [-].");
     add_parameter("Maximum cells",
                   most_cells,
                   "Maximum number of " + name_of_cells +
@@ -102,7 +101,7 @@ namespace geocone::GEOCONE_DIM
       throw InputError(section + "Growth of meshes",
                        growth,
                        format("1.1 to %g", largest_growth),
-                       is_plane ? "2 is usual" : "4 is usual");
+                       "2 is usual");
     if (most_levels == 0)
       throw InputError(section + "Maximum levels",
                        most_levels,

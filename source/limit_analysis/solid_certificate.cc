@@ -225,8 +225,8 @@ namespace geocone::GEOCONE_DIM
         "its stresses exceed the strength by %.1e of the largest one, and a "
         "dead load leaves nothing to scale",
         result.violation);
-    result.load = (is_scaled ? theta : 1.) *
-                  (bound.factor == LoadFactor::velocity ? power : lambda);
+    result.lambda = bound.factor == LoadFactor::velocity ? power : lambda;
+    result.load   = (is_scaled ? theta : 1.) * result.lambda;
     if (!std::isfinite(result.load + result.error + largest))
       result.rejection = "it is not a number";
     else if (!(result.error < rounding))
@@ -248,10 +248,12 @@ namespace geocone::GEOCONE_DIM
                        n_facet    = simplex_nodes::n_on_facet(order);
     SolidBound result;
     result.velocity = velocity;
+    result.dissipation_of_cell.assign(tetrahedra.cells.size(), 0.);
+    result.dissipation_of_facet.assign(tetrahedra.facets.size(), 0.);
     double power = 0., work = 0.;
     double largest_rate = std::numeric_limits<double>::min(),
-           largest_jump = largest_rate, rate_missed = 0., jump_missed = 0.,
-           volume_change = 0., normal_jump = 0.;
+           rate_missed = 0., jump_missed = 0., volume_change = 0.,
+           normal_jump = 0.;
     for (unsigned int c = 0; c < tetrahedra.cells.size(); ++c)
       {
         const auto                  g = tetrahedra.gradients(c);
@@ -272,11 +274,12 @@ namespace geocone::GEOCONE_DIM
             const Eigen::Matrix3d e = (gradient + gradient.transpose()) / 2.;
             const Flow            flow =
               flow_of(bound.strengths[tetrahedra.material[c]], k[i], e);
-            power += V / k.size() * flow.dissipation;
+            result.dissipation_of_cell[c] += V / k.size() * flow.dissipation;
             largest_rate  = std::max(largest_rate, e.norm());
             rate_missed   = std::max(rate_missed, flow.miss);
             volume_change = std::max(volume_change, flow.constrained);
           }
+        power += result.dissipation_of_cell[c];
         const SolidScene::Load load = bound.body_force(c);
         for (unsigned int i = 0; i < n_nodes; ++i)
           {
@@ -331,11 +334,11 @@ namespace geocone::GEOCONE_DIM
                                   ? 0.
                                   : std::hypot(u * axes[1], u * axes[2]);
             const Flow   flow = flow_of_jump(mu, k[i], u * axes[0], slip);
-            power += A / n_facet * flow.dissipation;
-            largest_jump = std::max(largest_jump, u.norm());
-            jump_missed  = std::max(jump_missed, flow.miss);
-            normal_jump  = std::max(normal_jump, flow.constrained);
+            result.dissipation_of_facet[f] += A / n_facet * flow.dissipation;
+            jump_missed = std::max(jump_missed, flow.miss);
+            normal_jump = std::max(normal_jump, flow.constrained);
           }
+        power += result.dissipation_of_facet[f];
       }
     // A body that moves by prescribed velocities has no other measure of its jumps.
     double fastest = std::numeric_limits<double>::min();
@@ -347,6 +350,7 @@ namespace geocone::GEOCONE_DIM
       std::max(volume_change / largest_rate, normal_jump / fastest);
     if (bound.factor == LoadFactor::velocity)
       work = 1.;
+    result.work = work;
     result.load = power / work;
     if (!std::isfinite(power + work + result.error + fastest) || !(work > 0.))
       result.rejection = "its velocities do no work";

@@ -3,13 +3,15 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/unused_parameters.h>
+#include <geocone/limit_analysis/solid_gap.h>
 #include <geocone/limit_analysis/solid_limit_analysis.h>
+#include <geocone/mesh/bisection.h>
 #include <geocone/mesh/fitted_mesh.h>
 #include <geocone/scene/magnitudes.h>
 
 #include <deal.II/base/bounding_box.h>
 
-#include <cmath>
+#include <numeric>
 
 namespace geocone::GEOCONE_DIM
 {
@@ -70,12 +72,7 @@ namespace geocone::GEOCONE_DIM
     load.prepare(scene, *tetrahedra);
     const dealii::BoundingBox<dim> body(tetrahedra->vertices);
     print_start(options, tetrahedra->cells.size(), "", body);
-    std::vector<std::string> warnings = warn_of_magnitudes(scene, body);
-    if (!refines() && most_levels > 1)
-      warnings.push_back("a mesh from a file is not made anew: the bounds are "
-                         "those of this mesh; give a box, or set "
-                         "Analysis/Maximum levels = 1");
-    return warnings;
+    return warn_of_magnitudes(scene, body);
   }
 
   BoundAnalysis::Side
@@ -96,24 +93,18 @@ namespace geocone::GEOCONE_DIM
   SolidLimitAnalysis::advance(TimePoint &now)
   {
     dealii::Timer mesh_time;
-    if (const double factor = refinement / refined; factor != 1.)
-      {
-        for (double *const size : {&mesh_parameters.cell_size,
-                                   &mesh_parameters.smallest,
-                                   &mesh_parameters.largest,
-                                   &mesh_parameters.size_ratio})
-          *size *= factor;
-        refined = refinement;
-        tetrahedra.emplace(fitted_mesh(mesh_parameters, scene, comm));
-      }
+    if (!error.empty())
+      tetrahedra.emplace(bisected(
+        *tetrahedra, error, std::size_t(growth * tetrahedra->cells.size())));
     const double     mesh_seconds = mesh_time.cpu_time();
     dealii::Timer    time;
-    const SolidScene bound       = load.on(scene, *tetrahedra);
-    const auto order       = [](const Order one) {
+    const SolidScene bound = load.on(scene, *tetrahedra);
+    const auto       order = [](const Order one) {
       return one == Order::linear ? 1U : 2U;
     };
     upper = certified_upper(bound, order(velocities), inner_tolerance());
     lower = certified_lower(bound, order(stresses), inner_tolerance());
+    gap = gap_of_cells(bound, order(velocities), order(stresses), upper, lower);
     for (const SolidBound *side : {&upper, &lower})
       if (side->grows && !side->certified)
         throw StepFailure(
@@ -121,15 +112,17 @@ namespace geocone::GEOCONE_DIM
           "\n  remedy:  no mechanism fits the domain; enlarge it, refine "
           "the mesh, or check the supports");
     print_reasons(figures_of(upper), figures_of(lower));
-    BoundLevel level   = level_of(figures_of(upper),
+    BoundLevel level = level_of(figures_of(upper),
                                 figures_of(lower),
                                 tetrahedra->cells.size(),
                                 load.value_of_unit());
+    level.gap_share  = std::accumulate(gap.begin(), gap.end(), 0.) /
+                      ((upper.load - lower.lambda) * upper.work);
     level.mesh_seconds = mesh_seconds;
     level.cpu_seconds  = time.cpu_time();
     check_finite(level.upper + level.lower + level.gap);
     add_level(level, now);
-    refinement /= std::cbrt(growth);
+    error = gap;
     return is_complete(bracket().gap()) ? StepOutcome::stage
                                         : StepOutcome::well;
   }
@@ -143,15 +136,6 @@ namespace geocone::GEOCONE_DIM
     return best;
   }
 
-  Json
-  SolidLimitAnalysis::topics()
-  {
-    Json json = BoundAnalysis::topics();
-    if (json.contains("bounds"))
-      json["bounds"].erase("sum_of_cells_to_gap");
-    return json;
-  }
-
   void
   SolidLimitAnalysis::finish(const double)
   {
@@ -161,6 +145,6 @@ namespace geocone::GEOCONE_DIM
   void
   SolidLimitAnalysis::state(StateRow &row)
   {
-    row(refinement);
+    row(*tetrahedra, error);
   }
 } // namespace geocone::GEOCONE_DIM

@@ -41,6 +41,15 @@ namespace geocone::GEOCONE_DIM
      *  cells. */
     std::vector<Mandel>                 stress;
     std::vector<dealii::Tensor<1, dim>> velocity;
+
+    /** Lower bound: load factor with which the stresses are in equilibrium, before they
+     *  are scaled. */
+    double lambda = 0.;
+
+    /** Upper bound: dissipation of each cell and of the jump on each facet, and power of
+     *  the loads that the load factor multiplies, 1 for prescribed velocities. */
+    std::vector<double> dissipation_of_cell, dissipation_of_facet;
+    double              work = 1.;
   };
 
   /**

@@ -14,9 +14,9 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Limit analysis of a three-dimensional rigid-plastic scene with associated flow.
-   * Strict bounds of the limit load are computed on tetrahedral meshes. Each mesh is a
-   * step of the run; the cells of the next one are smaller everywhere.
+   * Limit analysis of a three-dimensional rigid-plastic scene with associated flow: strict
+   * bounds of the limit load on tetrahedra, which are bisected where the bounds differ.
+   * Each mesh is a step of the run.
    */
   class SolidLimitAnalysis : public BoundAnalysis
   {
@@ -49,7 +49,7 @@ namespace geocone::GEOCONE_DIM
     bool
     refines() const override
     {
-      return scene.geometry.shape != Geometry::Shape::file;
+      return true;
     }
     LoadBracket
     bracket() const override;
@@ -60,8 +60,6 @@ namespace geocone::GEOCONE_DIM
     prepare(const RunOptions &options) override;
     StepOutcome
     advance(TimePoint &now) override;
-    Json
-    topics() override;
     void
     finish(const double t) override;
     void
@@ -87,10 +85,14 @@ namespace geocone::GEOCONE_DIM
     Choice<Order> stresses = {
       {{"linear", Order::linear}, {"quadratic", Order::quadratic}}};
 
-    double refinement = 1.; ///< factor of the cell sizes for the next mesh
-    double refined    = 1.; ///< current factor of the cell size parameters
+    std::vector<double> error; ///< by which the next mesh is refined; empty on the first
+
+    /** @name Results of the last level */
+    /** @{ */
     std::optional<Tetrahedra> tetrahedra;
-    SolidBound                upper, lower; ///< bounds on the last mesh
+    SolidBound                upper, lower;
+    std::vector<double>       gap; ///< gap_of_cells()
+    /** @} */
   };
 } // namespace geocone::GEOCONE_DIM
 

@@ -1,0 +1,29 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_limit_analysis_solid_gap_h
+#define geocone_limit_analysis_solid_gap_h
+
+#include <geocone/limit_analysis/solid_certificate.h>
+
+#include <vector>
+
+namespace geocone::GEOCONE_DIM
+{
+  /**
+   * Contributions of the cells to the gap between both bounds, by virtual work: the
+   * dissipation of the upper bound's velocities less the power of the lower bound's stresses
+   * on them, D - s.e in a cell and D - t.u on its facets, of which each of two cells has
+   * half. None is negative where the strength is constant, since the stress is admissible
+   * and its power at most the dissipation. The sum is the gap times SolidBound::work.
+   * @param order_upper, order_lower of the velocities and the stresses
+   */
+  std::vector<double>
+  gap_of_cells(const SolidScene  &bound,
+               const unsigned int order_upper,
+               const unsigned int order_lower,
+               const SolidBound  &upper,
+               const SolidBound  &lower);
+} // namespace geocone::GEOCONE_DIM
+
+#endif
