@@ -51,7 +51,7 @@ namespace geocone::GEOCONE_DIM
   Methods::Methods(const ParameterFile &file, Log &log)
   {
     check(file, "Discretisation/Method", {"FEM", "MPM", "explicit MPM"});
-    check(file, "Analysis/Kind", {"steps", "limit load"});
+    check(file, "Analysis/Kind", {"steps", "limit load", "strength reduction"});
     runs = std::make_unique<Runs>(file, log);
   }
 

@@ -54,11 +54,10 @@ namespace geocone::GEOCONE_DIM
                   gap_tolerance,
                   "Relative gap upper/lower - 1 of the bounds [-] below which "
                   "refinement ends.");
-    add_parameter(
-      "Growth of meshes",
-      growth,
-      "Ratio of the number of " + name_of_cells +
-        " of a mesh to that of the previous mesh [-].");
+    add_parameter("Growth of meshes",
+                  growth,
+                  "Ratio of the number of " + name_of_cells +
+                    " of a mesh to that of the previous mesh [-].");
     add_parameter("Maximum cells",
                   most_cells,
                   "Maximum number of " + name_of_cells +
@@ -272,6 +271,9 @@ namespace geocone::GEOCONE_DIM
   std::string
   BoundAnalysis::headline(const std::string &name) const
   {
+    if (reduces_strength())
+      return name + ": bounds of the factor of safety, by which c and tan(phi) "
+                    "are divided";
     return name + ": bounds of the limit load, " +
            (load_choice().is_reaction()
               ? "the reaction to the prescribed velocity"
@@ -319,6 +321,15 @@ namespace geocone::GEOCONE_DIM
   Json
   BoundAnalysis::results() const
   {
+    if (reduces_strength())
+      {
+        const Json bounds = bracket().bounds();
+        return {{"safety",
+                 {{"factor", bounds["middle"]},
+                  {"lower", bounds["lower"]},
+                  {"upper", bounds["upper"]},
+                  {"criterion", "certified bounds"}}}};
+      }
     return {
       {"load",
        {{"factor_of", load_choice().word()}, {"unit", load_choice().unit()}}}};

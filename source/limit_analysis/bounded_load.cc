@@ -141,13 +141,7 @@ namespace geocone::GEOCONE_DIM
   BoundedLoad::prepare_reduction(const Scene &scene, const Triangles &triangles)
   {
     take_cones(scene);
-    if (prescribed_velocity(scene, triangles))
-      throw InputError("Analysis/Kind",
-                       "strength reduction",
-                       "limit load where a velocity is prescribed that is not "
-                       "zero",
-                       "reduce the strength of a body that carries its weight "
-                       "and tractions");
+    choose_all(prescribed_velocity(scene, triangles).has_value());
     if (std::all_of(flow_cones.begin(),
                     flow_cones.end(),
                     [](const FlowCone &cone) { return cone.k == 0.; }) &&
@@ -159,7 +153,6 @@ namespace geocone::GEOCONE_DIM
                        "> 0 Pa for some material where the strength is reduced",
                        "without cohesion loads have no factor: give a small "
                        "one, e.g. a thousandth of the weight times the height");
-    choose_all();
     check_loads(scene, triangles);
   }
 

@@ -139,15 +139,6 @@ namespace geocone::GEOCONE_DIM
       }
   }
 
-  std::string
-  LimitAnalysis::headline(const std::string &name) const
-  {
-    return reduces_strength()
-             ? name + ": bounds of the factor of safety, by which c and "
-                      "tan(phi) are divided"
-             : BoundAnalysis::headline(name);
-  }
-
   Json
   LimitAnalysis::model()
   {
@@ -221,8 +212,8 @@ namespace geocone::GEOCONE_DIM
     level.lower_certified = found.lower.has_value();
     level.upper_certified = found.upper.has_value();
     level.gap = level.certified() ? level.upper / level.lower - 1. : 0.;
-    level.iterations_lower = found.iterations_lower;
-    level.iterations_upper = found.iterations_upper;
+    level.iterations_lower = found.iterations[SafetySearch::lower];
+    level.iterations_upper = found.iterations[SafetySearch::upper];
     return level;
   }
 
@@ -287,17 +278,7 @@ namespace geocone::GEOCONE_DIM
   Json
   LimitAnalysis::results() const
   {
-    Json json;
-    if (!reduces_strength())
-      json = BoundAnalysis::results();
-    else
-      {
-        const Json bounds = bracket().bounds();
-        json["safety"]    = {{"factor", bounds["middle"]},
-                             {"lower", bounds["lower"]},
-                             {"upper", bounds["upper"]},
-                             {"criterion", "certified bounds"}};
-      }
+    Json json = BoundAnalysis::results();
     if (bounded_load.non_associated())
       json["non_associated"] = bracket().non_associated();
     return json;

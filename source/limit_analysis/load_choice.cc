@@ -43,6 +43,19 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
+  LoadChoice::choose_all(const bool has_velocity)
+  {
+    if (has_velocity)
+      throw InputError("Analysis/Kind",
+                       "strength reduction",
+                       "limit load where a velocity is prescribed that is not "
+                       "zero",
+                       "reduce the strength of a body that carries its weight "
+                       "and tractions");
+    chosen = LoadFactor::all;
+  }
+
+  void
   LoadChoice::refuse_zero_load() const
   {
     const std::string allowed = "a load that is not zero",

@@ -18,8 +18,12 @@ namespace geocone::GEOCONE_DIM
   namespace
   {
     const UsedWhere used_solid_bounds[] = {
-      {"Analysis/Velocities", "Analysis/Kind", {"limit load"}},
-      {"Analysis/Stresses", "Analysis/Kind", {"limit load"}}};
+      {"Analysis/Velocities",
+       "Analysis/Kind",
+       {"limit load", "strength reduction"}},
+      {"Analysis/Stresses",
+       "Analysis/Kind",
+       {"limit load", "strength reduction"}}};
   } // namespace
 
   SolidLimitAnalysis::SolidLimitAnalysis(const MPI_Comm       comm,
@@ -32,7 +36,9 @@ namespace geocone::GEOCONE_DIM
                  ". Steps: time steps with the method of 'Discretisation'. "
                  "Limit load: strict upper and lower bounds of the limit load "
                  "of a rigid-plastic body with associated flow, on tetrahedra, "
-                 "independent of steps, elasticity and inertia.");
+                 "independent of steps, elasticity and inertia. Strength "
+                 "reduction: strict bounds of the factor of safety, by which c "
+                 "and tan(phi) are divided at collapse.");
     declare_parameters(load);
     velocities.declare(
       *this,
@@ -69,7 +75,10 @@ namespace geocone::GEOCONE_DIM
                        format(">= %zu, the tetrahedra of the first mesh",
                               tetrahedra->cells.size()),
                        "raise it, or take larger cells in 'Mesh'");
-    load.prepare(scene, *tetrahedra);
+    if (reduces_strength())
+      load.prepare_reduction(scene, *tetrahedra);
+    else
+      load.prepare(scene, *tetrahedra);
     const dealii::BoundingBox<dim> body(tetrahedra->vertices);
     print_start(options, tetrahedra->cells.size(), "", body);
     return warn_of_magnitudes(scene, body);
@@ -89,22 +98,12 @@ namespace geocone::GEOCONE_DIM
             side.error};
   }
 
-  Simulation::StepOutcome
-  SolidLimitAnalysis::advance(TimePoint &now)
+  BoundLevel
+  SolidLimitAnalysis::bound_load()
   {
-    dealii::Timer mesh_time;
-    if (!error.empty())
-      tetrahedra.emplace(bisected(
-        *tetrahedra, error, std::size_t(growth * tetrahedra->cells.size())));
-    const double     mesh_seconds = mesh_time.cpu_time();
-    dealii::Timer    time;
     const SolidScene bound = load.on(scene, *tetrahedra);
-    const auto       order = [](const Order one) {
-      return one == Order::linear ? 1U : 2U;
-    };
-    upper = certified_upper(bound, order(velocities), inner_tolerance());
-    lower = certified_lower(bound, order(stresses), inner_tolerance());
-    gap = gap_of_cells(bound, order(velocities), order(stresses), upper, lower);
+    upper = certified_upper(bound, degree(velocities), inner_tolerance());
+    lower = certified_lower(bound, degree(stresses), inner_tolerance());
     for (const SolidBound *side : {&upper, &lower})
       if (side->grows && !side->certified)
         throw StepFailure(
@@ -112,14 +111,111 @@ namespace geocone::GEOCONE_DIM
           "\n  remedy:  no mechanism fits the domain; enlarge it, refine "
           "the mesh, or check the supports");
     print_reasons(figures_of(upper), figures_of(lower));
-    BoundLevel level = level_of(figures_of(upper),
-                                figures_of(lower),
-                                tetrahedra->cells.size(),
-                                load.value_of_unit());
-    level.gap_share  = std::accumulate(gap.begin(), gap.end(), 0.) /
-                      ((upper.load - lower.lambda) * upper.work);
-    level.mesh_seconds = mesh_seconds;
-    level.cpu_seconds  = time.cpu_time();
+    gap =
+      gap_of_cells(bound, degree(velocities), degree(stresses), upper, lower);
+    share = share_of_gap();
+    return level_of(figures_of(upper),
+                    figures_of(lower),
+                    tetrahedra->cells.size(),
+                    load.value_of_unit());
+  }
+
+  /** Limit analyses with reduced strength on the current mesh, for SafetySearch. */
+  class SolidLimitAnalysis::Reduced : public SafetySearch::Solver
+  {
+  public:
+    explicit Reduced(SolidLimitAnalysis &of)
+      : of(of)
+    {}
+
+    std::array<SafetySearch::Attempt, 2>
+    both(const double F) override
+    {
+      const auto below = one(F, SafetySearch::lower),
+                 above = one(F, SafetySearch::upper);
+      of.gap   = gap_of_cells(of.load.reduced(of.scene, *of.tetrahedra, F),
+                            degree(of.velocities),
+                            degree(of.stresses),
+                            of.upper,
+                            of.lower);
+      of.share = of.share_of_gap();
+      return {{below, above}};
+    }
+
+    SafetySearch::Attempt
+    one(const double F, const SafetySearch::Side side) override
+    {
+      const SolidScene bound    = of.load.reduced(of.scene, *of.tetrahedra, F);
+      const bool       is_lower = side == SafetySearch::lower;
+      SolidBound      &found    = is_lower ? of.lower : of.upper;
+      found =
+        is_lower
+          ? certified_lower(bound, degree(of.stresses), of.inner_tolerance())
+          : certified_upper(bound, degree(of.velocities), of.inner_tolerance());
+      return {found.load,
+              found.certified,
+              found.grows,
+              found.factorisations,
+              found.rejection};
+    }
+
+    void
+    keep(const SafetySearch::Side side) override
+    {
+      (side == SafetySearch::lower ? proof_lower : proof_upper) =
+        side == SafetySearch::lower ? of.lower : of.upper;
+    }
+
+    std::optional<SolidBound> proof_lower, proof_upper;
+
+  private:
+    SolidLimitAnalysis &of;
+  };
+
+  BoundLevel
+  SolidLimitAnalysis::bound_factor()
+  {
+    // A stopped level is repeated.
+    SafetySearch              next = search;
+    Reduced                   reduced(*this);
+    const SafetySearch::Level found = next.on_mesh(reduced);
+    search                          = next;
+    if (reduced.proof_lower)
+      lower = *reduced.proof_lower;
+    if (reduced.proof_upper)
+      upper = *reduced.proof_upper;
+    BoundLevel level = level_of(
+      figures_of(upper), figures_of(lower), tetrahedra->cells.size(), 1.);
+    level.lower           = found.lower.value_or(0.);
+    level.upper           = found.upper.value_or(0.);
+    level.lower_certified = found.lower.has_value();
+    level.upper_certified = found.upper.has_value();
+    level.gap = level.certified() ? level.upper / level.lower - 1. : 0.;
+    level.iterations_lower = found.iterations[SafetySearch::lower];
+    level.iterations_upper = found.iterations[SafetySearch::upper];
+    return level;
+  }
+
+  double
+  SolidLimitAnalysis::share_of_gap() const
+  {
+    return std::accumulate(gap.begin(), gap.end(), 0.) /
+           ((upper.load - lower.lambda) * upper.work);
+  }
+
+  Simulation::StepOutcome
+  SolidLimitAnalysis::advance(TimePoint &now)
+  {
+    dealii::Timer mesh_time;
+    if (!error.empty())
+      tetrahedra.emplace(bisected(
+        *tetrahedra, error, std::size_t(growth * tetrahedra->cells.size())));
+    const double  mesh_seconds = mesh_time.cpu_time();
+    dealii::Timer time;
+    BoundLevel    level = reduces_strength() ? bound_factor() : bound_load();
+    level.gap_share     = share;
+    level.mesh_seconds  = mesh_seconds;
+    level.cpu_seconds   = time.cpu_time();
     check_finite(level.upper + level.lower + level.gap);
     add_level(level, now);
     error = gap;
@@ -131,6 +227,7 @@ namespace geocone::GEOCONE_DIM
   SolidLimitAnalysis::bracket() const
   {
     LoadBracket best   = best_of(limit_output.all_records());
+    best.name          = bounded();
     best.unit          = load.is_reaction() ? load.unit() : "";
     best.is_associated = !load.non_associated();
     return best;
@@ -145,6 +242,6 @@ namespace geocone::GEOCONE_DIM
   void
   SolidLimitAnalysis::state(StateRow &row)
   {
-    row(*tetrahedra, error);
+    row(*tetrahedra, error, search);
   }
 } // namespace geocone::GEOCONE_DIM

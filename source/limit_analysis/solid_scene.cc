@@ -34,6 +34,20 @@ namespace geocone::GEOCONE_DIM
     return a > 0. ? face_friction() / (a * std::sqrt(3.)) : 1. / std::sqrt(2.);
   }
 
+  void
+  SolidStrength::reduce(const double F)
+  {
+    double by = F; // of k = 2 c cos(phi)
+    if (!is_circular)
+      {
+        const double cosine = std::sqrt(1. - a * a), sine = a;
+        a = sine / std::hypot(F * cosine, sine);
+        by *= cosine / std::sqrt(1. - a * a);
+      }
+    k /= by;
+    growth.slope /= by;
+  }
+
   SolidScene::Load
   SolidScene::body_force(const unsigned int cell) const
   {
@@ -41,8 +55,10 @@ namespace geocone::GEOCONE_DIM
       scene->density(tetrahedra->material[cell], tetrahedra->centre(cell)) *
       scene->gravity.at(std::numeric_limits<double>::max()) * units.length /
       units.stress;
-    Load load;
-    (factor == LoadFactor::weight ? load.live : load.dead) = b;
+    Load       load;
+    const bool is_live =
+      factor == LoadFactor::weight || factor == LoadFactor::all;
+    (is_live ? load.live : load.dead) = b;
     return load;
   }
 
@@ -306,13 +322,41 @@ namespace geocone::GEOCONE_DIM
   void
   SolidLoad::prepare(const Scene &scene, const Tetrahedra &tetrahedra)
   {
+    take_strengths(scene);
+    const std::vector<HeldFacet> held = held_facets(scene, tetrahedra);
+    choose(prescribed_velocity(held), scene.gravity.acts());
+    check_loads(scene, tetrahedra, held);
+  }
+
+  void
+  SolidLoad::prepare_reduction(const Scene &scene, const Tetrahedra &tetrahedra)
+  {
+    take_strengths(scene);
+    for (unsigned int m = 0; m < strengths.size(); ++m)
+      if (strengths[m].is_circular && strengths[m].a > 0.)
+        {
+          const std::string type =
+            "Materials/" + scene.materials.name(m) + "/Type";
+          throw InputError(type,
+                           ParameterFile::value(type),
+                           "Mohr-Coulomb | Tresca | von Mises where the "
+                           "strength is reduced",
+                           "c and tan(phi) are those of Mohr-Coulomb");
+        }
+    const std::vector<HeldFacet> held = held_facets(scene, tetrahedra);
+    choose_all(prescribed_velocity(held).has_value());
+    check_loads(scene, tetrahedra, held);
+  }
+
+  void
+  SolidLoad::check_loads(const Scene                  &scene,
+                         const Tetrahedra             &tetrahedra,
+                         const std::vector<HeldFacet> &held)
+  {
     std::vector<unsigned int> n_cells(scene.materials.size());
     for (const unsigned int material : tetrahedra.material)
       ++n_cells[material];
     refuse_empty_regions(scene, n_cells);
-    take_strengths(scene);
-    const std::vector<HeldFacet> held = held_facets(scene, tetrahedra);
-    choose(prescribed_velocity(held), scene.gravity.acts());
     choose_units(scene, tetrahedra);
     check_rigid_motions(tetrahedra, held, units.length);
     if (is_reaction())
@@ -371,7 +415,7 @@ namespace geocone::GEOCONE_DIM
               middle += x / 3.;
               mean += t[i] / 3.;
               largest = std::max(largest, t[i].norm());
-              (factor() == LoadFactor::tractions
+              (factor() == LoadFactor::tractions || factor() == LoadFactor::all
                  ? bound.traction_of_facet[f][i].live
                  : bound.traction_of_facet[f][i].dead) += t[i];
             }
@@ -396,6 +440,18 @@ namespace geocone::GEOCONE_DIM
                              "divide the side where its traction has a kink, "
                              "or take finer cells there");
         }
+    return bound;
+  }
+
+  SolidScene
+  SolidLoad::reduced(const Scene      &scene,
+                     const Tetrahedra &tetrahedra,
+                     const double      F) const
+  {
+    SolidScene bound = on(scene, tetrahedra);
+    for (unsigned int m = 0; m < strengths.size(); ++m)
+      if (scene.materials[m].is_reduced())
+        bound.strengths[m].reduce(F);
     return bound;
   }
 } // namespace geocone::GEOCONE_DIM

@@ -137,16 +137,20 @@ namespace geocone::GEOCONE_DIM
     /** Returns the bracket of the load that is certified so far. */
     virtual LoadBracket
     bracket() const = 0;
-    /** Returns the JSON objects of summary.json that describe the results. */
+    /** Whether the factor of safety, and not a load, is bounded. */
+    virtual bool
+    reduces_strength() const = 0;
+    /** Topics of the summary between the size and the cost. */
     virtual Json
     results() const;
-    /** Returns the name of the bounded quantity, for messages. */
-    virtual std::string
+    /** @} */
+
+    /** Name of the bounded quantity in messages. */
+    std::string
     bounded() const
     {
-      return "load";
+      return reduces_strength() ? "factor of safety" : "load";
     }
-    /** @} */
 
     std::vector<unsigned int>
     programme() const override;

@@ -56,9 +56,8 @@ namespace geocone::GEOCONE_DIM
     void
     check_water() const;
 
-    /** Returns true if the factor of safety is bounded instead of a load. */
     bool
-    reduces_strength() const
+    reduces_strength() const override
     {
       return analysis == AnalysisKind::strength_reduction;
     }
@@ -125,11 +124,6 @@ namespace geocone::GEOCONE_DIM
     {
       return bounded_load;
     }
-    std::string
-    bounded() const override
-    {
-      return reduces_strength() ? "factor of safety" : "load";
-    }
     void
     prepare_water(const RunOptions &options) override;
     Json
@@ -137,8 +131,6 @@ namespace geocone::GEOCONE_DIM
 
     std::vector<std::string>
     prepare(const RunOptions &options) override;
-    std::string
-    headline(const std::string &name) const override;
     Json
     model() override;
     StepOutcome

@@ -75,13 +75,10 @@ namespace geocone::GEOCONE_DIM
     choose(const std::optional<dealii::Tensor<1, dim>> &velocity,
            const bool                                   has_weight);
 
-    /** Selects self-weight and tractions as the loads multiplied by the load factor, for
-     *  strength reduction. */
+    /** Selects weight and tractions, for strength reduction.
+     *  @throws InputError if a velocity is prescribed that is not zero */
     void
-    choose_all()
-    {
-      chosen = LoadFactor::all;
-    }
+    choose_all(const bool has_velocity);
 
     /** Throws the error for selected loads that are zero. @throws InputError */
     [[noreturn]] void

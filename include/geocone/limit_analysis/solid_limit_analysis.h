@@ -5,6 +5,7 @@
 #define geocone_limit_analysis_solid_limit_analysis_h
 
 #include <geocone/limit_analysis/bound_analysis.h>
+#include <geocone/limit_analysis/safety_search.h>
 #include <geocone/limit_analysis/solid_certificate.h>
 
 #include <optional>
@@ -15,7 +16,7 @@ namespace geocone::GEOCONE_DIM
 {
   /**
    * Limit analysis of a three-dimensional rigid-plastic scene with associated flow: strict
-   * bounds of the limit load on tetrahedra, which are bisected where the bounds differ.
+   * bounds of the limit load or the factor of safety on tetrahedra, which are bisected where the bounds differ.
    * Each mesh is a step of the run.
    */
   class SolidLimitAnalysis : public BoundAnalysis
@@ -29,13 +30,32 @@ namespace geocone::GEOCONE_DIM
     bool
     is_chosen() const
     {
-      return kind == Kind::limit_load;
+      return kind != Kind::steps;
     }
 
   private:
     static Side
     figures_of(const SolidBound &side);
 
+    class Reduced;
+
+    /** Bounds of the load, or of the factor of safety, on the current mesh.
+     *  @throws StepFailure if there is no bound */
+    /** @{ */
+    BoundLevel
+    bound_load();
+    BoundLevel
+    bound_factor();
+    /** @} */
+
+    double
+    share_of_gap() const;
+
+    bool
+    reduces_strength() const override
+    {
+      return kind == Kind::strength_reduction;
+    }
     std::string
     kind_word() const override
     {
@@ -65,33 +85,43 @@ namespace geocone::GEOCONE_DIM
     void
     state(StateRow &row) override;
 
-    SolidLoad load;
+    SolidLoad    load;
+    SafetySearch search;
 
     enum class Kind
     {
       steps,
-      limit_load
+      limit_load,
+      strength_reduction
     };
-    Choice<Kind> kind = {
-      {{"steps", Kind::steps}, {"limit load", Kind::limit_load}}};
+    Choice<Kind> kind = {{{"steps", Kind::steps},
+                          {"limit load", Kind::limit_load},
+                          {"strength reduction", Kind::strength_reduction}}};
 
     enum class Order
     {
       linear,
       quadratic
     };
+    static unsigned int
+    degree(const Order order)
+    {
+      return order == Order::linear ? 1 : 2;
+    }
     Choice<Order> velocities = {
       {{"quadratic", Order::quadratic}, {"linear", Order::linear}}};
     Choice<Order> stresses = {
       {{"linear", Order::linear}, {"quadratic", Order::quadratic}}};
 
-    std::vector<double> error; ///< by which the next mesh is refined; empty on the first
+    std::vector<double>
+      error; ///< by which the next mesh is refined; empty on the first
 
     /** @name Results of the last level */
     /** @{ */
     std::optional<Tetrahedra> tetrahedra;
     SolidBound                upper, lower;
-    std::vector<double>       gap; ///< gap_of_cells()
+    std::vector<double>       gap;        ///< gap_of_cells()
+    double                    share = 0.; ///< their sum over the gap
     /** @} */
   };
 } // namespace geocone::GEOCONE_DIM

@@ -32,9 +32,12 @@ namespace geocone::GEOCONE_DIM
       return k + growth.at(x[1]);
     }
 
-    /** Returns the friction coefficient mu (ratio of cohesion c to k) of a face with a
-     *  velocity jump. The strength |s_t| <= c - mu s_n of the face has the dissipation of
-     *  the material (doc/theory/limit_analysis.md). */
+    /** Divides c and tan(phi), or k of a circular cone without friction, by F. */
+    void
+    reduce(const double F);
+
+    /** Coulomb's |s_t| <= c - mu s_n of a face on which velocities jump, whose
+     *  dissipation is that of the material (doc/theory/limit_analysis.md). */
     double
     face_friction() const;
     double
@@ -103,13 +106,28 @@ namespace geocone::GEOCONE_DIM
     void
     prepare(const Scene &scene, const Tetrahedra &tetrahedra);
 
-    /** Returns the input of a limit analysis on a mesh. */
+    /** Prepares strength reduction, in which the load factor multiplies all loads.
+     *  @throws InputError also for circular cones with friction */
+    void
+    prepare_reduction(const Scene &scene, const Tetrahedra &tetrahedra);
+
+    /** Input of the bounds on a mesh. */
     SolidScene
     on(const Scene &scene, const Tetrahedra &tetrahedra) const;
+
+    /** Input of the bounds on a mesh for reduced strength, c/F and tan(phi)/F. */
+    SolidScene
+    reduced(const Scene      &scene,
+            const Tetrahedra &tetrahedra,
+            const double      F) const;
 
   private:
     void
     take_strengths(const Scene &scene);
+    void
+    check_loads(const Scene                  &scene,
+                const Tetrahedra             &tetrahedra,
+                const std::vector<HeldFacet> &held);
     std::vector<HeldFacet>
     held_facets(const Scene &scene, const Tetrahedra &tetrahedra) const;
     /** Returns the prescribed non-zero velocity of the body, or no value.

@@ -4,25 +4,14 @@
 #ifndef geocone_limit_analysis_strength_reduction_h
 #define geocone_limit_analysis_strength_reduction_h
 
-#include <geocone/base/state_row.h>
 #include <geocone/limit_analysis/certified_bounds.h>
+#include <geocone/limit_analysis/safety_search.h>
 
 #include <functional>
-#include <optional>
 
 namespace geocone::GEOCONE_DIM
 {
-  /**
-   * Strict bounds of the factor of safety F of a body. F is the divisor of c and tan(phi)
-   * of all materials at which the limit state is reached. Let lambda^-(F) and lambda^+(F)
-   * be the bounds of the factor of all loads. F is safe if lambda^- >= 1: the zero stress
-   * and the stresses in equilibrium with lambda^- times the loads are both admissible,
-   * and so are their convex combinations, one of which carries the loads. The body fails
-   * for F if lambda^+ <= 1. Both are certificates that do not require convergence.
-   *
-   * On each mesh the roots of both bounds are found by the secant method for log lambda
-   * over log F, and each is confirmed by one more solution a thousandth on the safe side.
-   */
+  /** Strict bounds of the factor of safety of a plane body (SafetySearch). */
   class StrengthReduction
   {
   public:
@@ -30,23 +19,13 @@ namespace geocone::GEOCONE_DIM
      *  strength divided by F. */
     using Reduced = std::function<BoundScene(const double F)>;
 
-    struct Level
+    struct Level : SafetySearch::Level
     {
-      /** Last strength reduction factor F for which problems were solved, with the bounds
-       *  of the load factor. */
-      double          factor = 1.;
+      /** Both bounds of the load factor for `factor`. */
       CertifiedBounds bounds;
 
-      /** Certified bounds of the factor of safety on the mesh. No value if a bound is not
-       *  certified. */
-      std::optional<double> lower, upper;
-
-      /** Solutions by which the bounds of the factor of safety are certified. */
+      /** Solutions that certify the bounds of the factor of safety. */
       CertifiedBounds::Side lower_proof, upper_proof;
-
-      /** Number of matrix factorisations on the mesh for the lower-bound (upper-bound)
-       *  problems. */
-      unsigned int iterations_lower = 0, iterations_upper = 0;
     };
 
     /** Computes both bounds of the factor of safety on a mesh.
@@ -58,19 +37,11 @@ namespace geocone::GEOCONE_DIM
     void
     state(StateRow &row)
     {
-      row(factor, exponent);
+      row(search);
     }
 
   private:
-    /** Certifies the bounds of the factor of safety. Problems are solved near the root of
-     *  each certified positive bound of the load factor. */
-    void
-    prove_root(const Reduced &reduced,
-               const double   tolerance,
-               Level         &level) const;
-
-    double factor   = 1.; ///< initial guess for the next mesh
-    double exponent = 1.; ///< -d log lambda/d log F
+    SafetySearch search;
   };
 } // namespace geocone::GEOCONE_DIM
 

@@ -1,0 +1,105 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_limit_analysis_safety_search_h
+#define geocone_limit_analysis_safety_search_h
+
+#include <geocone/base/state_row.h>
+
+#include <array>
+#include <optional>
+#include <string>
+
+namespace geocone
+{
+  /**
+   * Strict bounds of the factor of safety F of a body, by which c and tan(phi) of all
+   * materials must be divided to reach the limit state. Let lambda^-(F) and lambda^+(F)
+   * be the bounds of the factor of all loads. F is safe if lambda^- >= 1: the zero stress
+   * and the stresses in equilibrium with lambda^- times the loads are both admissible,
+   * and so are their convex combinations, one of which carries the loads. The body fails
+   * for F if lambda^+ <= 1. Both are certificates that need no convergence.
+   *
+   * On each mesh the roots of both bounds are found by secants of log lambda over log
+   * F, and each is confirmed by one more solution a thousandth on the safe side.
+   */
+  class SafetySearch
+  {
+  public:
+    enum Side
+    {
+      lower,
+      upper
+    };
+
+    /** A bound of the load factor for a given F. */
+    struct Attempt
+    {
+      double       load           = 0.;
+      bool         certified      = false;
+      bool         grows          = false; ///< the load seems unbounded
+      unsigned int factorisations = 0;
+      std::string  rejection; ///< reason for rejection, if not certified
+
+      /** Whether the bound is certified and positive. */
+      bool
+      is_usable() const;
+    };
+
+    /** Limit analyses on a mesh with the strength divided by F. */
+    class Solver
+    {
+    public:
+      virtual ~Solver() = default;
+
+      /** Solves for both bounds. @return by Side */
+      virtual std::array<Attempt, 2>
+      both(const double F) = 0;
+
+      /** Solves for one bound. */
+      virtual Attempt
+      one(const double F, const Side side) = 0;
+
+      /** Keeps the last solution of a side, which certifies a bound of F. */
+      virtual void
+      keep(const Side side) = 0;
+    };
+
+    /** Results of a mesh. */
+    struct Level
+    {
+      double factor = 1.; ///< last F for which both bounds were computed
+
+      /** Bounds of the factor of safety certified on this mesh, if any. */
+      std::optional<double> lower, upper;
+
+      /** Number of factorisations on the mesh, by Side. */
+      std::array<unsigned int, 2> iterations = {{0, 0}};
+    };
+
+    /** Computes both bounds of the factor of safety on a mesh.
+     *  @throws StepFailure if the body fails for no factor F, or for all factors */
+    Level
+    on_mesh(Solver &solver);
+
+    void
+    state(StateRow &row)
+    {
+      row(factor, exponent);
+    }
+
+  private:
+    /** A factor certified by one bound, near the root of lambda = 1.
+     *  @param load the bound for `factor` */
+    std::optional<double>
+    prove(Solver       &solver,
+          const Side    side,
+          double        load,
+          unsigned int &iterations) const;
+
+    double factor   = 1.; ///< initial guess for the next mesh
+    double exponent = 1.; ///< -d log lambda/d log F
+  };
+} // namespace geocone
+
+#endif
