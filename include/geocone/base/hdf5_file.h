@@ -68,8 +68,8 @@ namespace geocone
                 const unsigned int               n_columns);
     /** @} */
 
-    /** Table in another file of the same folder, whose rows are part of a
-     *  virtual dataset. */
+    /** Source of a virtual dataset: a table in another file of the same
+     *  folder. */
     struct Part
     {
       std::string file, name;

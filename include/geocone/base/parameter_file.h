@@ -30,9 +30,9 @@ namespace geocone
   class ParameterFile
   {
   public:
-    /** Map from section (e.g. "Materials") and parameter name to the types of
-     *  objects with this parameter. If the file uses no object of these
-     *  types, parse() skips the parameter. */
+    /** Types of objects (e.g. constitutive laws) that declare a parameter, by
+     *  section and parameter name. If the file uses no object of these types,
+     *  parse() skips the parameter. */
     using OfOthers = std::map<std::string, std::map<std::string, std::string>>;
 
     /** A parameter set in the parameter file. If the parameter is set

@@ -39,9 +39,9 @@ namespace geocone
   list_of_sections();
 
   /**
-   * Selects the parameters that match a topic of --help. A topic is a section, a
-   * subsection or a parameter name, e.g. "Materials", "Cohesion" or
-   * "materials/cohesion", or "all".
+   * Selects the parameters that match the search term of the option --help. The
+   * term is a section, a subsection or a parameter name, e.g. "Materials",
+   * "Cohesion" or "materials/cohesion", or "all".
    * @throws InputError if no parameter matches
    */
   std::vector<DocumentedParameter>

@@ -86,8 +86,8 @@ namespace geocone::GEOCONE_DIM
     set_values(Vector &v, const double t) const;
 
     /**
-     * Numbers the unknowns, i.e. the dofs of nodes with mass that are not
-     * prescribed.
+     * Numbers the unknowns: the dofs without prescribed values at nodes with
+     * mass.
      * @param mass lumped mass with ghosts; null if all nodes have mass. Without
      * inertia any positive value marks a node with mass
      * @throws InputError if there are no unknowns
@@ -226,17 +226,18 @@ namespace geocone::GEOCONE_DIM
     number_shared(
       const std::map<unsigned int, std::vector<unsigned int>> &of_dof);
 
-    /** Finds the boundary faces at nodes where several boundary conditions
-     *  prescribe the same velocity component. Collective. */
+    /** Finds the boundary faces that contribute to the reactions of shared
+     *  nodes, where several boundary conditions prescribe the same velocity
+     *  component. Collective. */
     void
     find_shared(
       const BackgroundMesh                                    &mesh,
       const std::map<unsigned int, std::vector<unsigned int>> &of_dof);
 
-    /** Computes the nodal forces exerted by the stress of adjacent cells on
-     *  boundary faces with shared nodes. Nodes are shared if several conditions
-     *  prescribe the same component. The forces are ordered by Part::place.
-     *  Collective. */
+    /** Computes the nodal forces on boundary faces due to the stresses in the
+     *  adjacent cells, at nodes shared by several boundary conditions. Nodes
+     *  are shared if several conditions prescribe the same component. The
+     *  forces are ordered by Part::place. Collective. */
     std::vector<double>
     exerted_on_faces(const MaterialPoints      &points,
                      const std::vector<Mandel> &stress) const;

@@ -169,8 +169,9 @@ namespace geocone::GEOCONE_DIM
                           const Transfer       &transfer,
                           Multipliers          &rows) const;
 
-    /** Adds the shape function values at a position x to the constraint rows of a
-     *  condition. There is one row per prescribed velocity component. */
+    /** Adds the shape function values at a position x to the constraint matrix,
+     *  in the rows of a boundary condition. There is one row per prescribed
+     *  velocity component. */
     void
     add_to_row(const unsigned int                                  condition,
                const Imposition::Share                            &share,
@@ -180,10 +181,10 @@ namespace geocone::GEOCONE_DIM
                const double                                       *values,
                Multipliers                                        &rows) const;
 
-    /** Corrects the right-hand side of a particle's constraint row for the FLIP
-     *  transfer. The offset is the difference between N v and the prescribed
-     *  velocity for which the particle has the prescribed velocity after the
-     *  transfer. */
+    /** Corrects the right-hand side of the velocity constraint of a particle
+     *  for the FLIP transfer. The offset is the difference between N v and the
+     *  prescribed velocity for which the particle has the prescribed velocity
+     *  after the transfer. */
     void
     add_flip_offsets(const MaterialPoints                               &points,
                      const unsigned int                                  p,

@@ -191,8 +191,8 @@ namespace geocone::GEOCONE_DIM
            const dealii::Point<dim> &centre,
            const Space              &space) const;
 
-    /** Largest relative contribution of low-mass basis functions to a constraint
-     *  row. */
+    /** Largest relative contribution of low-mass basis functions to a velocity
+     *  constraint. */
     struct LowMassShare
     {
       double             largest   = 0.; ///< maximum over all rows (-)
@@ -201,12 +201,12 @@ namespace geocone::GEOCONE_DIM
     };
 
     /**
-     * Returns the largest relative contribution of low-mass basis functions to a
-     * constraint row. The contribution is |sum_light H_i v_i|, divided by sum_i H_i
-     * times the larger of the velocities that the condition prescribes along x and
-     * y. Basis functions with less than 1e-3 of the largest mass in the row are
-     * low-mass. The ratio is 0.02 in sound steps, and above 1 if spurious velocities
-     * satisfy the row. Collective.
+     * Returns the largest relative contribution of low-mass basis functions to
+     * a velocity constraint. The contribution is |sum_light H_i v_i|, divided
+     * by sum_i H_i times the larger of the velocities that the condition
+     * prescribes along x and y. Basis functions with less than 1e-3 of the
+     * largest mass in the row are low-mass. The ratio is 0.02 in sound steps,
+     * and above 1 if spurious velocities satisfy the row. Collective.
      */
     LowMassShare
     light_share(const Vector &v, const Vector &mass, const Space &space) const;

@@ -14,11 +14,11 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Residuals of a plastic flow law at the end of a step. All residuals are zero if
-   * and only if the law is satisfied. They refer to one point or are maxima over
-   * several points. The law has a change of variable y that maps plastic flow to
-   * normals of the yield surface. Residuals are dimensional; reference scales are
-   * included.
+   * Residuals of a plasticity law (yield condition and flow rule) at the end of
+   * a step. All residuals are zero if and only if the law is satisfied. They
+   * refer to one point or are maxima over several points. The law has a change
+   * of variable y that maps plastic flow to normals of the yield surface.
+   * Residuals are dimensional; reference scales are included.
    */
   struct FlowCheck
   {
@@ -60,10 +60,10 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * Evaluates the residuals of a cone law at a point. The complementarity law
-     * assumes a cone without a cut-off: at a cut-off of the normal stress only the
-     * strength is checked; at Rankine's cut-off also the plastic strain, see
-     * flow_at_cut_off().
+     * Evaluates the yield, flow and complementarity residuals of a law with a
+     * yield cone at a point. The complementarity law assumes a cone without a
+     * cut-off: at a cut-off of the normal stress only the strength is checked;
+     * at Rankine's cut-off also the plastic strain, see flow_at_cut_off().
      * @param solved,exact cones of the solved and the exact law at the end of the step
      * @param z,s negative plastic strain increment, and stress, in cone axes
      */
@@ -100,8 +100,9 @@ namespace geocone::GEOCONE_DIM
 
   private:
     /**
-     * Violation of the flow rule by z at a stress s on Rankine's cut-off (-). It is the
-     * sum of negative plastic multipliers of the cone and of the cut-off,
+     * Error (-) in the flow rule for the negative plastic strain increment z,
+     * at a stress s on the Rankine tension cut-off. It is the sum of negative
+     * plastic multipliers of the cone and of the cut-off,
      *   g_1 + g_2 = -z_t.u,  b g_1 + g_2 = z_n,  u = s_t/|s_t|,
      * of a nonzero multiplier of the cone if s is inside the cone, and of strain
      * increments orthogonal to u; at the tip of the cut-off, |z_t| - z_n.

@@ -80,8 +80,8 @@ namespace geocone::GEOCONE_DIM
     return result;
   }
 
-  /** Plastic mode of a material point: region of the yield cone to which the
-   *  stress is returned. */
+  /** Plastic mode of a material point: elastic, on the smooth part of the yield
+   *  cone, or at its apex. */
   enum class Mode : unsigned char
   {
     elastic, ///< inside the cone
@@ -89,11 +89,13 @@ namespace geocone::GEOCONE_DIM
     apex     ///< at the apex
   };
 
-  /** Infinite tensile strength, which denotes a cone without a cut-off (Pa). */
+  /** Infinite tensile strength (Pa), by which a cone without tension cut-off is
+   *  marked. */
   constexpr double infinite_tension = std::numeric_limits<double>::infinity();
 
   /**
-   * Yield cone and flow rule of a cone law, in cone axes. The admissible set is
+   * Yield cone and flow rule of a constitutive law, in cone axes. The
+   * admissible set is
    *   C = { s : |s_t| <= a s_n + k },   a >= 0, k >= 0,
    * and the flow aperture is b, 0 <= b <= a (b = a: associated). With z = -(plastic
    * strain increment), mu = a - b and Psi(z) = z + mu |z_t| n, the law reads
@@ -117,9 +119,10 @@ namespace geocone::GEOCONE_DIM
     double hardening = 0.;
 
     /**
-     * Strength parameter of Rankine's cut-off |s_t| <= s_n + opening (Pa). The
-     * cut-off applies in addition to the cone and has associated flow. In plane
-     * strain it limits the largest principal stress to opening/sqrt2.
+     * Strength parameter in the Rankine tension cut-off |s_t| <= s_n + opening
+     * (Pa). The cut-off applies in addition to the cone and has associated
+     * flow. In plane strain it limits the largest principal stress to
+     * opening/sqrt2.
      */
     double opening = infinite_tension;
 
@@ -180,8 +183,8 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * Returns the cone with delayed friction, whose strength depends in part on the
-     * normal stress s_n^n at t_n. For a fraction lambda,
+     * Returns the yield cone for delayed friction: its strength depends in part
+     * on the normal stress s_n^n at t_n. For a fraction lambda,
      *   |s_t| <= a ((1 - m) s_n + m s_n^n) + k,   m = lambda (a - b)/a.
      * The aperture is a - lambda (a - b) >= b; the flow rule is the same, and the
      * tensile strength is not larger. For lambda = 0 the law is exact; associated
@@ -212,9 +215,9 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * Complementarity product <y, s + (k/a) n> of flow and stress (J/m^3). The form
-     * used includes the limit a = 0 for y on the boundary of K* (there (k/a) y_n = k
-     * |y_t|).
+     * Complementarity product of plastic flow and stress, <y, s + (k/a) n>
+     * (J/m^3). The form used includes the limit a = 0 for y on the boundary of
+     * K* (there (k/a) y_n = k |y_t|).
      */
     template <typename V>
     double

@@ -13,10 +13,10 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Return mapping for a cone that depends nonlinearly on the plastic shear strain
-   * increment g = |z_t|. Stress and plastic strain, s and z, satisfy the law of
-   * cone_of(g). Let f(g) be the plastic shear strain of the return map to a fixed
-   * cone_of(g); g is the root of
+   * Return mapping for a yield cone whose size depends nonlinearly on the
+   * plastic shear strain increment g = |z_t|. Stress and plastic strain, s and
+   * z, satisfy the law of cone_of(g). Let f(g) be the plastic shear strain of
+   * the return map to a fixed cone_of(g); g is the root of
    *   f(g) - g = 0   in [0, T/2G],
    * where f(0) >= 0 and f(T/2G) <= T/2G. The root is unique unless the soil softens
    * faster than it unloads elastically. The tangent is extended by

@@ -11,8 +11,8 @@
 namespace geocone
 {
   /**
-   * Frictional contact problem of n nodes of a linear body, after static
-   * condensation of all other unknowns. Find u and r = K u + c with
+   * Frictional contact problem with n nodes of a linear body, in which static
+   * condensation has eliminated all other unknowns. Find u and r = K u + c with
    *   0 <= r_N + tension _|_ u_N - least >= 0,
    *   |r_T| <= mu r_N + adhesion, u_T against r_T where it slides,
    * in the axes n and t of each node, or in n alone if it has no friction. K

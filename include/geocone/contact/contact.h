@@ -21,19 +21,22 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Gap, divided by the cell size, below which a contact is considered closed. */
+  /** Contact tolerance: a contact is considered closed if its gap is smaller
+   *  than this fraction of the cell size. */
   constexpr double closed_gap = 1e-9;
 
-  /** Distance, divided by the cell size, below which the boundaries of two
-   *  obstacles are treated as continuous. */
+  /** Tolerance for adjacent obstacles: their boundaries form one continuous
+   *  boundary if their distance is smaller than this fraction of the cell
+   *  size. */
   constexpr double meeting = 1e-3;
 
-  /** Cosine of the angle (10 degrees) below which two normals are considered
-   *  parallel. */
+  /** Threshold for parallel normals: cosine of the largest angle (10 degrees)
+   *  between two normals that are treated as one. */
   const double parallel = std::cos(radians(10.));
 
-  /** Smallest cosine of the angle between the contact normal and the free
-   *  directions of a partially supported node (10 degrees). */
+  /** Threshold for contact at a partially supported node: cosine of the largest
+   *  angle (10 degrees) between the contact normal and the free directions of
+   *  the node. If the angle is larger, the node has no contact. */
   const double along_support = std::cos(radians(10.));
 
   /** Potential contact node, which may be in contact with an obstacle or another
@@ -72,19 +75,20 @@ namespace geocone::GEOCONE_DIM
 
     double length = 0.; ///< tributary length of the boundary (m), or 0
 
-    /** Lower bound of the relative normal velocity u_N (m/s). The bound is -g/h
-     *  for a gap g, or -e times the initial u_N if the node rebounds with a
-     *  coefficient of restitution e. */
+    /** Lower bound on the normal component u_N of the relative velocity (m/s).
+     *  The bound is -g/h for a gap g, or -e times the initial u_N if the node
+     *  rebounds with a coefficient of restitution e. */
     double least    = 0.;
     bool   rebounds = false; ///< whether the node rebounds (e > 0)
 
-    /** Relative normal velocity u_N before impact of a node that rebounds in this
-     *  step (m/s). */
+    /** Normal component u_N of the relative velocity before impact, for a node
+     *  that rebounds in this step (m/s). */
     double impact = 0.;
 
-    /** Matrix that extracts the share of this contact from the total force of a
-     *  corner node. For contact normals n and m the matrix is n k' with k.n = 1,
-     *  k.m = 0; for nodes with a single contact it is the identity. */
+    /** Matrix that extracts the force of this contact from the total contact
+     *  force of a corner node, which has two contacts. For contact normals n
+     *  and m the matrix is n k' with k.n = 1, k.m = 0; for nodes with a single
+     *  contact it is the identity. */
     dealii::Tensor<2, dim> share =
       dealii::Tensor<2, dim>(dealii::unit_symmetric_tensor<dim>());
     bool is_corner = false;
@@ -103,9 +107,9 @@ namespace geocone::GEOCONE_DIM
     double tension  = 0.; ///< tensile strength, if initially closed (N/m)
   };
 
-  /** Potential contact node on the first body of a contact pair. Includes the gap
-   *  and, for body-fitted meshes, the size of adjacent faces (m). Members of
-   *  ContactNode that depend on the step are not set. */
+  /** Potential contact node on the first of the two bodies of a contact pair.
+   *  Includes the gap and, for body-fitted meshes, the size of adjacent faces
+   *  (m). Members of ContactNode that depend on the step are not set. */
   struct FacingNode
   {
     ContactNode node;
@@ -259,9 +263,9 @@ namespace geocone::GEOCONE_DIM
     std::vector<unsigned int>
     choose(const MPI_Comm comm) const;
 
-    /** Simplifies the linearised contact equations of the chosen nodes to dr +
-     *  rho du. The simplified equations are used by linearise(). The motions of
-     *  the obstacles are fixed. Collective. */
+    /** Replaces the linearised contact equations of the chosen nodes by the
+     *  simpler equations dr + rho du. The simplified equations are used by
+     *  linearise(). The motions of the obstacles are fixed. Collective. */
     void
     relax(const std::vector<unsigned int> &chosen);
 
@@ -271,16 +275,17 @@ namespace geocone::GEOCONE_DIM
       return dim * node.node < row_A[0].locally_owned_size();
     }
 
-    /** Adds a correction to the initial guess of the velocities of free obstacles
-     *  in the next call of replace(). */
+    /** Corrects the initial guess for the velocities of free obstacles, used by
+     *  the next call of replace(). */
     void
     change_motions(const Eigen::VectorXd &change)
     {
       obstacles.change(change);
     }
 
-    /** Calls f(number, G) for each free motion of the obstacle in contact with a
-     *  node. G is the velocity of the node due to a unit motion. */
+    /** Calls f(number, G) for each free rigid-body motion of the obstacle in
+     *  contact with a node. G is the velocity of the node due to a unit
+     *  motion. */
     template <typename Function>
     void
     for_motions_of(const ContactNode &node, const Function &f) const
@@ -335,8 +340,8 @@ namespace geocone::GEOCONE_DIM
     using Force  = dealii::Tensor<1, dim>;
     using Matrix = dealii::Tensor<2, dim>;
 
-    /** Contact force r, velocity v and parameter rho of an owned node, as input
-     *  of replace(). Free directions only. */
+    /** Contact force r, velocity v and augmentation parameter rho of an owned
+     *  node, as input of replace(). Free directions only. */
     struct Local
     {
       Force  r, v;
@@ -359,7 +364,7 @@ namespace geocone::GEOCONE_DIM
     Force
     velocity_of_partners(const ContactNode &node, const Vector &v) const;
 
-    /** Number of unsupported directions of a node. */
+    /** Number of directions in which the motion of a node is not prescribed. */
     unsigned int
     n_free(const unsigned int node) const;
 
@@ -383,8 +388,8 @@ namespace geocone::GEOCONE_DIM
     void
     add_rows_to_partners(SparseMatrix &matrix) const;
 
-    /** Projected contact force q of a node, residual F = r - q, and derivative Q
-     *  = dq/dp. */
+    /** Projected contact force q of a node, its residual F = r - q, and its
+     *  derivative Q = dq/dp. */
     struct Projection
     {
       Force  q, F;

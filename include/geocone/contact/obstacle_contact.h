@@ -140,10 +140,10 @@ namespace geocone::GEOCONE_DIM
                       std::vector<dealii::Tensor<1, dim>> &supports) const;
 
     /**
-     * Limits the relative velocity of contact nodes at the end of a time step of the
-     * theta-scheme. Nodes in contact retain the velocity at theta if the
-     * extrapolated velocity is larger. Otherwise they would rebound in each step,
-     * with alternating forces.
+     * Prevents artificial rebound: limits the relative velocity of contact
+     * nodes at the end of a step of the theta-scheme. Nodes in contact retain
+     * the velocity at theta if the extrapolated velocity is larger. Otherwise
+     * they would rebound in each step, with alternating forces.
      * @param unknowns prescribed dofs do not change @param v velocity at theta
      * @param mass of the nodes @param[in,out] v_end
      * @return the kinetic energy removed (J/m), >= 0. Collective.
@@ -201,10 +201,10 @@ namespace geocone::GEOCONE_DIM
     bool
     has_bonds() const;
 
-    /** Bond of each node: number of its contact at the end of the last step plus
-     *  one, or 0 without contact. Stored at the first dof of the node. Without
-     *  bonds, tension would depend on the second-order error of the gap to a
-     *  rotating obstacle. */
+    /** Bond of each node: 1 + number of the contact at the end of the last
+     *  step; 0 for nodes without contact. Stored at the first dof of the node.
+     *  Without bonds, tension would depend on the second-order error of the gap
+     *  to a rotating obstacle. */
     Vector &
     bonds_of_nodes()
     {
@@ -302,8 +302,8 @@ namespace geocone::GEOCONE_DIM
                 const double                   h,
                 const std::vector<FacingNode> &facing) const;
 
-    /** Sets friction, adhesion and tensile strength of a contact node from the law
-     *  of the interface. */
+    /** Sets the friction coefficient, adhesion and tensile strength of a
+     *  contact node from the interface law. */
     void
     apply_law(const InterfaceLaw &law, ContactNode &node) const;
 

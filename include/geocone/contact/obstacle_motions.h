@@ -133,7 +133,7 @@ namespace geocone::GEOCONE_DIM
     Kinetic
     kinetic() const;
 
-    /** Adds a correction to the initial guess of the obstacle velocities in the
+    /** Corrects the initial guess for the velocities of obstacles, used by the
      *  next call of find(). */
     void
     change(const Eigen::VectorXd &by);
