@@ -77,7 +77,8 @@ namespace geocone::GEOCONE_DIM
     LawCounts trial_counts; ///< statistics of the last trial
   };
 
-  /** Selectable sets of stress components of a material point. */
+  /** Choice of the stress components that a material point uses (in-plane or
+   *  all). */
   enum class StressComponents
   {
     automatic, ///< all, if supported by the law

@@ -37,8 +37,8 @@ namespace geocone::GEOCONE_DIM
     /** Angular momentum about the coordinate axes (N m s/m). */
     dealii::Tensor<1, n_rotations> angular_momentum;
     dealii::Point<dim> lower, upper; ///< bounding box of positions (m)
-    /** Left and right front of the body: coordinates x with 1 % and 99 % of the
-     *  mass on their left (m). */
+    /** Positions of the left and the right front (m): coordinates x with 1 %
+     *  and with 99 % of the mass on their left. */
     double left_front = 0., right_front = 0.;
     double largest_speed = 0.; ///< (m/s)
 
@@ -222,8 +222,8 @@ namespace geocone::GEOCONE_DIM
       return clock;
     }
 
-    /** Number of explicit steps since the start, and number of point updates on
-     *  this rank (points times steps). */
+    /** Number of explicit steps since the start of the run, and number of point
+     *  updates (points times steps) on this rank. */
     unsigned long n_steps       = 0;
     double        n_point_steps = 0.;
 
@@ -308,8 +308,8 @@ namespace geocone::GEOCONE_DIM
                const double         dt,
                const TransferBlock &points);
 
-    /** Updates the bounding box of the positions. Points outside the region of
-     *  stored nodes are treated by mend_positions(). */
+    /** Updates the bounding box of the point positions. Points outside the
+     *  region of stored nodes are treated by mend_positions(). */
     void
     bound_positions(const TransferBlock &points);
 
@@ -350,8 +350,8 @@ namespace geocone::GEOCONE_DIM
     force_around_axis(const TransferBlock &points);
     /** @} */
 
-    /** Reduces the mass and volume of those points in a block that are being
-     *  removed gradually. */
+    /** Reduces the mass and volume of points that are being removed gradually,
+     *  within one block of points. */
     void
     fade_points(const TransferBlock &points);
 

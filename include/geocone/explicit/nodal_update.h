@@ -31,8 +31,8 @@ namespace geocone::GEOCONE_DIM
     /** Total impulse of gravity, damping and support forces (N s/m). */
     dealii::Tensor<1, dim> impulse;
 
-    /** Mass, momentum and energy of points that a stage has removed
-     *  (Stage::removes()) or that have left the grid. */
+    /** Mass, momentum and energy of removed points: excavated in a stage
+     *  (Stage::removes()) or lost through the edge of the grid. */
     double                 removed_mass = 0.;      ///< (kg/m)
     dealii::Tensor<1, dim> removed_momentum;       ///< (N s/m)
     double                 removed_energy    = 0.; ///< kinetic energy (J/m)
@@ -145,7 +145,8 @@ namespace geocone::GEOCONE_DIM
     }
 
   private:
-    /** Component of the nodal force scattered from the points (N/m). */
+    /** Returns a component of the nodal force, which the points have scattered
+     *  to the nodes (N/m). */
     double &
     force_at(const unsigned int node, const unsigned int component)
     {
@@ -172,20 +173,23 @@ namespace geocone::GEOCONE_DIM
     void
     add_impulse(const PrescribedNode &node, const double impulse);
 
-    /** Adds the work done by gravity on the points, which move with the
-     *  velocities in `read`. */
+    /** Adds the work done by gravity on the points during the step, from the
+     *  nodal velocities (array GridTransfer::read) with which the points
+     *  move. */
     void
     count_gravity_work(const Step &step);
 
     void
     measure_unbalanced_force();
 
-    /** Adds local damping forces to the nodal forces in `write`. */
+    /** Adds the local damping forces to the nodal forces (array
+     *  GridTransfer::write). */
     void
     damp(const Step &step);
 
-    /** Sets the nodal values in `write` to zero. The nodal masses are also
-     *  reset unless keep_mass. */
+    /** Resets the nodal values scattered from the points (array
+     *  GridTransfer::write) to zero. The nodal masses are also reset unless
+     *  keep_mass. */
     void
     clear(const bool keep_mass);
 

@@ -161,13 +161,13 @@ namespace geocone::GEOCONE_DIM
     void
     begin(MaterialPoints &points, dealii::TimerOutput &timer) override;
 
-    /** Computes the stencils of the ghost stiffness for the current particle
-     *  positions. Collective. */
+    /** Computes the stencils of the ghost stiffness, which stabilises low-mass
+     *  basis functions, for the current particle positions. Collective. */
     std::vector<GhostStencil>
     ghost_stencils(const MaterialPoints &points);
 
-    /** Starts to move the grid with a boundary segment. @throws InputError if
-     *  the grid cannot follow a segment */
+    /** Starts to move the lines of the grid with a boundary segment.
+     *  @throws InputError if the grid cannot follow a segment */
     void
     begin_to_follow();
 
@@ -186,8 +186,8 @@ namespace geocone::GEOCONE_DIM
     void
     check_bodies() const;
 
-    /** Reason for rejecting a solved step because of low-mass basis functions;
-     *  empty if the step is accepted. */
+    /** Reason for rejecting a solved step because low-mass basis functions
+     *  dominate a constraint; empty if the step is accepted. */
     std::string
     rejection(const Multipliers::LowMassShare &share) const;
 
@@ -288,8 +288,8 @@ namespace geocone::GEOCONE_DIM
     void
     solve_mass(Vector &velocity) const;
 
-    /** Reason for rejecting the trial motion of a particle (trial.moved); empty
-     *  if the motion is accepted. @param ratio volume ratio of the step
+    /** Reason for rejecting the computed motion of a particle; empty if the
+     *  motion is accepted. @param ratio volume ratio of the step
      *  @param extent size of the cell (m) */
     std::string
     rejection_of_move(const MaterialPoints          &points,
@@ -299,8 +299,9 @@ namespace geocone::GEOCONE_DIM
                       const std::array<double, dim> &extent) const;
 
     /**
-     * Computes the trial states of the particles (trial.moved) from nodal
-     * velocities. These are vL at t_n, v at t_n + h, and v_mean for advection.
+     * Computes the trial states of the particles at the end of the step
+     * (positions, velocities) from nodal velocities. These are vL at t_n, v at
+     * t_n + h, and v_mean for advection.
      * @return reason for rejection, or empty
      */
     std::string
@@ -358,7 +359,7 @@ namespace geocone::GEOCONE_DIM
                                   {"grid velocity", Start::nodes},
                                   {"particle velocity", Start::particles}}};
 
-    /** Selection of the low-mass basis functions that receive ghost
+    /** Selection of the low-mass basis functions that are stabilised by ghost
      *  stiffness. */
     enum class Ghosts
     {
