@@ -33,8 +33,9 @@ namespace geocone
     double Rmin  = 0.01; ///< elastic range, R below Rmin (31) (-)
     double delta = 0.01; ///< margin of the similarity centre (38) (-)
 
-    /** True if the rotation of the surfaces, equation (24), is sh = s - ph beta
-     *  instead of sh = s - p beta. */
+    /** True if the rotation of the surfaces uses sh = s - ph beta instead of sh
+     *  = s - p beta, in equation (24) of the STSM report
+     *  (SubloadingConstants). */
     bool rotates_with_ph = false;
 
     double tolerance        = 1e-4; ///< error tolerance per substep (STOL) (-)

@@ -108,8 +108,8 @@ namespace geocone
         to[i] = P::load(from[i]);
     }
 
-    /** Stores the values of the accepted SIMD lanes, for which the mask good is
-     *  1. */
+    /** Stores the results of the SIMD lanes whose substep is accepted (mask
+     *  @p good = 1). */
     static void
     store(const P &good, const P &end, double (&to)[4])
     {

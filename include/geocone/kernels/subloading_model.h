@@ -102,8 +102,8 @@ namespace geocone
     double
     ratio(const State &state) const;
 
-    /** Yield function fbar(S; beta, pcb) of equation (21) (Pa^2), negative
-     *  inside the yield surface. */
+    /** Yield function fbar(S; beta, pcb) of the subloading model (Pa^2),
+     *  negative inside the yield surface; equation (21) of the STSM report. */
     double
     yield_function(const Vector &S, const Vector &beta, const double pcb) const;
 
@@ -131,8 +131,8 @@ namespace geocone
       return (1. + 4. / 3. * c.shear_ratio) * (p + c.pe) / c.kappa;
     }
 
-    /** Ratio of shear to bulk modulus, G/K = 3(1-2nu)/(2(1+nu)), equation (25)
-     *  (-). */
+    /** Ratio of shear to bulk modulus (-), G/K = 3(1-2nu)/(2(1+nu)); equation
+     *  (25) of the STSM report. */
     double
     g_over_k() const
     {

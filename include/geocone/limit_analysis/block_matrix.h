@@ -19,7 +19,8 @@ namespace geocone
   class BlockMatrix
   {
   public:
-    /** Set of blocks of the same size, n_columns dofs each. */
+    /** Set of equally large blocks (small dense matrices) with n_columns dofs
+     *  each. */
     struct Set
     {
       unsigned int        n_columns, n_blocks;

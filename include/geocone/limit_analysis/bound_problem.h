@@ -29,7 +29,8 @@ namespace geocone::GEOCONE_DIM
       return opening < infinite_tension;
     }
 
-    /** Returns true if the yield cone is a cylinder (Tresca). */
+    /** Returns true if the yield cone is a cylinder, as for the Tresca
+     *  criterion. */
     bool
     is_cylinder() const
     {
@@ -45,8 +46,8 @@ namespace geocone::GEOCONE_DIM
     }
   };
 
-  /** Placeholder yield cone of a point excluded from the problem, without dofs and with a
-   *  zero strain matrix. */
+  /** Placeholder yield cone for points that are excluded from the problem; such
+   *  points have no dofs and a zero strain matrix. */
   constexpr PointCone inactive_cone = {0., 1.};
 
   /**
@@ -78,7 +79,8 @@ namespace geocone::GEOCONE_DIM
     std::vector<PointCone> cone;   ///< yield cone of each point
 
     unsigned int n_triangles = 0;
-    /** Index of the triangle that owns each interface cell and cut-off cell. The order is
+    /** Index of the triangle that owns each additional cell: first the
+     *  interface cells, then the cells for the tension cut-off. The order is
      *  that of these cells. */
     std::vector<unsigned int> owner;
     std::vector<unsigned int> cut;               ///< triangles with a cut-off
@@ -107,22 +109,24 @@ namespace geocone::GEOCONE_DIM
     bool
     has_incompressible() const;
 
-    /** Returns the number of interface cells. */
+    /** Returns the number of interface cells, which represent slip between the
+     *  body and obstacles or fixed sides. */
     unsigned int
     n_interfaces() const
     {
       return owner.size() - cut.size();
     }
 
-    /** Returns the index of the first point of the tension cut-off cells. */
+    /** Returns the index of the first point of the cells that represent the
+     *  tension cut-off. */
     unsigned int
     first_cut_point() const
     {
       return 3 * (n_triangles + n_interfaces());
     }
 
-    /** Returns the point of a triangle that coincides with a given point of a cut-off
-     *  cell. */
+    /** Returns the point of a triangle that coincides with a point of the
+     *  triangle's tension cut-off cell. */
     unsigned int
     point_of_triangle(const unsigned int cut_point) const
     {
@@ -162,14 +166,14 @@ namespace geocone::GEOCONE_DIM
       return cone;
     }
 
-    /** Returns the load vector, live or dead, to which loads of a given type contribute.
-     *  It is the live load vector if the load factor multiplies these loads, otherwise
-     *  the dead load vector. */
+    /** Returns the load vector to which a type of loads contributes: live
+     *  (multiplied by the load factor) or dead (constant). */
     Eigen::VectorXd &
     loads(BoundProblem &problem, const LoadFactor kind) const;
 
-    /** Modifies the strength of a material. Sets tan(phi), multiplies the cohesion
-     *  k/cos(phi) by a factor, and the tensile strength by another factor. */
+    /** Modifies the strength parameters of a material. Sets tan(phi),
+     *  multiplies the cohesion k/cos(phi) by a factor, and the tensile strength
+     *  by another factor. */
     void
     change(const unsigned int material,
            const double       tan_phi,
@@ -211,21 +215,22 @@ namespace geocone::GEOCONE_DIM
   largest_traction(const BoundScene &scene, const BoundaryCondition &load);
 
   /**
-   * Assembles the upper-bound problem with quadratic velocities and points at the
-   * vertices. Strain rates are linear in a cell, so flow that is admissible at the
-   * vertices is admissible everywhere, and the dissipation at the vertices is an upper
-   * estimate (exact for a > 0): the result is an upper bound (Makrodimopoulos and Martin
-   * 2007). Dofs: x and y of the vertices, then of the edges, then of the obstacles.
-   * Points of an interface are coefficients in Bernstein's basis, whose convex hull
-   * contains the relative velocity.
+   * Assembles the upper-bound problem with quadratic velocities, whose strain
+   * rates are evaluated at the vertices of each triangle. Strain rates are
+   * linear in a cell, so flow that is admissible at the vertices is admissible
+   * everywhere, and the dissipation at the vertices is an upper estimate (exact
+   * for a > 0): the result is an upper bound (Makrodimopoulos and Martin 2007).
+   * Dofs: x and y of the vertices, then of the edges, then of the obstacles.
+   * Points of an interface are coefficients in Bernstein's basis, whose convex
+   * hull contains the relative velocity.
    */
   BoundProblem
   upper_problem(const BoundScene &scene);
 
   /**
-   * Assembles the lower-bound problem with linear stresses, discontinuous between
-   * triangles, in dual form. The dual velocities are a translation u of each triangle,
-   * and w at both ends of each edge,
+   * Assembles the lower-bound problem in dual form, with linear stresses that
+   * are discontinuous between triangles. The dual velocities are a translation
+   * u of each triangle, and w at both ends of each edge,
    *   B_i q = -3 sym(u x grad lambda_i) + 3/(2A) sum_{e at i} L_e sym(w_ei x n_e).
    * Equilibrium of these rows is that of the continuum, so each admissible state is a
    * lower bound (dual of Makrodimopoulos and Martin 2006). Dofs: x and y of the

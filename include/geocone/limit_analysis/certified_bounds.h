@@ -33,10 +33,10 @@ namespace geocone::GEOCONE_DIM
     std::vector<double> gap;
 
     /**
-     * Refinement indicator of each triangle, equal for all triangles of an optimal mesh.
-     * It is the contribution to the gap, plus a multiple of the internal power of the
-     * lower bound times the size of the triangle. The power marks stresses at yield away
-     * from the upper bound's mechanism.
+     * Refinement indicator of each triangle; on an optimal mesh it is equal for
+     * all triangles. It is the contribution to the gap, plus a multiple of the
+     * internal power of the lower bound times the size of the triangle. The
+     * power marks stresses at yield away from the upper bound's mechanism.
      */
     std::vector<double> uneven;
 

@@ -166,7 +166,8 @@ namespace geocone::cone_algebra
     /** @} */
 
   private:
-    /** Returns the product W v/eta, or (W/eta)^-1 v if w_t has the opposite sign. */
+    /** Returns W v/eta if the argument is w_t, or the inverse product
+     *  (W/eta)^-1 v if the argument is -w_t. */
     ConeVector<N>
     turned(const ConeVector<N - 1> &w_t, const ConeVector<N> &v) const
     {

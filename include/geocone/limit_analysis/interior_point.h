@@ -52,13 +52,13 @@ namespace geocone::GEOCONE_DIM
       double       equilibrium_tolerance = 1e-4; ///< residual / forces
       unsigned int max_iterations        = 60;
 
-      /** If true, the stresses of the lower bound are returned instead of the velocities
-       *  of the upper bound. */
+      /** True to return the stresses of the lower bound, false to return the
+       *  velocities of the upper bound. */
       bool stresses = false;
 
-      /** Reduction of k that provides a safety margin of the stresses in the yield cones.
-       *  Stresses that cannot be scaled back then become admissible after fewer
-       *  iterations. */
+      /** Reduction of the strength k, by which the computed stresses remain
+       *  inside the yield cones with a safety margin. Stresses that cannot be
+       *  scaled back then become admissible after fewer iterations. */
       double strength_margin = 0.;
 
       unsigned int correctors = 2; ///< maximum number per iteration

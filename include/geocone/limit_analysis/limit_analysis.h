@@ -155,7 +155,8 @@ namespace geocone::GEOCONE_DIM
 
     std::optional<CellSizes> sizes; ///< cell sizes of the next mesh
 
-    /** Domain of a mesh from a file, if other meshes of this domain can be generated. */
+    /** Domain of a mesh from a file; empty if this domain cannot be meshed
+     *  again. */
     std::optional<DomainOfTriangles> file_domain;
 
     double asked_cells = 0.; ///< requested; 0 for the first mesh

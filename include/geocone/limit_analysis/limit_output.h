@@ -60,7 +60,8 @@ namespace geocone::GEOCONE_DIM
   public:
     using TableOutput::TableOutput;
 
-    /** Opens the output files of a limit analysis. @param unit of the load, e.g. "N/m"
+    /** Opens the output files of a limit analysis. @param unit of the load,
+     *  e.g. "N/m"
      *  @param reference value of the load or factor of safety, if known */
     void
     prepare(const RunOptions           &options,

@@ -80,7 +80,7 @@ namespace geocone::GEOCONE_DIM
     void
     choose_all(const bool has_velocity);
 
-    /** Throws the error for selected loads that are zero. @throws InputError */
+    /** Reports that the selected loads are zero. @throws InputError */
     [[noreturn]] void
     refuse_zero_load() const;
 

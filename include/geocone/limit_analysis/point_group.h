@@ -39,13 +39,14 @@ namespace geocone
     virtual BlockMatrix::Set
     set() const = 0;
 
-    /** Returns the number of eigenvalues of the cones of all points. */
+    /** Returns the total number of eigenvalues of the cone variables at all
+     *  points (degree of the barrier function). */
     virtual double
     degree() const = 0;
 
-    /** Returns true if any strain rate component is constrained to zero because the
-     *  conjugate stress is unbounded. An example is the volumetric strain rate for phi =
-     *  0. */
+    /** Returns true if the flow rule constrains any strain rate component to
+     *  zero, because the conjugate stress is unbounded. An example is the
+     *  volumetric strain rate for phi = 0. */
     virtual bool
     has_free_direction() const = 0;
 
@@ -478,8 +479,9 @@ namespace geocone
      *  lengths and velocities are of order one. */
     static constexpr double bulk = 1e6;
 
-    /** QR factors of the scaled matrix A of a point. Products of the factors are far more
-     *  accurate than the inverse of A'W^-1W^-T A. */
+    /** QR factors of the matrix A of a point's strength law, scaled by the
+     *  Nesterov-Todd scaling W. Products of the factors are far more accurate
+     *  than the inverse of A'W^-1W^-T A. */
     struct Local
     {
       Eigen::Matrix<double, size + 1, n_y>  Q;

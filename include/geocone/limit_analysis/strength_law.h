@@ -34,8 +34,8 @@ namespace geocone
     Eigen::Matrix<double, size, columns> A;
     X                                    o = X::Zero();
 
-    /** Unit vector in the null space of A; zero if A has full column rank. X does not
-     *  depend on this component of y. */
+    /** Unit vector in the null space of the matrix A; zero if A has full column
+     *  rank. X does not depend on this component of y. */
     Y free = Y::Zero();
 
     Y start  = Y::Zero(); ///< y with X inside the cone
@@ -45,7 +45,8 @@ namespace geocone
     /** @{ */
     Eigen::Matrix<double, size, columns> pseudo_inverse; ///< of A'
 
-    /** Orthonormal basis of the null space of A', with n_null columns. */
+    /** Orthonormal basis of the null space of A' (n_null columns), with the
+     *  matrix A of the admissibility condition X = k o - A y. */
     Eigen::Matrix<double, size, size> null;
     int                               n_null = 0;
     /** @} */
@@ -134,8 +135,8 @@ namespace geocone
     return law;
   }
 
-  /** Strength |s_t| <= k - mu s_n of a face with a velocity jump, with the traction s =
-   *  (s_n, s_t1, s_t2). */
+  /** Strength |s_t| <= k - mu s_n of a facet across which the velocity jumps,
+   *  with the traction s = (s_n, s_t1, s_t2). */
   using FaceCone = StrengthLaw<SecondOrderCone<3>, 3, 0>;
 
   inline FaceCone

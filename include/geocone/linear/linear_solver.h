@@ -93,7 +93,8 @@ namespace geocone
                           {"Mumps", Name::mumps},
                           {"multigrid", Name::multigrid}}};
 
-    /** Size of the integer indices of Cholmod's factors (bits). */
+    /** Size (bits) of the integer indices in the factors computed by
+     *  CHOLMOD. */
     enum class IndexSize
     {
       automatic,
@@ -104,13 +105,12 @@ namespace geocone
                                      {"32", IndexSize::bits_32},
                                      {"64", IndexSize::bits_64}}};
 
-    /** Options of Mumps for the storage of factors on disk: switch and
-     *  folder. */
+    /** Options of MUMPS for storing factors on disk: switch and folder. */
     bool        out_of_core = false;
     std::string folder      = "/tmp";
 
-    /** Tolerance for the relative residual, and maximum number of iterations,
-     *  of the multigrid solver. */
+    /** Options of the multigrid solver: tolerance of the relative residual, and
+     *  maximum number of iterations. */
     double       tolerance      = 1e-6;
     unsigned int max_iterations = 200;
 
@@ -138,7 +138,7 @@ namespace geocone
   /** @name Creation of the linear solvers */
   /** @{ */
 
-  /** Creates the solver Cholmod (sparse Cholesky factorisation). @param size
+  /** Creates the CHOLMOD solver (sparse Cholesky factorisation). @param size
    *  size of the integers; automatic: smallest size sufficient for the
    *  factors */
   std::unique_ptr<LinearSolver>
@@ -147,7 +147,7 @@ namespace geocone
   std::unique_ptr<LinearSolver>
   make_umfpack();
 
-  /** Creates the solver Mumps (distributed multifrontal factorisation).
+  /** Creates the MUMPS solver (distributed multifrontal factorisation).
    *  @param folder folder for factors on disk; empty: factors in memory */
   std::unique_ptr<LinearSolver>
   make_mumps(const MPI_Comm     comm,
