@@ -175,8 +175,8 @@ namespace geocone::GEOCONE_DIM
       return "";
     }
 
-    /** Localisation length stored by initialise() (m); 0 for laws independent
-     *  of the cell size. */
+    /** Localisation length stored by initialise() (m); 0 for laws that do not
+     *  depend on the cell size. */
     virtual double
     size(const double * /*history*/) const
     {

@@ -117,8 +117,8 @@ namespace geocone::GEOCONE_DIM
                             {"outer", Match::outer},
                             {"inner", Match::inner}}};
 
-    /** Yield cone of a step, including the delayed part of the normal
-     *  stress. */
+    /** Yield cone of a step, whose strength includes the delayed part of the
+     *  normal stress (friction with memory). */
     FlowCone
     cone_of(const OwnStrength &own) const
     {

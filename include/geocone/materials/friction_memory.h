@@ -12,10 +12,11 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Friction with memory, a regularised friction law
-   * (doc/theory/friction_memory.md). The normal stress in the yield condition
-   * is delayed with the relaxation time tau. A history variable p obeys dp/dt =
-   * (s_n - p)/tau, and an implicit step h has
+   * Friction with memory: a regularised friction law in which the strength
+   * follows the normal stress with a delay (doc/theory/friction_memory.md). The
+   * normal stress in the yield condition is delayed with the relaxation time
+   * tau. A history variable p obeys dp/dt = (s_n - p)/tau, and an implicit step
+   * h has
    *   p = lambda p_n + (1 - lambda) s_n,   lambda = tau/(h + tau).
    */
   class FrictionMemory
@@ -27,7 +28,8 @@ namespace geocone::GEOCONE_DIM
       : text(text)
     {}
 
-    /** Name of the input parameter for the relaxation time. */
+    /** Name of the input parameter for the relaxation time of friction with
+     *  memory. */
     static constexpr const char *entry = "Friction memory";
 
     /** Declares the parameter 'Friction memory'. */
@@ -50,15 +52,16 @@ namespace geocone::GEOCONE_DIM
         tau = time;
     }
 
-    /** Relaxation time tau (s); 0 for the exact friction law. */
+    /** Relaxation time tau of friction with memory (s); 0 for the exact
+     *  friction law. */
     double
     time() const
     {
       return tau;
     }
 
-    /** Weight lambda of the previous delayed normal stress p_n in a step of
-     *  size h (s). */
+    /** Weight lambda of the previous delayed normal stress p_n in the new one,
+     *  for a step of size h (s). */
     double
     remembered(const double h) const
     {
@@ -74,9 +77,9 @@ namespace geocone::GEOCONE_DIM
       return part * p + (1. - part) * s_n;
     }
 
-    /** Returns true for strongly non-associated laws, for which the value
-     *  "automatic" activates friction memory. @param non_associativity (a -
-     *  b)/a
+    /** Returns true for strongly non-associated laws, in which the value
+     *  "automatic" activates friction with memory. @param non_associativity (a
+     *  - b)/a
      *  @param aperture_left sin(phi) - sin(theta) */
     static bool
     is_hard(const double non_associativity, const double aperture_left);

@@ -22,10 +22,9 @@ namespace geocone::GEOCONE_DIM
     double size = 0.; ///< step size h (s)
 
     /**
-     * Weight of the normal stress at t_n in the yield condition, for lagged
-     * friction. The weight is set by the solver: 0 is the exact law, 1 explicit
-     * friction (doc/theory/friction_memory.md). Laws without friction ignore
-     * it.
+     * Weight of the lagged normal stress (at t_n) in the yield condition. The
+     * weight is set by the solver: 0 is the exact law, 1 explicit friction
+     * (doc/theory/friction_memory.md). Laws without friction ignore it.
      */
     double friction_lag = 0.;
   };
@@ -220,8 +219,8 @@ namespace geocone::GEOCONE_DIM
                  const SectionPlane &plane) const override;
 
     /**
-     * Yield cone of an implicit step: flow_cone() with the delayed part of the
-     * normal stress (FlowCone::delayed()).
+     * Yield cone of an implicit step: flow_cone(), but with the delayed part of
+     * the normal stress (FlowCone::delayed()).
      * @param stress_n,history_n state of the point at t_n
      */
     virtual std::optional<FlowCone>
@@ -292,8 +291,8 @@ namespace geocone::GEOCONE_DIM
     }
 
     /** Plastic work density minus the dissipation density of the exact law
-     *  without memory, for three-dimensional laws (J/m^3). The difference can
-     *  be negative.
+     *  (without friction memory), for three-dimensional laws (J/m^3). The
+     *  difference can be negative.
      *  @param history of the point */
     virtual double
     power_beyond_strength(const SpatialMandel & /*plastic_strain*/,
@@ -328,8 +327,8 @@ namespace geocone::GEOCONE_DIM
     Mandel
     nearest_admissible(const Mandel &stress, const double *history) const;
 
-    /** Reduces the strength: divides c and tan(phi) of the parameter file by F,
-     *  and limits theta to the reduced phi.
+    /** Reduces the strength: divides the c and tan(phi) given in the parameter
+     *  file by F, and limits the dilatancy angle theta to the reduced phi.
      *  @throws InputError for laws without cohesion and friction */
     virtual void
     reduce_strength(const double F);
@@ -368,10 +367,11 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * Threshold of the degree of non-associativity up to which Newton's method
-     * with line search converged on most meshes. The degree is (a - b)/a, with
-     * the apertures a of yield and b of flow. Dilatancy angles theta >= phi/2
-     * correspond to values up to about 1/2.
+     * Threshold between weakly and strongly non-associated laws: largest degree
+     * of non-associativity at which Newton's method with line search converged
+     * on most meshes. The degree is (a - b)/a, with the apertures a of yield
+     * and b of flow. Dilatancy angles theta >= phi/2 correspond to values up to
+     * about 1/2.
      */
     static constexpr double hard_flow = 0.51;
 

@@ -111,8 +111,8 @@ namespace geocone::GEOCONE_DIM
     }
 
   protected:
-    /** Returns true if the yield cone varies nonlinearly with the plastic shear
-     *  of a step (end_cone()). */
+    /** Returns true if the yield cone depends nonlinearly on the plastic shear
+     *  of the step (see end_cone()). */
     virtual bool
     varies() const
     {
@@ -130,7 +130,7 @@ namespace geocone::GEOCONE_DIM
     static FlowCone
     cone_of(const double cohesion, const double phi, const double theta);
 
-    /** Yield cone with the delayed normal stress of a step, see step_cone().
+    /** Yield cone of a step with friction memory, see step_cone().
      *  @param exact cone without memory */
     FlowCone
     with_memory(const FlowCone &exact,

@@ -68,9 +68,10 @@ namespace geocone::GEOCONE_DIM
     }
 
   protected:
-    /** Strength variables of a point in a step: cohesion increase and delayed
-     *  normal stress p. In the strength, p has the weight lambda, and the
-     *  normal stress at the end of the step has the weight 1 - lambda. */
+    /** Strength variables of a point in a step: cohesion increase, and delayed
+     *  normal stress p of friction with memory. In the strength, p has the
+     *  weight lambda, and the normal stress at the end of the step has the
+     *  weight 1 - lambda. */
     struct OwnStrength
     {
       double cohesion = 0.; ///< increase above the law's cohesion (Pa)

@@ -71,12 +71,13 @@ namespace geocone::GEOCONE_DIM
   protected:
     using Base::Base;
 
-    /** Steady-state value of the delayed normal stress p at a constant stress
-     *  (Pa). */
+    /** Steady-state value at constant stress of the delayed normal stress p of
+     *  friction with memory (Pa). */
     virtual double
     remembered_stress(const Stress &stress) const = 0;
 
-    /** Index of the delayed normal stress p among the history variables.
+    /** Index, among the history variables, of the delayed normal stress p of
+     *  friction with memory.
      *  @pre the relaxation time is positive */
     unsigned int
     index_of_memory() const
@@ -84,13 +85,14 @@ namespace geocone::GEOCONE_DIM
       return Base::n_history();
     }
 
-    /** Delayed normal stress (Pa) and its weight (-) in the yield condition. */
+    /** Delayed normal stress (Pa) of friction with memory, and its weight (-)
+     *  in the yield condition. */
     struct FrictionHistory
     {
       double part, stress;
     };
 
-    /** Computes the delayed part of the normal stress for friction memory.
+    /** Computes the delayed part of the normal stress for friction with memory.
      *  Lagged friction of a solver increases the weight of this part, also
      *  without friction memory.
      *  @param s_n normal stress at the beginning of the step (Pa) */

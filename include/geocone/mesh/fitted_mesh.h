@@ -31,7 +31,7 @@ namespace geocone::GEOCONE_DIM
               const bool            parts_bodies = true);
 
   /**
-   * Creates a triangular mesh of the body by gmsh, or reads the mesh file of
+   * Creates a triangular mesh of the body with gmsh, or reads the mesh file of
    * the scene. Materials and sides are assigned. Collective.
    * @param vertices points on the outline that become vertices of the mesh
    * @param lines lines that become edges of the mesh, as far as they lie in the

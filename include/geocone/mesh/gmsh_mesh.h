@@ -27,7 +27,7 @@ namespace geocone::GEOCONE_DIM
   /** Straight lines that become mesh edges inside the domain. */
   using MeshLines = std::vector<std::array<dealii::Point<dim>, 2>>;
 
-  /** Creates an unstructured mesh of a box or polygon by gmsh. Collective. */
+  /** Creates an unstructured mesh of a box or polygon with gmsh. Collective. */
   CoarseMesh
   unstructured_mesh(const MeshParameters &parameters,
                     const Regions        &regions,
@@ -66,9 +66,9 @@ namespace geocone::GEOCONE_DIM
                   const MPI_Comm        comm);
 
   /**
-   * Reads a mesh from a .msh file (see msh_file.h), or creates the mesh by a
-   * .geo script if scripts are allowed. Collective: the first rank reads the
-   * file or runs the script.
+   * Reads a mesh from a .msh file (see msh_file.h), or generates it from a .geo
+   * script if scripts are allowed. Collective: the first rank reads the file or
+   * runs the script.
    * @param contacts contacts along which nodes of bodies can be separate, or
    * null
    * @throws InputError if the file is neither, or the mesh is not supported

@@ -62,7 +62,8 @@ namespace geocone::GEOCONE_DIM
       /** Tag of the geometric entity (curve, surface or volume) that contains
        *  the element. */
       int entity;
-      /** Index of the element's list of physical groups in #group_lists. */
+      /** Index in #group_lists of the list of physical groups to which the
+       *  element belongs. */
       unsigned int groups;
       /** Node tags of the element, followed by zeros. */
       std::array<std::uint64_t, 8> nodes;
@@ -76,7 +77,7 @@ namespace geocone::GEOCONE_DIM
     };
 
     /**
-     * Index of a given list of physical groups in #group_lists. A new list is
+     * Index in #group_lists of a given list of physical groups. A new list is
      * appended.
      */
     unsigned int

@@ -9,12 +9,12 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Josephy-Newton direction (Josephy 1979), which linearises the momentum
-   * balance but retains the exact contact laws. The end point of the direction
-   * satisfies the contact laws exactly, whichever nodes are in contact, stick
-   * or slide. The body is condensed to the potential contact nodes, with one
-   * right-hand side per velocity component of these nodes (CondensedContact);
-   * the motions of free obstacles are eliminated.
+   * Josephy-Newton direction (Josephy 1979): the momentum balance is
+   * linearised, but the contact laws remain exact. The end point of the
+   * direction satisfies the contact laws exactly, whichever nodes are in
+   * contact, stick or slide. The body is condensed to the potential contact
+   * nodes, with one right-hand side per velocity component of these nodes
+   * (CondensedContact); the motions of free obstacles are eliminated.
    */
   class ContactDirection
   {
@@ -48,10 +48,11 @@ namespace geocone::GEOCONE_DIM
           Vector                &direction);
 
     /**
-     * Directional residual R.d at the iterate, minus the work of the contact
-     * forces. The contact forces at the end of the direction act as loads. For
-     * associated flow the derivative of a convex function, with its minimum at
-     * the end of the direction if the momentum balance is linear. Collective.
+     * Directional residual R.d along the direction d at the iterate, minus the
+     * work of the contact forces. The contact forces at the end of the
+     * direction act as loads. For associated flow the derivative of a convex
+     * function, with its minimum at the end of the direction if the momentum
+     * balance is linear. Collective.
      */
     double
     slope(const Vector &direction) const;

@@ -68,8 +68,8 @@ namespace geocone::GEOCONE_DIM
     virtual ~Globalisation() = default;
 
     /**
-     * Weight w of the elastic stiffness in the blended tangent (1 - w) C + w D
-     * for the next direction.
+     * Weight w of the elastic stiffness D in the blended tangent (1 - w) C + w
+     * D, for the next Newton direction.
      * @param residual relative residual (by the norm of the forces)
      */
     virtual double
@@ -102,14 +102,14 @@ namespace geocone::GEOCONE_DIM
     }
   };
 
-  /** Globalisation by full steps with a blend of tangent and elastic stiffness.
-   *  The weight w = min(1/2, c |R_free| / |B'V s|) vanishes with the
+  /** Globalisation by full Newton steps with a blend of tangent and elastic
+   *  stiffness. The weight w = min(1/2, c |R_free| / |B'V s|) vanishes with the
    *  residual. */
   class ElasticBlend : public Globalisation
   {
   public:
-    /** Empirical values of the factor c in the weight of the elastic
-     *  stiffness. */
+    /** Empirical factors c in the weight w = min(1/2, c |R_free| / |B'V s|) of
+     *  the elastic stiffness. */
     static constexpr double with_return_map = 0.3, with_natural_map = 0.05;
 
     /** @param factor c */

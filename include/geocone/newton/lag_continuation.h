@@ -23,21 +23,23 @@ namespace geocone::GEOCONE_DIM
     unsigned int allowed_on_path    = 60;    ///< iterations on the path
     bool         elastic_first      = false; ///< elastic tangent D first
 
-    /** True if a continuation path that ends before friction lag 0 is accepted.
-     *  The solution for the smallest lag is then used. Otherwise the step
-     *  fails. */
+    /** True if the continuation may end with lagged friction, before the exact
+     *  law (friction lag 0) is reached. The solution for the smallest lag is
+     *  then used. Otherwise the step fails. */
     bool keeps_lag = true;
 
     /** Solves the step with the exact friction law, starting from the solution
-     *  for explicit friction. Explicit friction is a convex problem. */
+     *  with explicit friction (strength from the stresses at t_n). Explicit
+     *  friction is a convex problem. */
     void
     solve_from_explicit_friction(const StepWorkspace &work) const
     {
       from_explicit_friction(0., tolerance, work);
     }
 
-    /** Follows the solution path from the friction lag first_lag towards 0, as
-     *  long as the iterations converge. */
+    /** Follows the path of solutions from the first friction lag (weight of
+     *  lagged normal stress) towards the exact law, as long as the iterations
+     *  converge. */
     void
     solve_on_path(const StepWorkspace &work) const;
 
@@ -49,13 +51,14 @@ namespace geocone::GEOCONE_DIM
                            const double         accuracy,
                            const StepWorkspace &work) const;
 
-    /** Solves the problem with the first friction lag of the path, first_lag.
-     *  If necessary, the initial guess is the solution for explicit
-     *  friction. */
+    /** Solves the problem with the first friction lag of the path, i.e. the
+     *  largest weight of the lagged normal stress. If necessary, the initial
+     *  guess is the solution for explicit friction. */
     void
     solve_first(const StepWorkspace &work) const;
 
-    /** Creates the Newton iteration for a given friction lag. */
+    /** Creates the Newton iteration for a given friction lag (weight of the
+     *  lagged normal stress in the yield condition). */
     NewtonLoop
     loop(const double       lag,
          const double       accuracy,

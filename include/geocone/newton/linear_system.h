@@ -69,7 +69,7 @@ namespace geocone::GEOCONE_DIM
       return matrix.n_owned;
     }
 
-    /** Number of matrix entries stored on this MPI rank. */
+    /** Number of nonzero (stored) matrix entries on this MPI rank. */
     std::size_t
     n_nonzeros() const
     {

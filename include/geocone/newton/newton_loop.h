@@ -21,22 +21,22 @@ namespace geocone::GEOCONE_DIM
   struct NewtonLoop
   {
     /**
-     * Relative residual below which an iterate is a useful initial guess for
-     * the next attempt or friction lag. Iterations beyond the allowed number
-     * are then justified.
+     * Threshold for useful initial guesses: an iterate with a smaller relative
+     * residual is the initial guess of the next attempt. Iterations beyond the
+     * allowed number are then justified.
      */
     static constexpr double near = 1e-3;
 
-    /** Relative residual above which an iterate is considered far from a
-     *  solution. */
+    /** Threshold of the relative residual above which an iterate is considered
+     *  far from a solution. */
     static constexpr double far = 0.1;
 
     LocalLaw     law;
     double       tolerance          = 1e-10; ///< relative, for |R_free|
     double       absolute_tolerance = 1e-12; ///< for |R_free| (N/m)
     unsigned int allowed            = 60;    ///< iterations; doubled if near
-    /** Allowed number of iterations while no point yields and only contact is
-     *  nonlinear. */
+    /** Maximum number of iterations while no point yields and contact is the
+     *  only nonlinearity. */
     unsigned int allowed_without_flow =
       std::numeric_limits<unsigned int>::max();
     /** Number of iterations after which the loop terminates if the iterate is

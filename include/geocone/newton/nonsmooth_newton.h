@@ -48,13 +48,13 @@ namespace geocone::GEOCONE_DIM
     void
     check(const IncrementalProblem &problem) const;
 
-    /** Hints from the time stepper for the solution of a step. */
+    /** Hints from the time stepper to the solver for the solution of a step. */
     struct Hints
     {
       bool elastic_first = false; ///< elastic tangent in iteration 1
 
-      /** Largest accepted share of the plastic work caused by lagged friction
-       *  in a converged step (SolverReport::excess_share). */
+      /** Largest accepted value, in a converged step, of the share of plastic
+       *  work that is due to lagged friction (SolverReport::excess_share). */
       double accepted_excess = std::numeric_limits<double>::infinity();
     };
 
@@ -86,9 +86,9 @@ namespace geocone::GEOCONE_DIM
       return formulation.word();
     }
 
-    /** Returns true if lagged friction is excluded. Reasons are the parameter
-     *  for friction, or a formulation with stresses as the only unknowns, which
-     *  admits the exact law only. */
+    /** Returns true if lagged friction is excluded, by a parameter or by the
+     *  formulation. Reasons are the parameter for friction, or a formulation
+     *  with stresses as the only unknowns, which admits the exact law only. */
     bool
     wants_exact_friction() const
     {
@@ -132,8 +132,8 @@ namespace geocone::GEOCONE_DIM
 
     LinearSolverParameters linear;
 
-    /** Parameters for the treatment of friction, in the section of the time
-     *  discretisation. */
+    /** Parameters that select the exact friction law or lagged friction, in the
+     *  section of the time discretisation. */
     struct Friction : dealii::ParameterAcceptor
     {
       Friction();
@@ -166,8 +166,8 @@ namespace geocone::GEOCONE_DIM
             const std::vector<Mandel> &start_of_s,
             const StepWorkspace       &work) const;
 
-    /** Performs the continuation in the friction lag for one attempt of the
-     *  plan.
+    /** Performs a numerical continuation from lagged friction to the exact law,
+     *  for one attempt of the plan.
      *  @param accepted_excess see Hints */
     void
     continue_from_lag(const Try           &next,

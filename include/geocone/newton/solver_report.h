@@ -35,12 +35,12 @@ namespace geocone::GEOCONE_DIM
     double       residual       = 0.; ///< relative, of the last iterate
     double       friction_lag   = 0.; ///< lag of the solved law; 0: exact
 
-    /** Share of the plastic work caused by lagged friction (-), see
+    /** Share of plastic work that is due to lagged friction (-), see
      *  InternalForces::excess_share(). */
     double excess_share = 0.;
 
     /** True if the solution with lagged friction differs too much from the
-     *  exact friction law. */
+     *  solution with the exact friction law. */
     bool exceeds = false;
 
     /** True if rounding prevents the residual from reaching the tolerance. */

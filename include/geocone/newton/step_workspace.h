@@ -39,11 +39,11 @@ namespace geocone::GEOCONE_DIM
            const double          friction_lag) const;
 
     /**
-     * Returns true if the momentum balance is satisfied: |R_free| <=
-     * max(tolerance x force norm, absolute, c N). N is the estimated rounding
-     * error, InternalForces::rounding_floor(). At contact nodes the criterion
-     * is relative to the contact forces. N is used only if it is small itself,
-     * and is reported.
+     * Returns true if the residual R satisfies the momentum balance in the free
+     * dofs: |R_free| <= max(tolerance x force norm, absolute, c N). N is the
+     * estimated rounding error, InternalForces::rounding_floor(). At contact
+     * nodes the criterion is relative to the contact forces. N is used only if
+     * it is small itself, and is reported.
      */
     bool
     is_balanced(const ResidualReport &state,
@@ -77,8 +77,10 @@ namespace geocone::GEOCONE_DIM
     factorise(const double elastic_blend) const;
 
     /**
-     * Solves the Newton system [K -H'; H 0] (dv, dlambda) = (-R - K jump,
-     * defect) with the last factorisation.
+     * Solves the Newton system for the direction dv and the multiplier
+     * increments dlambda, with the last factorisation. The system is [K -H'; H
+     * 0] (dv, dlambda) = (-R - K jump, defect), with the increments jump of
+     * prescribed velocities.
      * @param prescribed increment of the prescribed velocities, or null if zero
      * @param[out] direction dv at all degrees of freedom
      */
