@@ -25,7 +25,8 @@ namespace geocone
   class EnergyBalance
   {
   public:
-    /** Tolerance of the numerically created energy, relative to turnover(). */
+    /** Threshold for a warning: numerically created energy, relative to the
+     *  reference energy turnover(). */
     static constexpr double tolerance = 0.01;
 
     /** Sets the energies of the body at the start of the run. */
@@ -97,8 +98,8 @@ namespace geocone
       return last.sum() + done.dissipated() + taken_away - done.external;
     }
 
-    /** Potential energy released since the start of the run (J/m), without removed
-     *  parts of the body. */
+    /** Potential energy released by the body since the start of the run (J/m),
+     *  without removed parts of the body. */
     double
     released() const
     {
@@ -110,7 +111,8 @@ namespace geocone
     double
     turnover() const;
 
-    /** Warns once if the numerically created energy exceeds 1 % of turnover().
+    /** Warns once if the numerically created energy exceeds 1 % of the
+     *  reference energy turnover().
      *  @param least lower limit of the turnover (J/m) */
     void
     warn_if_created(Log               &log,
@@ -120,7 +122,7 @@ namespace geocone
                     const std::string &remedy);
 
     /**
-     * Returns the topic "energy" of summary.json.
+     * Returns the section "energy" of summary.json.
      * @param unit converts a unit of plane strain into the unit of the scene
      * @param weight_changes whether the potential energy changes with the weight
      */

@@ -67,7 +67,8 @@ namespace geocone::GEOCONE_DIM
     void
     write_points(const double time, const std::vector<PointArrays> &groups);
 
-    /** Returns the topics of summary.json with the results of all steps.
+    /** Returns the sections (topics) of summary.json that contain the results
+     *  of all steps.
      *  @param counts since the start, of all ranks */
     Json
     results(const LawCounts &counts) const;

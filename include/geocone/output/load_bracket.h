@@ -45,12 +45,12 @@ namespace geocone
     std::optional<double>
     gap() const;
 
-    /** Topic "bounds" of summary.json. Entries: lower, upper, gap, middle, certified;
-     *  null if undefined. */
+    /** Section "bounds" of summary.json. Entries: lower, upper, gap, middle,
+     *  certified; null if undefined. */
     Json
     bounds() const;
 
-    /** Topic "non_associated" of summary.json: certified bounds and Davis's
+    /** Section "non_associated" of summary.json: certified bounds and Davis's
      *  estimate. */
     Json
     non_associated() const;

@@ -102,8 +102,8 @@ namespace geocone::GEOCONE_DIM
     unsigned int verbosity = 1;
 
     /**
-     * Writes summary.json with the topics "run" and "warnings" and the topics of the
-     * method.
+     * Writes summary.json with the sections "run" and "warnings" and the
+     * sections of the method.
      * @param status running | finished | failed: why
      * @param topics of the method, in order of output
      * @throws StepFailure if the status is "finished" but a number is not finite; the

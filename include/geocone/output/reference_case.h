@@ -45,9 +45,9 @@ namespace geocone
       return asked;
     }
 
-    /** Topic "reference" of summary.json. The entries value and relative_error
-     *  (value/expected - 1) are null if the summary does not contain the
-     *  quantity. */
+    /** Section "reference" of summary.json. The entries value and
+     *  relative_error (value/expected - 1) are null if the summary does not
+     *  contain the quantity. */
     Json
     topic(const Json &summary) const;
 

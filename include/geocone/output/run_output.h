@@ -124,7 +124,8 @@ namespace geocone::GEOCONE_DIM
                  const Kinematics               &kinematics,
                  const std::vector<RigidMotion> &moved_obstacles);
 
-    /** Returns the topics of summary.json with the results of all steps. */
+    /** Returns the sections (topics) of summary.json that contain the results
+     *  of all steps. */
     Json
     results() const;
 
@@ -170,8 +171,8 @@ namespace geocone::GEOCONE_DIM
 
     /** @name Topics of the summary */
     /** @{ */
-    /** Appends the final topics of summary.json: factor of safety, bounds, errors and
-     *  failure. */
+    /** Appends the final sections of summary.json: factor of safety, bounds,
+     *  errors and failure. */
     void
     add_outcome(Json &json) const;
 
@@ -210,8 +211,8 @@ namespace geocone::GEOCONE_DIM
     std::optional<double>
     bracketed_load(const Json &of_run) const;
 
-    /** Warns if the regularisation by friction with memory changes the result by more
-     *  than about 1 %. */
+    /** Warns if friction with memory contributes to the plastic work, and
+     *  recommends a comparison if its effect exceeds 0.5 %. */
     void
     warn_of_memory() const;
 
@@ -223,8 +224,8 @@ namespace geocone::GEOCONE_DIM
     bool
     load_is_number() const;
 
-    /** Warns once if the load of a step deviates by more than half from the loads of
-     *  the adjacent steps. */
+    /** Warns once if the load of a step differs by more than 50 % from the mean
+     *  load of the previous and the next step, if these two are about equal. */
     void
     warn_of_jump();
 

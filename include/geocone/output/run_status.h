@@ -22,8 +22,8 @@ namespace geocone
   Json
   read_summary(const std::string &file_name);
 
-  /** Topic "run" of summary.json. It contains the process, host, start time and
-   *  time of the last update (UTC, ISO 8601). */
+  /** Section "run" of summary.json. It contains the process, host, start time
+   *  and time of the last update (UTC, ISO 8601). */
   Json
   run_topic();
 

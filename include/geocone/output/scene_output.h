@@ -13,8 +13,8 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Output common to all methods that analyse a scene: columns of statistics.csv and
-   * topics of summary.json.
+   * Output common to all methods that analyse a scene: columns of
+   * statistics.csv and sections of summary.json.
    * @tparam Record a StepRecord
    */
   template <typename Record>
@@ -56,8 +56,9 @@ namespace geocone::GEOCONE_DIM
       this->make_folder(options);
     }
 
-    /** Converts a unit of plane strain into the unit of the scene's geometry. See
-     *  Geometry::unit(). */
+    /** Converts a unit of plane strain to the unit of the present problem:
+     *  without "per metre of thickness" in axisymmetric and three-dimensional
+     *  problems. See Geometry::unit(). */
     std::string
     unit(const std::string &in_plane_strain) const
     {
@@ -141,8 +142,8 @@ namespace geocone::GEOCONE_DIM
 
     /** @name Topics of all summaries */
     /** @{ */
-    /** Adds the topic "points" to summary.json: final displacements of the observed
-     *  points. */
+    /** Adds the section "points" to summary.json: final displacements of the
+     *  observed points. */
     void
     add_points(Json &summary) const
     {
@@ -154,7 +155,7 @@ namespace geocone::GEOCONE_DIM
                    finite_or_null(displacements[i][d]);
     }
 
-    /** Returns the topic "energy" of summary.json. @param weight_changes see
+    /** Returns the section "energy" of summary.json. @param weight_changes see
      *  EnergyBalance::json() */
     Json
     energy(const bool weight_changes) const
