@@ -11,15 +11,15 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Executes the program with its command-line arguments, for scenes of dimension
-   *  dim.
+  /** Executes the program for scenes of dimension dim, with the given
+   *  command-line arguments.
    *  @return the exit code */
   int
   run_geocone(int argc, char **argv);
 
   /**
-   * Checks a parameter file for scenes of dimension dim, as the option --dry-run
-   * does.
+   * Checks the parameter file of a scene of dimension dim without running it,
+   * as the option --dry-run does.
    * @param call command line with the other options
    * @throws InputError if the file is invalid
    */

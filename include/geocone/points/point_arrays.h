@@ -93,8 +93,8 @@ namespace geocone::GEOCONE_DIM
 
     const unsigned int of_material;
 
-    /** True while ramped forces remove these points from the body (see
-     *  Stage). */
+    /** True if the points of this array are being removed gradually, by ramping
+     *  down their mass (see Stage). */
     bool ramped = false;
 
   private:

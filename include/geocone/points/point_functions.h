@@ -117,8 +117,8 @@ namespace geocone::GEOCONE_DIM
       return affine_velocity(B, moment(x, positions), gradient, size);
     }
 
-    /** Second moment D = sum_i N_i (x_i - x)(x_i - x)' of the nodes about a
-     *  point, for APIC (m^2). */
+    /** Second moment of the nodes about a point, D = sum_i N_i (x_i - x)(x_i -
+     *  x)', for APIC (m^2). */
     dealii::Tensor<2, dim>
     moment(const dealii::Point<dim> &x, const Positions &positions) const
     {

@@ -44,7 +44,7 @@ namespace geocone::GEOCONE_DIM
     void
     prepare(const Scene &scene);
 
-    /** Function that is called with each seed (initial particle). */
+    /** Type of functions that are called with each seed (initial particle). */
     using Take = std::function<void(const Seed &)>;
 
     /** @name Seeds in the cells of this rank of a mesh (collective). Seeds on
@@ -131,7 +131,8 @@ namespace geocone::GEOCONE_DIM
           const Detail                       detail,
           const Take                        &take) const;
 
-    /** Block of seeds, and flags for the columns present in a particle file. */
+    /** Block of seeds, and flags for the columns that are present in a particle
+     *  file. */
     using Block     = std::vector<Seed>;
     using Given     = std::array<bool, ParticleFile::n_columns>;
     using TakeBlock = std::function<void(Block &, const Given &)>;
@@ -141,8 +142,8 @@ namespace geocone::GEOCONE_DIM
     void
     visit_all(const Scene &scene, const TakeBlock &take) const;
 
-    /** Completes a seed by data of the scene that the particle file does not
-     *  contain. */
+    /** Completes a seed with the data that the particle file does not contain,
+     *  taken from the scene. */
     void
     describe(Seed        &seed,
              const Scene &scene,

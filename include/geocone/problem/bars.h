@@ -78,8 +78,8 @@ namespace geocone::GEOCONE_DIM
      *  segment. Normal and shear forces are constant in a segment. */
     std::vector<PlatePoint> points;
 
-    /** Returns the plate point at which a quantity, e.g. size_of_moment(), is
-     *  largest. Of several points the first is returned. */
+    /** Returns the plate point with the largest value of a quantity, e.g.
+     *  size_of_moment(). Of several points the first is returned. */
     template <typename Value>
     const PlatePoint &
     largest(const Value &value) const
@@ -147,16 +147,16 @@ namespace geocone::GEOCONE_DIM
     std::vector<std::vector<unsigned int>>
     node_groups() const override;
 
-    /** Adds the tangent stiffness of the bars selected for assembly to the
-     *  Jacobian. */
+    /** Adds the tangent stiffness to the Jacobian, for those bars whose
+     *  stiffness is assembled. */
     void
     linearise(const JacobianPattern &pattern,
               const double           elastic_blend,
               SparseMatrix          &matrix) const override;
 
-    /** Low-rank tangent stiffness of the bars that are not assembled into the
-     *  Jacobian, over the owned free dofs. It belongs to the last call of
-     *  residual().
+    /** Low-rank tangent stiffness of the other bars, which are not assembled
+     *  into the Jacobian, over the owned free dofs. It belongs to the last call
+     *  of residual().
      *  @param elastic_blend as in linearise() */
     LowRank
     low_rank(const double elastic_blend) const;
@@ -186,9 +186,9 @@ namespace geocone::GEOCONE_DIM
   private:
     using Row = std::vector<std::pair<unsigned int, double>>;
 
-    /** Nonzero coefficients of a linear functional b.x of the owned dofs. They are
-     *  stored for the x and y components, and for the (rotated) dofs of the
-     *  step. */
+    /** Nonzero coefficients of a linear functional b.x of the dofs x owned by
+     *  this rank. They are stored for the x and y components, and for the
+     *  (rotated) dofs of the step. */
     struct Functional
     {
       Row along_axes, row;
@@ -211,8 +211,9 @@ namespace geocone::GEOCONE_DIM
       bool             bends     = false; ///< bending at a node of a plate
       double           k = 0.; ///< EA/L (N/m^2), or EI over a length (N)
 
-      /** Flags for the assembly of the bar's tangent stiffness: by any rank, and
-       *  by this rank. Then the coefficients b on this rank, including ghosts. */
+      /** Flags that state whether the bar's tangent stiffness is assembled on
+       *  any rank and on this rank. The member assembled contains the
+       *  coefficients b on this rank, including ghosts. */
       bool is_assembled = false, is_assembled_here = false;
       Row  assembled;
 
@@ -253,8 +254,8 @@ namespace geocone::GEOCONE_DIM
       }
     };
 
-    /** Plate: the points tied to the body, the segments between these points, and
-     *  the bending at all points except free ends. */
+    /** Plate: the points tied to the body, the segments between these points,
+     *  and the bending stiffness at all points except free ends. */
     struct Plate
     {
       std::vector<dealii::Point<dim>> points;
@@ -281,11 +282,12 @@ namespace geocone::GEOCONE_DIM
      *  ranks and for points outside the body. */
     using Tie = std::vector<std::pair<unsigned int, double>>;
 
-    /** Weight vectors of point displacements in a linear functional. */
+    /** Points whose displacements enter a linear functional, each with a vector
+     *  of weights. */
     using Factors = std::vector<std::pair<const Tie *, dealii::Tensor<1, dim>>>;
 
-    /** Coefficients b that express a weighted sum of point displacements by the
-     *  dofs, including ghosts. Collective. */
+    /** Coefficients b by which the dofs, including ghosts, express a weighted
+     *  sum of point displacements. Collective. */
     Vector
     row_of(const Factors &factors) const;
 
@@ -302,12 +304,13 @@ namespace geocone::GEOCONE_DIM
               std::vector<dealii::Point<dim>> points,
               const std::vector<Tie>         &ties);
 
-    /** Computes the coefficients b of all bars along the (rotated) dofs of the
-     *  step. Collective. */
+    /** Computes the vectors b of all bars in terms of the (possibly rotated)
+     *  dofs of the step. Collective. */
     void
     set_rows();
 
-    /** Scalar products b.x of all bars, summed over the ranks. Collective. */
+    /** Scalar products b.x of all bars with a vector x of the dofs, summed over
+     *  the ranks. Collective. */
     std::vector<double>
     products(const Vector &x) const;
 

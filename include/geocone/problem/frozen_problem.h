@@ -40,8 +40,9 @@ namespace geocone::GEOCONE_DIM
     std::vector<double> start;      ///< initial guess (m/s)
     /** @} */
 
-    /** Ghost stencils (GhostStencil): three nodes per stencil. There are also
-     *  three coefficients and the stiffness k (Pa) per stencil. */
+    /** Stencils of the ghost stiffness (GhostStencil): three nodes per stencil.
+     *  There are also three coefficients and the stiffness k (Pa) per
+     *  stencil. */
     std::vector<int>    ghost_nodes;
     std::vector<double> ghost_values;
 

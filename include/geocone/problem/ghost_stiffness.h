@@ -11,8 +11,8 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Three adjacent spline basis functions along a grid direction. The support of the
-   *  last basis function contains very little material. */
+  /** Stencil of three adjacent spline basis functions along a grid direction.
+   *  The support of the last basis function contains very little material. */
   struct GhostStencil
   {
     std::array<unsigned int, 3> node;        ///< local node numbers
@@ -21,12 +21,13 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Viscous force that couples low-mass basis functions to adjacent basis functions. A
-   * basis function whose support contains only a few particles near its boundary has
-   * almost no mass and stiffness: a load on it causes spurious velocities, a thousand
-   * times larger than in the surroundings. With x2 the Greville abscissa of the
-   * low-mass function, and x0, x1 those of the next two functions towards the
-   * material, the stiffness acts on
+   * Ghost stiffness: viscous force that couples low-mass basis functions to
+   * adjacent basis functions. A basis function whose support contains only a
+   * few particles near its boundary has almost no mass and stiffness: a load on
+   * it causes spurious velocities, a thousand times larger than in the
+   * surroundings. With x2 the Greville abscissa of the low-mass function, and
+   * x0, x1 those of the next two functions towards the material, the stiffness
+   * acts on
    *   g = v2 - (1 + a) v1 + a v0 = c.v,   a = (x2 - x1)/(x1 - x0),
    * which is zero for linear fields. Force and work in a step h are
    *   R += k h c g,   k = gamma E (1 - fill/0.2),   W = h^2 sum k g^2 >= 0.
@@ -59,8 +60,8 @@ namespace geocone::GEOCONE_DIM
     void
     add_elastic_diagonal(Vector &dst) const override;
 
-    /** Work W of the ghost forces in a step with the velocities v (J/m).
-     *  Collective. */
+    /** Work W of the ghost stiffness forces in a step with the velocities v
+     *  (J/m). Collective. */
     double
     work(const Vector &v) const;
 
@@ -80,7 +81,8 @@ namespace geocone::GEOCONE_DIM
          const Vector       &v,
          const unsigned int  component);
 
-    /** Adds the forces k h c g(v) of all stencils to @p part, including ghosts. */
+    /** Adds the ghost stiffness forces k h c g(v) of all stencils to @p part,
+     *  including ghosts. */
     void
     add_forces(Vector &part, const Vector &v) const;
 
@@ -99,7 +101,8 @@ namespace geocone::GEOCONE_DIM
   public:
     GhostPlaces(const BackgroundMesh &mesh, const Space &space);
 
-    /** Threshold of fill() below which a basis function is low-mass. */
+    /** Threshold of fill() below which a basis function is low-mass and
+     *  receives ghost stiffness. */
     static constexpr double least_fill = 0.2;
 
     /** Fraction of the support of a basis function that contains material, sum_p V_p
@@ -112,8 +115,9 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * Ghost stencils of all low-mass basis functions with nonzero mass. They exist in
-     * each direction in which the adjacent functions have a larger fill.
+     * Stencils of the ghost stiffness for all low-mass basis functions with
+     * nonzero mass. They exist in each direction in which the adjacent
+     * functions have a larger fill.
      * @param volume at the dofs of each node sum_p V_p N_i (m^2) and sum_p V_p
      * E_p N_i (N), with ghosts
      * @param is_wanted selected nodes, by local node; empty: all

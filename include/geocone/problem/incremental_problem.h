@@ -32,9 +32,10 @@ namespace geocone::GEOCONE_DIM
 
     double local_error = 0.; ///< see InternalForces::local_error()
 
-    /** Norm of the contact equations over the potential contact nodes, and sum of
-     *  their reference forces Contact::Touch::size (N/m). Contact forces can be
-     *  small compared with the internal forces of the soil. */
+    /** Norm of the contact equations and sum of the reference forces
+     *  Contact::Touch::size (N/m), both over the potential contact nodes.
+     *  Contact forces can be small compared with the internal forces of the
+     *  soil. */
     double contact_norm = 0., contact_size = 0.;
   };
 
@@ -114,15 +115,16 @@ namespace geocone::GEOCONE_DIM
                ContactStep   touching = {});
 
     /**
-     * Evaluates the trial states and the residual R(v) with the options of
-     * LocalLaw. In the rows of prescribed dofs R is the reaction; in the rows of
-     * contact nodes, F of Contact. The ghosts of @p v must be up to date.
+     * Evaluates the trial states of the points and the residual R(v), with the
+     * options of LocalLaw. In the rows of prescribed dofs R is the reaction; in
+     * the rows of contact nodes, F of Contact. The ghosts of @p v must be up to
+     * date.
      */
     ResidualReport
     residual(Vector &dst, const Vector &v, const LocalLaw &law = {});
 
-    /** Creates a natural map, which can replace the return maps in residual().
-     *  Arguments as for NaturalMap. */
+    /** Creates a natural map, which can replace the return mapping in
+     *  residual(). Arguments as for NaturalMap. */
     NaturalMap
     make_natural_map(const double rho, const std::vector<Mandel> &start) const
     {
@@ -156,13 +158,14 @@ namespace geocone::GEOCONE_DIM
     SparseMatrix
     make_pattern(const bool one_triangle);
 
-    /** Number of the node to which each row of the Jacobian belongs. Collective. */
+    /** Number of the node to which each row of the Jacobian belongs, for
+     *  algebraic multigrid. Collective. */
     NodalRows
     nodal_rows() const;
 
-    /** Returns true if the Jacobian of the step needs a new sparsity pattern. This
-     *  is so if other dofs are coupled than in the last pattern. Collective with
-     *  contact. */
+    /** Returns true if the Jacobian of this step requires a new sparsity
+     *  pattern. This is so if other dofs are coupled than in the last pattern.
+     *  Collective with contact. */
     bool
     needs_pattern() const;
 
@@ -280,7 +283,8 @@ namespace geocone::GEOCONE_DIM
     freeze(const Vector &start) const;
 
   private:
-    /** Friend, since Reduction formulates the problem in stresses from all data. */
+    /** Friend, since Reduction needs all data to formulate the problem with
+     *  stresses as the unknowns. */
     friend class Reduction;
 
     const MaterialPoints                                            &points;
@@ -311,8 +315,8 @@ namespace geocone::GEOCONE_DIM
     Links links_now; ///< Contact::links() of the current step
     Links links;     ///< Contact::links() of the last pattern
 
-    /** Factorisation of the constraint matrix H in the metric of scale(), for the
-     *  current step. It can be empty. */
+    /** Factorisation of the constraint matrix H for the current step, in the
+     *  metric of the diagonal scale(). It can be empty. */
     Multipliers::Factors row_factors;
   };
 } // namespace geocone::GEOCONE_DIM

@@ -50,8 +50,8 @@ namespace geocone::GEOCONE_DIM
     void
     add_elastic_diagonal(Vector &dst) const override;
 
-    /** Computes the product dst = M x with the mass matrix in all rows. The ghosts
-     *  of @p x must be up to date. */
+    /** Computes dst = M x in all rows, with the mass matrix M. The ghosts of
+     *  @p x must be up to date. */
     void
     apply_mass(Vector &dst, const Vector &x) const;
 
@@ -61,7 +61,8 @@ namespace geocone::GEOCONE_DIM
       return mass;
     }
 
-    /** Fraction c of the consistent mass matrix in the mass matrix M. */
+    /** Fraction c of the consistent (instead of lumped) mass matrix in the mass
+     *  matrix M. */
     double
     consistent_part() const
     {

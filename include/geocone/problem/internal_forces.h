@@ -20,10 +20,11 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Residuals of the cone law at a computed state, independent of the solver. They
-   * are maxima over all points, with z = S (s - s_n) - h B v recomputed from the
-   * state, y = Psi(z), the stress scale max |s| + max k, and the strain scale max
-   * |y|, at least stress scale/2G (without plastic flow y is rounding).
+   * Residuals of the yield cone and flow rule at a computed state, independent
+   * of the solver. They are maxima over all points, with z = S (s - s_n) - h B
+   * v recomputed from the state, y = Psi(z), the stress scale max |s| + max k,
+   * and the strain scale max |y|, at least stress scale/2G (without plastic
+   * flow y is rounding).
    */
   struct Quality
   {
@@ -37,8 +38,9 @@ namespace geocone::GEOCONE_DIM
      *  members refer to the law that was solved. */
     double cone_excess = 0.;
 
-    /** Relative natural-map residual |s - P_C(s - 2G y)| / stress scale of the
-     *  exact cone law. It equals natural_map if the exact law was solved. */
+    /** Residual |s - P_C(s - 2G y)| of the natural map of the exact law,
+     *  divided by the stress scale. It equals natural_map if the exact law was
+     *  solved. */
     double exact_natural_map = 0.;
 
     /** Ratio of excess plastic work to plastic work in the step, see
@@ -147,8 +149,8 @@ namespace geocone::GEOCONE_DIM
     double
     rounding_floor(const Vector &v) const;
 
-    /** Evaluates the residuals of the cone law for the trial states. The result is
-     *  the same on all ranks.
+    /** Evaluates the residuals of the yield cone and flow rule for the trial
+     *  states of the points. The result is the same on all ranks.
      *  @param excess_work result of excess_work() (J/m) */
     Quality
     quality(const double excess_work) const;
@@ -158,9 +160,10 @@ namespace geocone::GEOCONE_DIM
     std::string
     not_a_number() const;
 
-    /** Excess plastic work due to lagged friction or friction with memory (J/m). It
-     *  is the sum of V |z_t| ||s_t| - a s_n - k| over the plastic points: 0 for the
-     *  exact law. Collective. */
+    /** Plastic work due to the difference between the strength used and that of
+     *  the exact law, caused by lagged friction or friction with memory (J/m).
+     *  It is the sum of V |z_t| ||s_t| - a s_n - k| over the plastic points: 0
+     *  for the exact law. Collective. */
     double
     excess_work() const;
 
@@ -197,7 +200,7 @@ namespace geocone::GEOCONE_DIM
     std::vector<double>
     trial_history() const;
 
-    /** Plastic strain increment -z of a material point. */
+    /** Plastic strain increment -z of a material point in the step. */
     SpatialMandel
     plastic_strain_increment(const unsigned int point) const;
 
@@ -246,8 +249,9 @@ namespace geocone::GEOCONE_DIM
       return {h, friction_lag};
     }
 
-    /** Updates the stresses and plastic modes (elastic, cone, apex) of all points.
-     *  The second version also updates tangents, for the points [begin, end). */
+    /** Updates the stresses of all points, and their plastic modes: elastic,
+     *  cone or apex. The second version also updates tangents, for the points
+     *  [begin, end). */
     void
     update_materials(const bool with_tangent) const;
     void
@@ -283,8 +287,8 @@ namespace geocone::GEOCONE_DIM
                        const WeightedHoopStress &weighted_hoop_stress,
                        double                   *cell_f) const;
 
-    /** Adds the low-rank contribution of CellPressures to the stiffness matrix K
-     *  of a cell. */
+    /** Adds the low-rank contribution of CellPressures, i.e. of B-bar in
+     *  dilatant soil, to the stiffness matrix K of a cell. */
     template <int n>
     void
     add_pressure_stiffness(const unsigned int              c,

@@ -13,8 +13,8 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Local equations of the incremental problem by the natural map (Guillet et al.
-   * 2025, eq 60). At each point
+   * Local equations of the incremental problem in the form of the natural map s
+   * - P_C(s - rho Psi(z)) (Guillet et al. 2025, eq 60). At each point
    *   z = S (s - s_n) - e,   R = s - P_C(s - rho Psi(z)),   e = h B v,
    * where s is an additional unknown, and a Newton step from (v, s) has
    *   A ds = rho J Psi' de - R,   A = I - J + rho J Psi' S,

@@ -107,7 +107,7 @@ namespace geocone::kernels
           f[dim * i + d] += g[n * ((d + c) % dim) + i] * t[d][(d + c) % dim];
   }
 
-  /** Positions of the entries of a tensor in a Mandel vector. */
+  /** Indices of the entries of a tensor in a Mandel vector. */
   struct PlacesOfTensor
   {
     constexpr PlacesOfTensor()
@@ -133,9 +133,10 @@ namespace geocone::kernels
       f(std::integral_constant<unsigned int, 2>());
   }
 
-  /** Component d of the product t g of a tensor t and a gradient g. The tensor is
-   *  given by at(r), entry r of the Mandel vector, with shear entries divided by
-   *  sqrt2; the components of g are n values apart. */
+  /** Component d of the product t g of a symmetric tensor t and a shape
+   *  function gradient g. The tensor is given by at(r), entry r of the Mandel
+   *  vector, with shear entries divided by sqrt2; the components of g are n
+   *  values apart. */
   template <int n, unsigned int d, typename F, std::size_t... k>
   [[gnu::always_inline]] inline auto
   along(const double *g, const F &at, std::index_sequence<k...>)

@@ -20,8 +20,9 @@ namespace geocone
     bool          points_move        = false; ///< material points (MPM)
     bool          scales_loads       = false; ///< load stepping to the limit
 
-    /** Returns true if stresses must be computed by return maps. Some laws have no
-     *  natural map, and cell pressures exclude it. */
+    /** Returns true if stresses must be computed by return mapping (not by the
+     *  natural map). Some laws have no natural map, and cell pressures exclude
+     *  it. */
     bool
     needs_return_map() const
     {

@@ -11,31 +11,34 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Options by which residual() evaluates stresses and contact forces. */
+  /** Options by which IncrementalProblem::residual() evaluates stresses and
+   *  contact forces. */
   struct LocalLaw
   {
-    /** Fraction of the lagged normal stress (at t_n) in the strength evaluated by
-     *  return maps (Increment::friction_lag). */
+    /** Weight of the lagged normal stress (at t_n) in the yield condition of
+     *  the return mapping (StepLaw::friction_lag); 0: exact law. */
     double friction_lag = 0.;
 
-    /** Natural map that replaces the return maps; null if return maps are used.
-     *  Each residual() updates it. */
+    /** Natural map that replaces the return mapping; null if the return mapping
+     *  is used. Each residual() updates it. */
     NaturalMap *natural_map = nullptr;
 
-    /** True if contact has friction. The solution without friction is an initial
-     *  guess for the solution with friction. */
+    /** True if contact is frictional, false if friction is omitted. The
+     *  solution without friction is an initial guess for the solution with
+     *  friction. */
     bool contact_friction = true;
 
-    /** True if initially active contacts are bilateral. The bilateral solution is
-     *  an initial guess for the solution with separation. */
+    /** True if initially active contacts are bilateral, false if they can open.
+     *  The bilateral solution is an initial guess for the solution with
+     *  separation. */
     bool contact_is_bilateral = false;
   };
 
   /**
-   * Term of the residual R(v) of an implicit step. R is the sum of all terms.
-   * Member functions not overridden contribute zero. Forces are per metre of
-   * thickness (N/m); at rotated dofs (Unknowns::turned_nodes) they have the
-   * components along the rotated axes.
+   * Term of the residual R(v) of an implicit step, which is the sum of all
+   * terms. R is the sum of all terms. Member functions not overridden
+   * contribute zero. Forces are per metre of thickness (N/m); at rotated dofs
+   * (Unknowns::turned_nodes) they have the components along the rotated axes.
    */
   class Term
   {
@@ -50,8 +53,8 @@ namespace geocone::GEOCONE_DIM
     virtual void
     residual(Vector &part, const Vector &v, const LocalLaw &law) = 0;
 
-    /** Appends the squared reference norms of the term, by which the residual is
-     *  normalised. They are sums on this rank: |part|^2 unless overridden. */
+    /** Appends the squared reference norms of the term, which normalise the
+     *  residual. They are sums on this rank: |part|^2 unless overridden. */
     virtual void
     add_sizes(const Vector &part, std::vector<double> &sizes) const
     {

@@ -12,8 +12,9 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Transforms cell vectors and cell matrices to the rotated dofs of nodes
-   * (Unknowns::turned_nodes). Without rotated dofs it has no cost.
+   * Transforms cell vectors and cell matrices to rotated dofs, i.e. nodal
+   * components along rotated axes (Unknowns::turned_nodes). Without rotated
+   * dofs it has no cost.
    */
   class TurnedDofs
   {
@@ -26,12 +27,13 @@ namespace geocone::GEOCONE_DIM
       dealii::Tensor<2, dim> axes; ///< unit vectors, by rows
     };
 
-    /** Rotated axes of a node of a cell; null if the dofs are not rotated. */
+    /** Rotated axes of a node of a cell; null if the dofs of the node are not
+     *  rotated. */
     const Turn *
     turn_of(const unsigned int c, const unsigned int node) const;
 
-    /** Transforms the nodal velocities of a cell from components along the dofs to
-     *  Cartesian components. */
+    /** Transforms the nodal velocities of a cell from components along the
+     *  rotated axes of the nodes to Cartesian components. */
     void
     velocities_to_xy(const unsigned int c, double *cell_v) const
     {
@@ -40,7 +42,7 @@ namespace geocone::GEOCONE_DIM
     }
 
     /** Transforms the nodal forces of a cell from Cartesian components to
-     *  components along the dofs. */
+     *  components along the rotated axes of the nodes. */
     void
     forces_to_dofs(const unsigned int c, double *cell_f) const
     {
@@ -48,8 +50,8 @@ namespace geocone::GEOCONE_DIM
         turn_forces(c, cell_f);
     }
 
-    /** Transforms the rows and columns of a cell matrix from Cartesian components
-     *  to components along the dofs.
+    /** Transforms a cell matrix (rows and columns) from Cartesian components to
+     *  components along the rotated axes of the nodes.
      *  @param n_dofs number of rows
      *  @param upper whether only the upper triangle is set */
     void

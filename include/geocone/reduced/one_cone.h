@@ -8,9 +8,9 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Stress solutions of the complementarity problem of a single cone (Pa), one per
-   *  column. There is at most one inside the cone, one at the apex and four on the
-   *  surface. */
+  /** Stresses (Pa) that solve the complementarity problem of a single cone, one
+   *  solution per column. There is at most one inside the cone, one at the apex
+   *  and four on the surface. */
   using OneConeSolutions = Eigen::
     Matrix<double, n_mandel, Eigen::Dynamic, Eigen::ColMajor, n_mandel, 6>;
 

@@ -64,7 +64,8 @@ namespace geocone::GEOCONE_DIM
       return m.size() > 0;
     }
 
-    /** Nodal vector diag(m) G's of stresses s, from the factors G and m of W. */
+    /** Nodal vector diag(m) G's due to stresses s, with the factors G and m of
+     *  the matrix W. */
     Eigen::VectorXd
     nodal(const Eigen::VectorXd &s) const;
 
@@ -76,7 +77,8 @@ namespace geocone::GEOCONE_DIM
     MandelMatrix
     diagonal_block(const unsigned int p) const;
 
-    /** Dual variable z = W s - C lambda + q. */
+    /** Dual variable z = W s - C lambda + q, for given stresses s and
+     *  multipliers lambda. */
     Eigen::VectorXd
     z(const Eigen::VectorXd &s, const Eigen::VectorXd &lambda) const;
 

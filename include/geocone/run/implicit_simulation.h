@@ -71,8 +71,9 @@ namespace geocone::GEOCONE_DIM
     void
     prepare_mesh(const RunOptions &options);
 
-    /** Enables friction with memory in scenes for which the exact law is unlikely to
-     *  converge. */
+    /** Enables friction with memory (regularised friction with a time delay,
+     *  doc/theory/friction_memory.md) in scenes for which Newton's method is
+     *  unlikely to converge with the exact law. */
     void
     remember_friction();
 
@@ -159,8 +160,9 @@ namespace geocone::GEOCONE_DIM
     double         last_size  = 0.; ///< size of the current or last step (s)
     double         done       = 0.; ///< completed part of the current step (s)
     bool           is_in_step = false; ///< whether a step has begun
-    /** Number of consecutive halvings of the substep because lagged friction differs
-     *  too much from the exact law (SolverReport::exceeds). */
+    /** Number of consecutive times that the substep was halved because the
+     *  solution with lagged friction differed too much from the exact law
+     *  (SolverReport::exceeds). */
     unsigned int   halved_for_excess = 0;
     ImplicitRecord present;      ///< record of the current or last step
     double         reached = 0.; ///< time of the last converged substep (s)

@@ -14,9 +14,9 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Estimated size of a run (numbers, memory, files), computed from the parameters
-   * before any data are allocated. The estimate is printed; runs that would exceed the
-   * memory are rejected.
+   * Estimated size of a run (numbers of cells, unknowns and points; memory;
+   * files), computed from the parameters before any data are allocated. The
+   * estimate is printed; runs that would exceed the memory are rejected.
    *
    * Nodes per cell: 1/2, 2, 9/2 for P1, P2, P3 (each vertex has six triangles), p^2 for
    * Q1 to Q3, 1 for splines. Memory, as measured (doc/performance.md): implicit runs 160
@@ -46,8 +46,9 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Estimates the numbers, the memory and the files of a run. The scene and the method
-   * must be prepared; this function prepares the seeding.
+   * Estimates the numbers of cells, unknowns and points of a run, and its
+   * memory and files. The scene and the method must be prepared; this function
+   * prepares the seeding.
    * @param seeding of the particles, or nullptr for FEM
    */
   RunEstimate

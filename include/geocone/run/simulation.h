@@ -134,7 +134,7 @@ namespace geocone::GEOCONE_DIM
     write_fields(const double)
     {}
 
-    /** Topics of summary.json, in the order results, size, cost. */
+    /** Sections of summary.json, in the order results, size, cost. */
     virtual Json
     topics() = 0;
 

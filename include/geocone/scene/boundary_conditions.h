@@ -206,8 +206,8 @@ namespace geocone::GEOCONE_DIM
      *  n_x), for tractions only, has the body on its left. */
     std::optional<Expression> normal, tangential;
 
-    /** Evaluates a Cartesian (< dim) or normal (dim) component of the
-     *  prescribed vector. @pre the component is prescribed */
+    /** Evaluates a component of the prescribed vector. @pre the component is
+     *  prescribed */
     double
     value(const unsigned int        component,
           const dealii::Point<dim> &x,
@@ -216,15 +216,15 @@ namespace geocone::GEOCONE_DIM
       return (component < dim ? components[component] : normal)->value(x, t);
     }
 
-    /** Returns the sum of the prescribed normal and tangential components as a
-     *  vector. @param n outward unit normal */
+    /** Returns the part of the prescribed vector that is given by normal and
+     *  tangential components. @param n outward unit normal */
     dealii::Tensor<1, dim>
     vector_on_side(const dealii::Point<dim>     &x,
                    const dealii::Tensor<1, dim> &n,
                    const double                  t) const;
 
-    /** Rejects a prescribed normal velocity. Called by methods that do not
-     *  support it. @throws InputError
+    /** Rejects a boundary condition that prescribes a normal velocity. Called
+     *  by methods that do not support it. @throws InputError
      *  @param allowed,remedy texts of the error message */
     void
     refuse_normal(const std::string &allowed, const std::string &remedy) const;

@@ -174,8 +174,9 @@ namespace geocone::GEOCONE_DIM
       return length_of(volume / measure(symmetry, x));
     }
 
-    /** Returns the unit of a quantity for the symmetry of the problem. In
-     *  axisymmetry, units are not per metre of thickness.
+    /** Converts a unit of plane strain to the unit of the present problem:
+     *  without "per metre of thickness" in axisymmetric and three-dimensional
+     *  problems. In axisymmetry, units are not per metre of thickness.
      *  @param in_plane_strain unit in plane strain, e.g. "N/m" or "load (N/m)"
      *  or "energy_J_per_m" */
     std::string
@@ -192,8 +193,8 @@ namespace geocone::GEOCONE_DIM
                             {"discs", Shape::discs},
                             {"file", Shape::file}}};
 
-    /** Vertices of the outer boundary of a box or polygon, in order. Empty for
-     *  discs and files. */
+    /** Vertices of the outer boundary of a box or polygon, in order along the
+     *  boundary. Empty for discs and files. */
     Polygon outline;
 
     /** Holes in the body, as polygons inside the outer boundary. */
@@ -267,8 +268,8 @@ namespace geocone::GEOCONE_DIM
     void
     check_discs();
 
-    /** Estimates the area (m^2) or volume (m^3) of the body from sampling
-     *  points on a lattice. */
+    /** Estimates the area (m^2) or volume (m^3) of the body from points on a
+     *  lattice that covers the body. */
     double
     area_of_samples() const;
 

@@ -50,10 +50,10 @@ namespace geocone
     On          on;
     Share (*share)(const PrescribedParticle &); ///< constraint of a particle
     bool single; ///< one constraint for each particle
-    /** If true, constraints prescribe the particle velocity at the end of the
-     *  step instead of the grid velocity N v. With FLIP the particle velocity
-     *  is v_p + N (v - v^L), equations (66) to (69) of Guillet et al.
-     *  (2025). */
+    /** True if constraints prescribe the particle velocity at the end of the
+     *  step, false if they prescribe the grid velocity N v at the particle.
+     *  With FLIP the particle velocity is v_p + N (v - v^L), equations (66) to
+     *  (69) of Guillet et al. (2025). */
     bool through_flip = false;
   };
 

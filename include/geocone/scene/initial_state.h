@@ -110,8 +110,8 @@ namespace geocone::GEOCONE_DIM
                               {"given", Type::given},
                               {"geostatic", Type::geostatic}}};
 
-    /** Returns the type of the initial stress in a material: zero, given or
-     *  geostatic. */
+    /** Returns how the initial stress in a material is defined: zero, by
+     *  formulas or geostatic. */
     Type
     type_of(const unsigned int material) const
     {

@@ -297,9 +297,9 @@ namespace geocone::GEOCONE_DIM
     neighbours(const std::vector<RigidMotion> &moved,
                const double                    margin) const;
 
-    /** Returns the names of two overlapping obstacles, at least one of them
-     *  free. The text is empty if there are none. Contact between obstacles is
-     *  not computed.
+    /** Returns the names of two obstacles that overlap, if at least one of them
+     *  is free. The text is empty if there are none. Contact between obstacles
+     *  is not computed.
      *  @param moved displacements since the start
      *  @param margin tolerance for overlap (m) */
     std::string

@@ -29,8 +29,8 @@ namespace geocone::GEOCONE_DIM
      *  exposed to air. */
     std::optional<double> level;
 
-    /** Rainfall rate per horizontal area (m/s): an upper limit of
-     *  infiltration. */
+    /** Rainfall rate per horizontal area (m/s), the upper limit on the
+     *  infiltration rate. */
     double rain = 0.;
 
     /** Vertices (m) of the polyline that represents a drain in the body. Empty

@@ -173,8 +173,8 @@ namespace geocone::GEOCONE_DIM
     std::vector<const Structure *>
     plates() const;
 
-    /** Replaces blanks in the name of a structure by underscores, for a key of
-     *  summary.json. */
+    /** Replaces the blanks in the name of a structure by underscores, for use
+     *  as a key of summary.json. */
     static std::string
     key_of(std::string name);
   };

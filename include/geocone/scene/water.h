@@ -59,7 +59,7 @@ namespace geocone::GEOCONE_DIM
     is_level() const;
 
     /** Returns true if the seepage force varies within the cells of a mesh, as
-     *  for pressures from a file or from seepage. */
+     *  for pore pressures from a file or a seepage analysis. */
     bool
     varies_in_cells() const
     {
@@ -124,8 +124,8 @@ namespace geocone::GEOCONE_DIM
     dealii::Tensor<1, dim>
     force(const dealii::Point<dim> &x, const std::size_t line = 0) const;
 
-    /** Returns the interpolation weights for the pore pressures at time t, one
-     *  for each piezometric line or flow problem. The weights sum to 1. */
+    /** Returns the weights by which the pore pressures of all piezometric lines
+     *  and flow problems are interpolated at time t. The weights sum to 1. */
     std::vector<double>
     parts(const double t) const;
 

@@ -46,8 +46,9 @@ namespace geocone::GEOCONE_DIM
      *  rain (m^2/s; m^3/s in axisymmetry). */
     std::vector<double> inflow;
 
-    /** Variable s of the normal map at each vertex. Positive: psi, or at
-     *  seepage faces the scaled outflow; negative: chi - 1. */
+    /** Variable s of the normal map (a form of the complementarity conditions)
+     *  at each vertex. Positive: psi, or at seepage faces the scaled outflow;
+     *  negative: chi - 1. */
     std::vector<double> s;
 
     unsigned int iterations = 0;

@@ -32,7 +32,7 @@ namespace geocone::GEOCONE_DIM
       bool   is_edge = false; ///< nearest point on an edge or vertex
     };
 
-    /** Other obstacles that cover parts of the boundary of a shape. */
+    /** Set of other obstacles that cover parts of the boundary of a shape. */
     struct Cover
     {
       /** Function that returns true if a point lies in another obstacle; empty
@@ -233,8 +233,8 @@ namespace geocone::GEOCONE_DIM
     }
 
   private:
-    /** End of a flat side: an edge of a polyhedron, or a vertex of a polygon (a
-     *  = b). */
+    /** Part of the boundary of a flat side: the edge ab of a face of a
+     *  polyhedron, or an end point of a side of a polygon (then a = b). */
     struct End
     {
       Point  a, b;
@@ -243,7 +243,8 @@ namespace geocone::GEOCONE_DIM
       Point
       nearest(const Point &x) const;
 
-      /** Distance by which a point lies beyond this end of the side (m). */
+      /** Distance by which a point lies beyond this part of the boundary of the
+       *  side (m). */
       double
       beyond(const Point &x) const
       {
@@ -264,8 +265,9 @@ namespace geocone::GEOCONE_DIM
       Point
       nearest(const Point &x, const double tolerance, bool &is_end) const;
 
-      /** Point of the side near @p p with the minimum distance @p by from all
-       *  ends. If the side is too narrow, it is the midpoint. */
+      /** Point of the side that is close to @p p and at least the distance
+       *  @p by away from the boundary of the side. If the side is too narrow,
+       *  it is the midpoint. */
       Point
       inset(const Point &p, const double by) const;
 

@@ -91,8 +91,8 @@ namespace geocone::GEOCONE_DIM
     double load_factor = 1.;
 
     /**
-     * Relative error of the discrete energy identity of the step on the grid.
-     * The identity is
+     * Relative error of the energy balance of a step, in the discrete form on
+     * the grid. The identity is
      *   dE_kin + dE_el + sum V s'(-z) + |v - vL|_M^2/2 + sum V ds'S ds/2 = work
      * The residual is divided by the largest term.
      */
@@ -177,7 +177,7 @@ namespace geocone::GEOCONE_DIM
   double
   largest_plastic_strain(const MaterialPoints &points, const MPI_Comm comm);
 
-  /** Returns the relative error of the energy identity
+  /** Returns the relative error of the discrete energy balance
    *  (StepReport::identity_error) in the last step. Collective. */
   double
   energy_identity_error(const IncrementalProblem &problem,
@@ -291,7 +291,8 @@ namespace geocone::GEOCONE_DIM
     virtual std::string
     linear_solver_name() const = 0;
 
-    /** Returns the number of matrix entries of the Jacobian on this rank. */
+    /** Returns the number of nonzero (stored) entries of the Jacobian on this
+     *  rank. */
     virtual std::size_t
     n_nonzeros() const = 0;
 

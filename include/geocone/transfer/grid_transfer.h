@@ -198,8 +198,8 @@ namespace geocone::GEOCONE_DIM
     }
 
   protected:
-    /** Sums over the points of each cell: point volumes, and products of point
-     *  volume and value. */
+    /** Sums over the points of each cell: of the point volumes, and of the
+     *  products of point volume and point value. */
     std::vector<double> sums_of_cells;
   };
 } // namespace geocone::GEOCONE_DIM

@@ -19,7 +19,8 @@ namespace geocone::GEOCONE_DIM
   template <int p>
   using ValuesAtFour = double[dim][p + 1][4];
 
-  /** Data of one grid direction, replicated in all lanes of a vector. */
+  /** Data of one grid direction, with each value in all lanes of a SIMD
+   *  vector. */
   template <typename P, int p>
   struct PackedAxis
   {
@@ -104,8 +105,8 @@ namespace geocone::GEOCONE_DIM
           find_each(grid.axes[d], lowest[d], xi[d], N[d], dN[d]);
     }
 
-    /** Returns the address of the nodal values of the lowest node of point @p
-     *  m. */
+    /** Returns the address of the nodal values of the first node (lowest index)
+     *  in the support at point @p m. */
     const double *
     read(const GridView &grid, const int m) const
     {
@@ -133,8 +134,8 @@ namespace geocone::GEOCONE_DIM
         slope = slope * xi + c(power);
     }
 
-    /** Evaluates the basis functions one by one, for four points on intervals
-     *  with the same coefficients. */
+    /** Evaluates the basis functions one by one, for four points in intervals
+     *  with the same polynomial coefficients. */
     static void
     find(const P (&c)[2 * p + 1][p + 1],
          const P &xi,
