@@ -79,7 +79,8 @@ namespace geocone::GEOCONE_DIM
      *  (N/m). */
     double unbalanced_force = 0.;
 
-    /** Mean reaction force and moment of each boundary condition on the body. */
+    /** Mean force and moment that each boundary condition exerts on the
+     *  body. */
     std::vector<Reaction> reactions;
 
     /** Saves or restores the statistics of an interrupted step, except the
@@ -92,9 +93,10 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Explicit material point method with the orders of operations MUSL, USL and USF.
-   * The method follows section 2 of the STSM report. The elastic wave speed limits
-   * the time step (Courant condition),
+   * Explicit material point method with three orders of operations: stress
+   * update last (USL), modified last (MUSL) or first (USF). The method follows
+   * section 2 of the STSM report. The elastic wave speed limits the time step
+   * (Courant condition),
    *   dt = C h/(c + v),  c^2 = max M V/m,  v = max |v_p|.
    * With basis functions N at the start of the step and boundary conditions on
    * the sides of the grid, the three orders of operations are
@@ -201,7 +203,7 @@ namespace geocone::GEOCONE_DIM
     void
     save(Archive &archive);
 
-    /** Replaces the points seeded by prepare() by the points of a checkpoint.
+    /** Replaces the points seeded in prepare() with the points of a checkpoint.
      *  @throws RunError if the checkpoint does not match the scene */
     void
     load(const Archive &archive);
@@ -386,7 +388,7 @@ namespace geocone::GEOCONE_DIM
     void
     refresh();
 
-    /** Mass of the points of this rank (kg/m). */
+    /** Total mass of the points of this rank (kg/m). */
     double
     current_mass() const;
 
@@ -424,7 +426,9 @@ namespace geocone::GEOCONE_DIM
     double
     kinetic_energy(const PointArrays &group, const unsigned int p) const;
 
-    /** Unit of a quantity for the geometry of the scene, see Geometry::unit(). */
+    /** Converts a unit of plane strain to the unit of the present problem:
+     *  without "per metre of thickness" in axisymmetric and three-dimensional
+     *  problems. */
     std::string
     unit(const std::string &in_plane_strain) const
     {

@@ -145,8 +145,8 @@ namespace geocone::GEOCONE_DIM
     }
 
   private:
-    /** Returns a component of the nodal force, which the points have scattered
-     *  to the nodes (N/m). */
+    /** Component of the nodal force that the points have scattered to a node
+     *  (N/m). */
     double &
     force_at(const unsigned int node, const unsigned int component)
     {

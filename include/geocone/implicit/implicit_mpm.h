@@ -325,9 +325,9 @@ namespace geocone::GEOCONE_DIM
     work_of_changing_gravity(const TimeStep       &step,
                              const MaterialPoints &points) const;
 
-    /** Work done in a step by the weight of fixed quadrature points in a run
-     *  with particles (J/m). As in FEM, the potential energy does not include
-     *  this weight. */
+    /** Work done in a step by the weight of the fixed quadrature points, in a
+     *  run that also has particles (J/m). As in FEM, the potential energy does
+     *  not include this weight. */
     double
     work_on_fixed_points(const TimeStep       &step,
                          const MaterialPoints &points) const;

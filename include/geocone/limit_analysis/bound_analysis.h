@@ -105,7 +105,7 @@ namespace geocone::GEOCONE_DIM
     static void
     check_finite(const double bounds);
 
-    /** Appends the results of a mesh.
+    /** Appends the results of a mesh to the table of refinement levels.
      *  @param[in,out] now the time is set to the number of meshes */
     void
     add_level(BoundLevel level, TimePoint &now);
@@ -127,8 +127,9 @@ namespace geocone::GEOCONE_DIM
     kind_word() const = 0;
     virtual const LoadChoice &
     load_choice() const = 0;
-    /** Checks or computes pore water pressures. Called after the materials and before the
-     *  loads are prepared. */
+    /** Computes the pore water pressures by a seepage analysis, or rejects pore
+     *  water where bounds do not support it. Called after the materials and
+     *  before the loads are prepared. */
     virtual void
     prepare_water(const RunOptions &options) = 0;
     /** Returns true if meshes other than the first mesh can be generated. */

@@ -11,8 +11,9 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Creates the field file of a mesh with both failure mechanisms and the contribution
-   *  of each triangle to the gap. The arguments must outlive the table. */
+  /** Creates the field file of a mesh, with both failure mechanisms and the
+   *  contribution of each triangle to the gap between the bounds. The arguments
+   *  must outlive the table. */
   TriangleTable
   table_of_bounds(const Triangles           &triangles,
                   const BoundUnits          &units,

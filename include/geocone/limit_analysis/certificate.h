@@ -11,8 +11,9 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Tolerance for violations of the yield cones, relative to the largest stress. It
-   *  applies if stresses cannot be scaled back. */
+  /** Largest violation of the yield cones that certified stresses may have,
+   *  relative to the largest stress. It applies if stresses cannot be scaled
+   *  back. */
   constexpr double rounding_strength = 1e-8;
 
   /** Upper or lower bound of the load with its certificate, in scaled units. All values

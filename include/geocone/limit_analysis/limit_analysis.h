@@ -46,8 +46,8 @@ namespace geocone::GEOCONE_DIM
     }
 
   private:
-    /** Returns warnings about the magnitudes of parameters, a fixed mesh and
-     *  time-dependent loads. */
+    /** Returns warnings about magnitudes of parameters, about a mesh file that
+     *  cannot be refined, and about obstacle loads that are zero at t = 0. */
     std::vector<std::string>
     warnings_of(const dealii::BoundingBox<dim> &body) const;
 
@@ -87,7 +87,7 @@ namespace geocone::GEOCONE_DIM
              file_domain->obstacle().empty();
     }
 
-    /** Generates the next mesh from the cell sizes of the refinement. */
+    /** Generates the next mesh with the cell sizes from the refinement. */
     CoarseMesh
     next_mesh() const;
 

@@ -66,9 +66,9 @@ namespace geocone
                        const double           stiffness,
                        Eigen::VectorXd       &F) const = 0;
 
-    /** Updates the multipliers of the constrained rates. The function
-     *  add_constraint_forces() adds the forces of the multipliers and of the
-     *  stiffness. */
+    /** Updates the Lagrange multipliers of those strain rates that the flow
+     *  rule constrains to zero. The function add_constraint_forces() adds the
+     *  forces of the multipliers and of the stiffness. */
     virtual void
     add_multipliers(const Eigen::VectorXd &q, const double stiffness) = 0;
     virtual void
@@ -113,7 +113,8 @@ namespace geocone
 
     /** @name Newton's direction for lambda-scaled right-hand sides d */
     /** @{ */
-    /** Sets the right-hand side d of the predictor step: d = -lambda. */
+    /** Sets the right-hand side d = -lambda of the predictor step, with the
+     *  scaled iterate lambda. */
     virtual void
     predict() = 0;
     /** Sets the right-hand side d of the corrector step: d = -lambda + lambda \ (target e
@@ -136,7 +137,8 @@ namespace geocone
     advance(const double b_x, const double b_z) = 0;
     /** @} */
 
-    /** Adds stress increments due to the velocities x, computed with the last scaling. */
+    /** Adds to the stresses the increments that are due to the velocities x,
+     *  with the last Nesterov-Todd scaling. */
     virtual void
     polish(const Eigen::VectorXd &x) = 0;
 
@@ -475,8 +477,9 @@ namespace geocone
     }
 
   private:
-    /** Penalty stiffness of the constrained rates in the method of multipliers. Strength,
-     *  lengths and velocities are of order one. */
+    /** Penalty stiffness, in the method of multipliers, of the strain rates
+     *  that the flow rule constrains to zero. Strength, lengths and velocities
+     *  are of order one. */
     static constexpr double bulk = 1e6;
 
     /** QR factors of the matrix A of a point's strength law, scaled by the

@@ -57,10 +57,11 @@ namespace geocone::GEOCONE_DIM
                 const Scene                                &scene);
 
   /**
-   * Describes a scene before its first step as JSON (m, m/s, Pa). The description
-   * contains the body and its materials, the mesh, supports, tractions, obstacles,
-   * observed points and the changes in each stage. A prescribed value is the largest
-   * at a few sampled times of the loading programme.
+   * Returns a description of the scene before the first step as a JSON object
+   * (m, m/s, Pa). The description contains the body and its materials, the
+   * mesh, supports, tractions, obstacles, observed points and the changes in
+   * each stage. A prescribed value is the largest at a few sampled times of the
+   * loading programme.
    */
   Json
   model_of(const Scene &scene, const ModelMesh &mesh);
