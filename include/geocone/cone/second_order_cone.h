@@ -235,7 +235,8 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Closed-form return mapping for a cone without Rankine's cut-off.
+   * Closed-form return mapping for a yield cone without the Rankine tension
+   * cut-off.
    *
    * Solution of the one-point problem
    *   s = t + D z with D = diag(K, 2G, ..., 2G),  z from the law of FlowCone
@@ -343,10 +344,10 @@ namespace geocone::GEOCONE_DIM
   }
 
   /**
-   * Return mapping to Rankine's cut-off, for stresses that violate the cut-off after
-   * the return to the cone. The stress is returned to the cut-off, which is an
-   * associated cone of aperture 1, or, if that stress is outside the cone, to the
-   * circle in which cone and cut-off intersect,
+   * Return mapping to the Rankine tension cut-off, for stresses that violate
+   * the cut-off after the return mapping to the cone. The stress is returned to
+   * the cut-off, which is an associated cone of aperture 1, or, if that stress
+   * is outside the cone, to the circle in which cone and cut-off intersect,
    *   s_n = (k + q T - (1 + q) opening)/(1 - a + q),  |s_t| = s_n + opening,
    * with q = h/2G.
    */
@@ -383,8 +384,8 @@ namespace geocone::GEOCONE_DIM
     return Mode::cone;
   }
 
-  /** Return mapping for a cone with all cut-offs. Combines return_map_uncut() and
-   *  return_to_cut_off(). */
+  /** Return mapping for a yield cone with all tension cut-offs. Combines
+   *  return_map_uncut() and return_to_cut_off(). */
   template <typename V, typename M>
   Mode
   return_map(const FlowCone &cone,
@@ -400,8 +401,8 @@ namespace geocone::GEOCONE_DIM
              : mode;
   }
 
-  /** Euclidean projection onto the admissible set of a cone with cut-offs. The flow
-   *  rule has no influence.
+  /** Euclidean projection onto the admissible set of a yield cone with tension
+   *  cut-offs. The flow rule has no influence.
    *  @param[out] jacobian element of the generalised Jacobian, if not null */
   template <typename V,
             typename M =

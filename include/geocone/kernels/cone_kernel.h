@@ -25,10 +25,10 @@ namespace geocone::GEOCONE_DIM
                const PointBlock &block);
 
   /**
-   * Explicit stress update of a material with friction memory, for a block of
-   * points. The yield surface at each point is cone.delayed(part, p), with
-   * tension cut-off. The delayed normal stress p is then replaced by part p +
-   * (1 - part) s_n.
+   * Explicit stress update of a material with friction memory (strength that
+   * follows the normal stress with a delay), for a block of points. The yield
+   * surface at each point is cone.delayed(part, p), with tension cut-off. The
+   * delayed normal stress p is then replaced by part p + (1 - part) s_n.
    * @param cone with a > 0
    * @param part memory factor lambda
    * @param place index of p (Pa) in the history

@@ -206,7 +206,7 @@ namespace geocone::GEOCONE_DIM
       }
   }
 
-  /** Calls the version of the cone kernel with or without friction memory. */
+  /** Calls the cone kernel, in its version with or without friction memory. */
   template <typename Arch>
   void
   advance_cone_block(const ConeNumbers &cone, const PointBlock &block)

@@ -68,7 +68,7 @@ namespace geocone::GEOCONE_DIM
       return k == i ? Dg[0] : k == j ? Dg[1] : Dg_third;
     }
 
-    /** Returns the trial stress onto the yield plane f_13 = 0. @param f f_13 at
+    /** Maps the trial stress back to the yield plane f_13 = 0. @param f f_13 at
      *  t */
     template <typename V>
     void
@@ -78,7 +78,7 @@ namespace geocone::GEOCONE_DIM
         s[i] = t[i] - (f * per_H) * stiff_flow(0, 2, i);
     }
 
-    /** Returns the trial stress onto an edge of the Mohr-Coulomb pyramid. Edge
+    /** Maps the trial stress back to an edge of the Mohr-Coulomb pyramid. Edge
      *  e = 0 is f_13 = f_12 = 0 (s_2 = s_3), edge e = 1 is f_13 = f_23 = 0 (s_1
      *  = s_2). */
     template <typename V>
@@ -96,7 +96,7 @@ namespace geocone::GEOCONE_DIM
       s[1 - e] = s[2 - e] = mean;
     }
 
-    /** Indicator of the pyramid edge onto which a trial stress is returned:
+    /** Indicator of the pyramid edge to which a trial stress is mapped back:
      *  edge 0 if positive, otherwise edge 1. */
     template <typename V>
     P
@@ -105,7 +105,7 @@ namespace geocone::GEOCONE_DIM
       return flow_less * t[0] - (t[1] + t[1]) + flow_more * t[2];
     }
 
-    /** Returns principal trial stresses onto the Mohr-Coulomb pyramid.
+    /** Maps principal trial stresses back to the Mohr-Coulomb pyramid.
      *  @param t principal trial stresses with f_13 = f
      *  @param[out] s principal stresses after the return, if f > 0 */
     void

@@ -167,7 +167,7 @@ namespace geocone::GEOCONE_DIM
                   double * /*history*/) const
     {}
 
-    /** Name of a material parameter given by a formula in the initial
+    /** Name of the material parameter that is given by a formula in the initial
      *  coordinates; empty if there is none. */
     virtual std::string
     formula_of_place() const

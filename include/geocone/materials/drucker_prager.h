@@ -53,8 +53,9 @@ namespace geocone::GEOCONE_DIM
       return cone.b > 0.;
     }
 
-    /** Yield cone of the exact law in three dimensions. No value in plane
-     *  problems, where the law also determines s_zz. */
+    /** Yield cone of the exact law (without friction memory) in three
+     *  dimensions. No value in plane problems, where the law also determines
+     *  s_zz. */
     std::optional<FlowCone>
     flow_cone(const double *history) const override
     {

@@ -68,7 +68,8 @@ namespace geocone::GEOCONE_DIM
       return tau > 0. ? tau / (h + tau) : 0.;
     }
 
-    /** Delayed normal stress p (Pa) at the end of a step of size h (s).
+    /** Delayed normal stress p (Pa) of friction with memory, at the end of a
+     *  step of size h (s).
      *  @param s_n normal stress at the end of the step (Pa) */
     double
     next(const double p, const double s_n, const double h) const

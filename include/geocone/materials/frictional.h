@@ -162,7 +162,8 @@ namespace geocone::GEOCONE_DIM
       return given.gradient != 0. || profile || ratio > 0.;
     }
 
-    /** Increase of the cohesion at a point above the parameter value c (Pa).
+    /** Difference (Pa) between the cohesion at a point and the parameter value
+     *  c.
      *  @param history of the point; null: no increase */
     double
     grown_cohesion(const double *history) const

@@ -26,8 +26,8 @@ namespace geocone
     double gradient = 0.; ///< increase of cohesion with depth (Pa/m)
     double level    = 0.; ///< y at which the cohesion is c (m)
 
-    /** Increase of the cohesion above the parameter c at the coordinate y
-     *  (Pa). */
+    /** Difference (Pa) between the cohesion at the coordinate y and the
+     *  parameter value c. */
     double
     growth(const double y) const
     {

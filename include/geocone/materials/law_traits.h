@@ -20,15 +20,16 @@ namespace geocone
     bool dilates         = false; ///< any law has plastic dilatancy
     bool undrained       = false; ///< any soil is undrained
     /** True if any law without friction memory is strongly non-associated
-     *  (Material::hard_flow). */
+     *  (degree above Material::hard_flow). */
     bool has_hard_flow = false;
 
     double non_associativity = 0.; ///< largest degree, from 0 to 1
-    /** Shortest relaxation time of friction memory over all laws (s); infinite
-     *  without friction memory. */
+    /** Shortest relaxation time of friction with memory over all laws (s);
+     *  infinite if no law has friction memory. */
     double friction_memory = std::numeric_limits<double>::infinity();
 
-    /** Returns true if any law has friction memory. */
+    /** Returns true if any law has friction memory, i.e. a strength that
+     *  follows the normal stress with a delay. */
     bool
     has_friction_memory() const
     {

@@ -9,14 +9,16 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Isotropic linear elasticity, s = s_n + D e. No parameters of its own. */
+  /** Isotropic linear elasticity, s = s_n + D e, with the stress s_n at t_n and
+   *  the strain increment e. No parameters of its own. */
   class LinearElastic : public WithStiffnessFormula<SpatialReturnMap>
   {
   public:
     using WithStiffnessFormula::WithStiffnessFormula;
 
-    /** Returns true in axisymmetry only, where the law computes all stress
-     *  components. In plane strain s_zz follows from the in-plane stresses. */
+    /** Returns true if the law computes all stress components, which is the
+     *  case in axisymmetry only. In plane strain s_zz follows from the in-plane
+     *  stresses. */
     bool
     is_spatial() const override
     {

@@ -250,9 +250,9 @@ namespace geocone::GEOCONE_DIM
     /** @name Formulation of the law as a root of its natural map, see
      *  NaturalMap */
     /** @{ */
-    /** Returns true if the law has a natural map in this space dimension.
-     *  Spatial laws have no natural map in plane problems, where s_zz is not an
-     *  unknown. */
+    /** Returns true if the natural map s - P_C(s - rho Psi(z)) of the law
+     *  exists in this space dimension. Spatial laws have no natural map in
+     *  plane problems, where s_zz is not an unknown. */
     virtual bool
     has_natural_map() const
     {
@@ -302,17 +302,17 @@ namespace geocone::GEOCONE_DIM
       return 0.;
     }
 
-    /** Relaxation time tau of friction memory (s); 0 without friction
-     *  memory. */
+    /** Relaxation time tau (s) with which the strength follows the normal
+     *  stress (friction with memory); 0 without friction memory. */
     virtual double
     friction_memory() const
     {
       return 0.;
     }
 
-    /** Sets the relaxation time tau (s) of laws with automatic friction memory.
-     *  Without effect unless the parameter is "automatic" and the exact law is
-     *  hard to solve. */
+    /** Sets the relaxation time tau (s) of laws whose parameter 'Friction
+     *  memory' is "automatic". Without effect if the exact law is not hard to
+     *  solve. */
     virtual void
     set_friction_memory(const double /*tau*/)
     {}

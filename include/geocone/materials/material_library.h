@@ -120,8 +120,8 @@ namespace geocone::GEOCONE_DIM
       return names()[i];
     }
 
-    /** Sets the relaxation time tau (s) of laws with automatic friction
-     *  memory. */
+    /** Sets the relaxation time tau (s) of laws whose parameter 'Friction
+     *  memory' is "automatic". */
     void
     set_friction_memory(const double tau);
 

@@ -187,8 +187,8 @@ namespace geocone::GEOCONE_DIM
       return SpatialLaw::n_history();
     }
 
-    /** Lower limit of the pressure P: 1 Pa in internal (scaled) units of
-     *  stress. */
+    /** Lower limit of the pressure P: 1 Pa, converted to the selected system of
+     *  units. */
     static double
     lowest()
     {

@@ -45,12 +45,13 @@ namespace geocone::GEOCONE_DIM
     void
     update(const Increment &increment, const Response &response) const override;
 
-    /** Yield cone of the exact law, without friction memory. */
+    /** Yield cone of the exact law (without friction memory). */
     std::optional<FlowCone>
     flow_cone(const double *history) const override;
 
-    /** Returns true if the law has a natural map. The map exists only without
-     *  tension cut-off, because it projects onto the cone alone. */
+    /** Returns true if the natural map s - P_C(s - rho Psi(z)) of the law
+     *  exists. The map exists only without tension cut-off, because it projects
+     *  onto the cone alone. */
     bool
     has_natural_map() const override
     {

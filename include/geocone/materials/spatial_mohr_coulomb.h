@@ -152,9 +152,9 @@ namespace geocone::GEOCONE_DIM
       return {exact.sine, exact.size + size_per_cohesion * cohesion};
     }
 
-    /** Mohr-Coulomb pyramid of a step with friction memory. Part of the normal
-     *  stress in the strength is the delayed normal stress, as in
-     *  FlowCone::delayed(). */
+    /** Mohr-Coulomb pyramid of a step with friction memory, i.e. with delayed
+     *  normal stress. Part of the normal stress in the strength is the delayed
+     *  normal stress, as in FlowCone::delayed(). */
     Pyramid
     delayed(const OwnStrength &own) const;
 

@@ -13,9 +13,10 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Adds optional friction memory to a constitutive law. The strength depends
-   * on a delayed normal stress p (Pa), stored as the history variable after the
-   * variables of the base class.
+   * Adds optional friction memory to a constitutive law: the strength follows
+   * the normal stress with a delay. The strength depends on a delayed normal
+   * stress p (Pa), stored as the history variable after the variables of the
+   * base class.
    * @tparam Base Material, or a class derived from it
    */
   template <typename Base>

@@ -82,7 +82,7 @@ namespace geocone::GEOCONE_DIM
                Vector                &direction) const;
 
     /** Contact forces for which the full Newton step satisfies the contact
-     *  laws, with motion increments of free obstacles. Collective.
+     *  laws, and the motion increments of free obstacles. Collective.
      *  @param without relative velocity increments du of the direction without
      *  contact forces */
     struct End

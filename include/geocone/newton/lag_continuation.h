@@ -9,11 +9,11 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Numerical continuation from lagged friction to the exact friction law. A
-   * law with lagged friction is easier to solve, since it is closer to
-   * associated flow; lag 1 is explicit friction. The exact law is reached on a
-   * path of solutions with a lag that decreases to 0; each solution is the
-   * initial guess of the next, with the line search.
+   * Numerical continuation from lagged friction (strength from the stresses at
+   * t_n) to the exact friction law. A law with lagged friction is easier to
+   * solve, since it is closer to associated flow; lag 1 is explicit friction.
+   * The exact law is reached on a path of solutions with a lag that decreases
+   * to 0; each solution is the initial guess of the next, with the line search.
    */
   struct LagContinuation
   {

@@ -41,8 +41,9 @@ namespace geocone::GEOCONE_DIM
     prepare();
 
     /**
-     * Checks that the selected formulation applies to the problem. To be called
-     * before the first attempt at a step. Collective.
+     * Checks that the selected formulation (return mapping, natural map or
+     * stresses as unknowns) applies to the problem. To be called before the
+     * first attempt at a step. Collective.
      * @throws InputError
      */
     void
@@ -79,7 +80,8 @@ namespace geocone::GEOCONE_DIM
       return {relative_tolerance, absolute_tolerance, max_iterations};
     }
 
-    /** Value of the parameter 'Newton/Formulation'. */
+    /** Value of the parameter 'Newton/Formulation' that selects return mapping,
+     *  natural map or stresses as unknowns. */
     std::string
     formulation_name() const
     {
@@ -157,8 +159,8 @@ namespace geocone::GEOCONE_DIM
     const FirstIterate *
     first_iterate_of_stresses() const;
 
-    /** Performs the Newton iterations for one attempt of the plan, from the
-     *  current iterate.
+    /** Performs the Newton iterations for one attempt of the plan (sequence of
+     *  attempts at solving the step), from the current iterate.
      *  @param start_of_s initial stresses s of the natural map (Pa) */
     void
     iterate(const Try                 &next,
@@ -167,7 +169,7 @@ namespace geocone::GEOCONE_DIM
             const StepWorkspace       &work) const;
 
     /** Performs a numerical continuation from lagged friction to the exact law,
-     *  for one attempt of the plan.
+     *  for one attempt of the plan (sequence of attempts).
      *  @param accepted_excess see Hints */
     void
     continue_from_lag(const Try           &next,

@@ -13,8 +13,8 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Formulation of the incremental problem, selected by the parameter
-   *  'Newton/Formulation'. */
+  /** Formulation of the incremental problem (return mapping, natural map or
+   *  stresses as unknowns), selected by the parameter 'Newton/Formulation'. */
   enum class Formulation
   {
     automatic,
@@ -45,7 +45,8 @@ namespace geocone::GEOCONE_DIM
     exact      ///< solved exactly in each ContactDirection
   };
 
-  /** Attempt at solving a step by Newton's method, an entry of the plan(). */
+  /** Attempt at solving a step by Newton's method, one entry in the sequence of
+   *  attempts (the plan()). */
   struct Try
   {
     static constexpr unsigned int unlimited =

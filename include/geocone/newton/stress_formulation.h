@@ -23,8 +23,8 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Formulation of a step with stresses as the only unknowns, selectable in
-   * NonsmoothNewton.
+   * Formulation in which stresses are the only unknowns of a step, selectable
+   * in NonsmoothNewton.
    */
   struct StressFormulation
   {

@@ -154,9 +154,9 @@ namespace geocone::GEOCONE_DIM
               const double           elastic_blend,
               SparseMatrix          &matrix) const override;
 
-    /** Low-rank tangent stiffness of the other bars, which are not assembled
-     *  into the Jacobian, over the owned free dofs. It belongs to the last call
-     *  of residual().
+    /** Low-rank tangent stiffness, over the owned free dofs, of those bars that
+     *  are not assembled into the Jacobian. It belongs to the last call of
+     *  residual().
      *  @param elastic_blend as in linearise() */
     LowRank
     low_rank(const double elastic_blend) const;

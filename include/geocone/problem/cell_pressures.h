@@ -38,8 +38,9 @@ namespace geocone::GEOCONE_DIM
   class CellPressures
   {
   public:
-    /** Returns true if B-bar is used with dilatant soil, which requires polynomial cell
-     *  pressures. The result is the same on all ranks. */
+    /** Returns true if the B-bar method is used with dilatant soil, for which
+     *  the mean stress must be polynomial in each cell. The result is the same
+     *  on all ranks. */
     static bool
     are_those_of(const MaterialPoints &points, const Materials &materials);
 
@@ -148,10 +149,10 @@ namespace geocone::GEOCONE_DIM
              const double        volumetric_strain);
 
     /**
-     * Selects the polynomial basis of a cell with M_j = 1 at the points where the soil
-     * is softest. Then G does not mix large and small 1/k_p, and sum V M t = 0 is
-     * satisfied to the last digit if the t_p of these points are computed from all
-     * others.
+     * Selects the basis polynomials M_j of a cell, with M_j = 1 at the points
+     * where the soil is softest. Then G does not mix large and small 1/k_p, and
+     * sum V M t = 0 is satisfied to the last digit if the t_p of these points
+     * are computed from all others.
      * @param softness V/k of the points of the cell from the first
      */
     void

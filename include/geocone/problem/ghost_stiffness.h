@@ -129,8 +129,8 @@ namespace geocone::GEOCONE_DIM
              const std::vector<bool> &is_wanted,
              const double             gamma) const;
 
-    /** Number of low-mass basis functions with nonzero mass, summed over all ranks.
-     *  Collective. */
+    /** Number of low-mass basis functions (with little material in their
+     *  support) that have nonzero mass, summed over all ranks. Collective. */
     unsigned int
     n_light(const Vector &volume, const Unknowns &unknowns) const;
 

@@ -43,9 +43,9 @@ namespace geocone::GEOCONE_DIM
      *  solved. */
     double exact_natural_map = 0.;
 
-    /** Ratio of excess plastic work to plastic work in the step, see
-     *  InternalForces::excess_work(). The excess is due to the difference between
-     *  the strength used and the exact strength. */
+    /** Ratio of the plastic work due to lagged friction or friction with memory
+     *  (excess_work()) to the plastic work in the step. The excess is due to
+     *  the difference between the strength used and the exact strength. */
     double excess_share = 0.;
 
     void
@@ -122,14 +122,16 @@ namespace geocone::GEOCONE_DIM
     void
     count_modes(double *counts) const;
 
-    /** Largest relative error of the local equations over all points. It is |R| of
-     *  NaturalMap divided by the stress scale, or CellPressures::difference(); 0
-     *  for the return map alone. Collective. */
+    /** Largest relative error, over all points, of the constitutive equations
+     *  (local equations) of the step. It is |R| of NaturalMap divided by the
+     *  stress scale, or CellPressures::difference(); 0 for the return map
+     *  alone. Collective. */
     double
     local_error() const;
 
-    /** Returns true if cell pressures are used (B-bar with dilatant soil). The
-     *  result is the same on all ranks. */
+    /** Returns true if the mean stress is polynomial in each cell
+     *  (CellPressures), as for B-bar with dilatant soil. The result is the same
+     *  on all ranks. */
     bool
     has_cell_pressures() const
     {
@@ -160,15 +162,16 @@ namespace geocone::GEOCONE_DIM
     std::string
     not_a_number() const;
 
-    /** Plastic work due to the difference between the strength used and that of
-     *  the exact law, caused by lagged friction or friction with memory (J/m).
-     *  It is the sum of V |z_t| ||s_t| - a s_n - k| over the plastic points: 0
-     *  for the exact law. Collective. */
+    /** Excess plastic work: plastic work due to the difference between the
+     *  strength used and the exact strength, with lagged friction or friction
+     *  with memory (J/m). It is the sum of V |z_t| ||s_t| - a s_n - k| over the
+     *  plastic points: 0 for the exact law. Collective. */
     double
     excess_work() const;
 
-    /** Ratio of the excess plastic work to the plastic work of the step; 0 for the
-     *  exact law. Collective. @param excess_work result of excess_work() (J/m) */
+    /** Ratio of the excess plastic work, due to lagged friction or friction
+     *  with memory, to the plastic work of the step. Collective.
+     *  @param excess_work result of excess_work() (J/m) */
     double
     excess_share(const double excess_work) const;
 
@@ -364,8 +367,8 @@ namespace geocone::GEOCONE_DIM
     std::vector<Mode>                 previous_mode;
     mutable std::vector<MandelMatrix> tangent;
 
-    /** Cell pressures for B-bar with dilatant soil. They keep the tangents of the
-     *  last residual() up to date. */
+    /** Polynomial mean stresses of the cells, for B-bar with dilatant soil.
+     *  They keep the tangents of the last residual() up to date. */
     mutable std::optional<CellPressures> cell_pressures;
 
     /** @name Excess pore pressure and total stress: empty without undrained

@@ -57,8 +57,9 @@ namespace geocone::GEOCONE_DIM
     Error
     update(const std::vector<Mandel> &strain, std::vector<Mode> &mode);
 
-    /** Stress s - A^-1 R of each point after the last update() (Pa). Before the
-     *  first update() it is the initial guess. */
+    /** Stress s - A^-1 R of each point after the last update() (Pa), with the
+     *  residual R of the natural map. Before the first update() it is the
+     *  initial guess. */
     const std::vector<Mandel> &
     stress() const
     {
