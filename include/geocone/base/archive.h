@@ -67,8 +67,8 @@ namespace geocone
     std::vector<double>
     read(const std::string &name) const;
 
-    /** Returns the entries of an array that this rank wrote. If the number
-     *  of ranks has changed, an equal share of the array is returned, in
+    /** Returns those entries of an array that were written by this rank. If the
+     *  number of ranks has changed, an equal share of the array is returned, in
      *  complete records of @p size numbers each. */
     std::vector<double>
     read_part(const std::string &name, const std::size_t size) const;
@@ -95,7 +95,7 @@ namespace geocone
      *  a file to be read on all ranks. */
     std::unique_ptr<Hdf5File> file;
 
-    /** Named arrays of an archive without a file. */
+    /** Named arrays of an archive that is kept in memory, without a file. */
     std::map<std::string, std::vector<double>> arrays;
   };
 } // namespace geocone

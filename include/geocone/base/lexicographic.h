@@ -15,8 +15,8 @@ namespace geocone::GEOCONE_DIM
    *  direction. The first direction varies fastest. */
   using GridIndex = std::array<unsigned int, dim>;
 
-  /** Returns the sizes of a structured grid with n entries in each
-   *  direction. */
+  /** Returns the multi-index (n, ..., n): a structured grid with n entries in
+   *  each direction. */
   inline GridIndex
   equal_sizes(const unsigned int n)
   {

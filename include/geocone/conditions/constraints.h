@@ -185,7 +185,7 @@ namespace geocone::GEOCONE_DIM
       unsigned int              first = 0;  ///< offset of Part::place
     };
 
-    /** Integral int N_i n dA over the faces of a cell on which a boundary
+    /** Integral int N_i n dA over those faces of a cell on which a boundary
      *  condition acts. */
     struct Part
     {

@@ -92,8 +92,9 @@ namespace geocone::GEOCONE_DIM
     void
     move(const Vector &v, const double h, const double t);
 
-    /** Boundary segments with prescribed normal velocity that limit the soil
-     *  domain. Only segments normal to a coordinate axis are included. */
+    /** Boundary segments that limit the soil domain because their normal
+     *  velocity is prescribed. Only segments normal to a coordinate axis are
+     *  included. */
     std::vector<SoilLimit>
     soil_limits() const;
 
@@ -103,8 +104,9 @@ namespace geocone::GEOCONE_DIM
     std::pair<dealii::Point<dim>, dealii::Point<dim>>
     box_of(const BoundaryCondition &condition) const;
 
-    /** Marks the local nodes whose shape functions are nonzero on a loaded or
-     *  prescribed boundary segment. Empty without such segments. Collective. */
+    /** Marks the local nodes whose shape functions are nonzero on a boundary
+     *  segment with prescribed traction or velocity. Empty without such
+     *  segments. Collective. */
     std::vector<bool>
     loaded_nodes() const;
 

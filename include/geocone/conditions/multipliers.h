@@ -191,8 +191,8 @@ namespace geocone::GEOCONE_DIM
            const dealii::Point<dim> &centre,
            const Space              &space) const;
 
-    /** Largest relative contribution of low-mass basis functions to a velocity
-     *  constraint. */
+    /** Largest relative contribution of basis functions with little mass to a
+     *  velocity constraint. */
     struct LowMassShare
     {
       double             largest   = 0.; ///< maximum over all rows (-)

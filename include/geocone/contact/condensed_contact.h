@@ -71,9 +71,9 @@ namespace geocone
     {
       Contact contact = Contact::open;
 
-      /** Slip direction d of the tangential contact force r_T. The matrix `turn`
-       *  is the derivative of d with respect to r_T - rho u_T, times the friction
-       *  bound; it is zero for one tangent. */
+      /** Direction d (unit vector) of the tangential contact force r_T during
+       *  slip. The matrix `turn` is the derivative of d with respect to r_T -
+       *  rho u_T, times the friction bound; it is zero for one tangent. */
       Eigen::VectorXd direction;
       Eigen::MatrixXd turn;
 
@@ -86,7 +86,8 @@ namespace geocone
       }
     };
 
-    /** Predicts the contact states of all nodes from u and r = K u + c. */
+    /** Predicts the contact states of all nodes from the velocities u and the
+     *  contact forces r = K u + c. */
     std::vector<State>
     states(const Eigen::VectorXd &u) const;
 

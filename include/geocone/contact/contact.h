@@ -263,9 +263,9 @@ namespace geocone::GEOCONE_DIM
     std::vector<unsigned int>
     choose(const MPI_Comm comm) const;
 
-    /** Replaces the linearised contact equations of the chosen nodes by the
-     *  simpler equations dr + rho du. The simplified equations are used by
-     *  linearise(). The motions of the obstacles are fixed. Collective. */
+    /** Simplifies the left-hand side of the linearised contact equations to
+     *  dr + rho du, at the chosen nodes. It is used by linearise(). The motions
+     *  of the obstacles are fixed. Collective. */
     void
     relax(const std::vector<unsigned int> &chosen);
 
@@ -373,8 +373,8 @@ namespace geocone::GEOCONE_DIM
     void
     make_tangents(ContactNode &node) const;
 
-    /** Combines two contacts of a node with non-parallel normals into a corner
-     *  contact. */
+    /** Combines two contacts of the same node, whose normals are not parallel,
+     *  into a corner contact. */
     static void
     make_corner(ContactNode &a, ContactNode &b);
 

@@ -127,11 +127,11 @@ namespace geocone::GEOCONE_DIM
     std::vector<Reaction>
     reactions(const Contact &contact) const;
 
-    /** Adds the displacement increments of obstacles and bodies in a step to @p
-     *  supports. They are the displacements of each obstacle, then, for each
-     *  contact between bodies, of the first body relative to the other one,
-     *  averaged over active contact nodes. Collective. @param first index of the
-     *  first obstacle in @p supports */
+    /** Adds the displacement increments of obstacles and bodies in a step to
+     *  the support displacements @p supports. They are the displacements of
+     *  each obstacle, then, for each contact between bodies, of the first body
+     *  relative to the other one, averaged over active contact nodes.
+     *  Collective. @param first index of the first obstacle in @p supports */
     void
     add_displacements(const Contact                       &contact,
                       const Vector                        &v,

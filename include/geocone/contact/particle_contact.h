@@ -113,8 +113,8 @@ namespace geocone::GEOCONE_DIM
          const std::vector<Share>                  &shares,
          const std::vector<dealii::Tensor<1, dim>> &normal) const;
 
-    /** Checks that displacements of fixed quadrature points are below half a cell.
-     *  Collective. @throws StepFailure if they are larger */
+    /** Checks that the displacements of fixed quadrature points are smaller
+     *  than half a cell. Collective. @throws StepFailure if they are larger */
     void
     check_fixed(const MaterialPoints &points) const;
 

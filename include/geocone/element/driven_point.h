@@ -51,8 +51,8 @@ namespace geocone::GEOCONE_DIM
     void
     begin(const ElementControl &control, const bool goes_on = false);
 
-    /** Advances the loading to the fraction @p to of the stage, in
-     *  subincrements if necessary.
+    /** Advances the loading until the fraction @p to of the stage is reached,
+     *  in subincrements if necessary.
      *  @param stage name for error messages. @throws StepFailure */
     void
     follow(const double to, const std::string &stage);

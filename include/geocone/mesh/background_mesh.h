@@ -119,7 +119,7 @@ namespace geocone::GEOCONE_DIM
     void
     repartition(const std::function<unsigned int(const Cell &)> &weight);
 
-    /** Marks the cells that appear in the given list of owned cells on any
+    /** Marks the cells that are contained in the given list @p cells of any
      *  rank. The result is indexed by active cell index, for owned and ghost
      *  cells. Collective. */
     std::vector<bool>

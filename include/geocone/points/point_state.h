@@ -118,8 +118,8 @@ namespace geocone::GEOCONE_DIM
       this->reserve(width * n);
     }
 
-    /** Copies the components of the variable from point @p p to a row or back,
-     *  and advances @p row. */
+    /** Copies the components of the variable from point @p p to a row of
+     *  numbers or back, and advances @p row. */
     void
     get(const std::size_t p, double *&row) const
     {
@@ -359,8 +359,8 @@ namespace geocone::GEOCONE_DIM
       return n;
     }
 
-    /** Copies all state variables from a point to a row or back, in the order
-     *  of variables(). The position comes first. */
+    /** Copies all state variables of a point to a row of numbers or back, in
+     *  the order of variables(). The position comes first. */
     void
     get(const std::size_t p, double *row) const
     {
@@ -372,7 +372,8 @@ namespace geocone::GEOCONE_DIM
       visit([&](const char *, auto &variable) { variable.set(p, row); });
     }
 
-    /** Appends the state variables of a point to a list of rows. */
+    /** Appends the state variables of a point, as a row of numbers, to a list
+     *  of rows. */
     void
     add_row(const std::size_t p, std::vector<double> &rows) const
     {

@@ -173,8 +173,8 @@ namespace geocone::GEOCONE_DIM
     RigidMotion
     load(const double t) const;
 
-    /** Returns true if sliding along the obstacle is small. Nodes then retain
-     *  their initial projection onto the boundary, because slip is small
+    /** Returns true if small sliding is assumed along the obstacle. Nodes then
+     *  retain their initial projection onto the boundary, because slip is small
      *  compared with the obstacle. */
     bool
     slides_little() const

@@ -114,8 +114,8 @@ namespace geocone::GEOCONE_DIM
       return type == Type::anchor || type == Type::strut;
     }
 
-    /** Returns true if the structure is a chain of bars, each coupling only
-     *  neighbouring cells. */
+    /** Returns true if the structure is a chain of bars, of which each couples
+     *  neighbouring cells only. */
     bool
     is_chain() const
     {

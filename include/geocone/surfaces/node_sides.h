@@ -33,10 +33,11 @@ namespace geocone::GEOCONE_DIM
     exchange();
 
     /**
-     * Returns the integral of the shape function N_i over the faces of node i
-     * that face an obstacle. These are the face whose normal is most nearly
-     * opposite to the normal of the obstacle, and faces with almost the same
-     * deviation (two faces for a corner that points at the obstacle).
+     * Returns the integral of the shape function N_i over those boundary faces
+     * at node i that are oriented towards an obstacle. These are the face whose
+     * normal is most nearly opposite to the normal of the obstacle, and faces
+     * with almost the same deviation (two faces for a corner that points at the
+     * obstacle).
      * @param node an owned node
      * @param normal outward normal of the obstacle
      */

@@ -268,14 +268,14 @@ namespace geocone::GEOCONE_DIM
     virtual void
     save(Archive &archive, const MaterialPoints &points) = 0;
 
-    /** Replaces the state initialised by prepare() by the state in a
+    /** Replaces the state initialised in prepare() with the state in a
      *  checkpoint.
      *  @throws RunError if the checkpoint does not match the scene */
     virtual void
     load(const Archive &archive, MaterialPoints &points) = 0;
     /** @} */
 
-    /** Replaces the points initialised by prepare() by the points in a
+    /** Replaces the points initialised in prepare() with the points in a
      *  checkpoint of another run. The points are at rest, without displacements
      *  and plastic strains; moving boundaries and obstacles are not read.
      *  Collective.
@@ -331,7 +331,7 @@ namespace geocone::GEOCONE_DIM
     }
 
   private:
-    /** Replaces the points by the points in a checkpoint of any run.
+    /** Replaces the points with the points in a checkpoint of any run.
      *  Collective. */
     virtual void
     take_points(const Archive &archive, MaterialPoints &points) = 0;

@@ -99,8 +99,8 @@ namespace geocone::GEOCONE_DIM
     /** @} */
 
     /**
-     * Sums the nodal values written by the points over all ranks. Nodal masses
-     * are included if @p with_mass. Collective.
+     * Sums over all ranks the nodal values that the points have scattered.
+     * Nodal masses are included if @p with_mass. Collective.
      */
     virtual void
     exchange(const bool with_mass) = 0;
