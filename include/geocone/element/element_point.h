@@ -23,7 +23,7 @@ namespace geocone::GEOCONE_DIM
   norm(const Tensor6 &x);
 
   /**
-   * Interface of a single material point with an arbitrary constitutive law.
+   * Interface to a single material point, independent of its constitutive law.
    * Stresses and strains are positive in tension. Trial increments start from
    * the last accepted state, so that rejected trials have no effect.
    */

@@ -166,7 +166,7 @@ namespace geocone::GEOCONE_DIM
     std::vector<GhostStencil>
     ghost_stencils(const MaterialPoints &points);
 
-    /** Starts to move the lines of the grid with a boundary segment.
+    /** Starts to move the grid lines together with a boundary segment.
      *  @throws InputError if the grid cannot follow a segment */
     void
     begin_to_follow();

@@ -100,8 +100,8 @@ namespace geocone::GEOCONE_DIM
                   const dealii::Tensor<2, dim> &gradient,
                   const double                  size);
 
-  /** Threshold of affine_velocity() below which an eigenvalue d of the second
-   *  moment is treated as zero, as the ratio d/size^2. */
+  /** Threshold of the ratio d/size^2 below which affine_velocity() treats an
+   *  eigenvalue d of the second moment as zero. */
   constexpr double vanishing_moment = 1e-10;
 } // namespace geocone::GEOCONE_DIM
 

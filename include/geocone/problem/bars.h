@@ -286,8 +286,8 @@ namespace geocone::GEOCONE_DIM
      *  of weights. */
     using Factors = std::vector<std::pair<const Tie *, dealii::Tensor<1, dim>>>;
 
-    /** Coefficients b by which the dofs, including ghosts, express a weighted
-     *  sum of point displacements. Collective. */
+    /** Coefficients b of a weighted sum of point displacements, in terms of the
+     *  dofs including ghosts. Collective. */
     Vector
     row_of(const Factors &factors) const;
 

@@ -206,8 +206,9 @@ namespace geocone::GEOCONE_DIM
      *  n_x), for tractions only, has the body on its left. */
     std::optional<Expression> normal, tangential;
 
-    /** Evaluates a component of the prescribed vector. @pre the component is
-     *  prescribed */
+    /** Evaluates a component of the prescribed vector.
+     *  @param component 0 ... dim - 1: Cartesian; dim: normal
+     *  @pre the component is prescribed */
     double
     value(const unsigned int        component,
           const dealii::Point<dim> &x,
