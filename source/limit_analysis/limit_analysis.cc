@@ -4,6 +4,7 @@
 #include <geocone/base/exceptions.h>
 #include <geocone/base/stop_request.h>
 #include <geocone/limit_analysis/bound_fields.h>
+#include <geocone/limit_analysis/fans_of_jumps.h>
 #include <geocone/limit_analysis/limit_analysis.h>
 #include <geocone/mesh/adapted_sizes.h>
 #include <geocone/output/model_of_triangles.h>
@@ -103,11 +104,16 @@ namespace geocone::GEOCONE_DIM
   LimitAnalysis::next_mesh() const
   {
     if (!file_domain)
-      return fitted_mesh(mesh_parameters, scene, comm, &*sizes);
+      return fans.empty() ? fitted_mesh(mesh_parameters, scene, comm, &*sizes)
+                          : fitted_mesh_with_fans(
+                              mesh_parameters, scene, *sizes, fans, comm);
     const dealii::BoundingBox<dim> body(triangles->vertices);
     const auto [low, high] = body.get_boundary_points();
-    return file_domain->mesh(
-      *sizes, scene.water.lines(low, high), mesh_parameters.algorithm, comm);
+    return file_domain->mesh(*sizes,
+                             scene.water.lines(low, high),
+                             mesh_parameters.algorithm,
+                             comm,
+                             fans);
   }
 
   void
@@ -232,6 +238,24 @@ namespace geocone::GEOCONE_DIM
     return asked_cells;
   }
 
+  void
+  LimitAnalysis::refine(const BoundLevel &level)
+  {
+    // The rays do not depend on the sizes.
+    if (limit_output.all_records().size() == 1 &&
+        (file_domain || mesh_parameters.is_unstructured()))
+      {
+        const double F =
+          reduces_strength() && level.certified() ? level.upper : 1.;
+        // An eighth of the gap is left to the rays.
+        fans = fans_of_jumps(reduces_strength()
+                               ? bounded_load.reduced(scene, *triangles, F)
+                               : bounded_load.on(scene, *triangles),
+                             gap_tolerance / 8.);
+      }
+    sizes = adapted_sizes(*triangles, bounds.uneven, next_cells(level), &fans);
+  }
+
   Simulation::StepOutcome
   LimitAnalysis::advance(TimePoint &now)
   {
@@ -258,7 +282,7 @@ namespace geocone::GEOCONE_DIM
     const bool is_last =
       is_complete(certified_by(limit_output.all_records()).gap());
     if (!is_last)
-      sizes = adapted_sizes(*triangles, bounds.uneven, next_cells(level));
+      refine(level);
     return is_last ? StepOutcome::stage : StepOutcome::well;
   }
 
@@ -387,6 +411,6 @@ namespace geocone::GEOCONE_DIM
       return sizes.reset();
     if (!sizes)
       sizes.emplace();
-    row(sizes->triangles, sizes->sizes);
+    row(sizes->triangles, sizes->sizes, fans);
   }
 } // namespace geocone::GEOCONE_DIM

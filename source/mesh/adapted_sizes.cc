@@ -8,10 +8,44 @@
 
 namespace geocone::GEOCONE_DIM
 {
+  namespace
+  {
+    /** Triangles of a fan. */
+    struct FanCells
+    {
+      std::vector<unsigned int> innermost, outermost, all;
+    };
+
+    FanCells
+    cells_of_fan(const Triangles &triangles, const Fan &fan)
+    {
+      FanCells found;
+      for (unsigned int c = 0; c < triangles.cells.size(); ++c)
+        {
+          double near = fan.radius, far = 0.;
+          for (const unsigned int v : triangles.cells[c])
+            {
+              const double r = triangles.vertices[v].distance(fan.apex);
+              near           = std::min(near, r);
+              far            = std::max(far, r);
+            }
+          if (far > 1.0001 * fan.radius)
+            continue;
+          found.all.push_back(c);
+          if (near < 1e-4 * far)
+            found.innermost.push_back(c);
+          if (far > 0.9999 * fan.radius)
+            found.outermost.push_back(c);
+        }
+      return found;
+    }
+  } // namespace
+
   CellSizes
   adapted_sizes(const Triangles           &triangles,
                 const std::vector<double> &error,
-                const double               n_wanted)
+                const double               n_wanted,
+                std::vector<Fan>          *fans)
   {
     const unsigned int n = triangles.cells.size();
     // Means over the cells at each vertex.
@@ -53,10 +87,35 @@ namespace geocone::GEOCONE_DIM
           cells += 1. / (ratio(middle, c) * ratio(middle, c));
         (cells > n_wanted ? lower_factor : upper_factor) = middle;
       }
+    // Sizes of equilateral triangles of the same area.
+    std::vector<double> size_of_cell(n);
+    for (unsigned int c = 0; c < n; ++c)
+      size_of_cell[c] = std::sqrt(4. / std::sqrt(3.) * triangles.area(c));
+    if (fans != nullptr)
+      for (Fan &fan : *fans)
+        {
+          const FanCells cells = cells_of_fan(triangles, fan);
+          if (cells.innermost.size() + 1 < fan.rays.size())
+            continue; // the mesh does not have it
+          for (const unsigned int c : cells.all)
+            {
+              double far = 0.;
+              for (const unsigned int v : triangles.cells[c])
+                far = std::max(far, triangles.vertices[v].distance(fan.apex));
+              size_of_cell[c] = fan.chord() * far / fan.radius;
+            }
+          const auto mean_ratio = [&](const std::vector<unsigned int> &some) {
+            double sum = 0.;
+            for (const unsigned int c : some)
+              sum += ratio(upper_factor, c);
+            return std::min(1., sum / some.size());
+          };
+          fan.inner_radius *= mean_ratio(cells.innermost);
+          fan.radius = std::max(2. * fan.inner_radius,
+                                fan.radius * mean_ratio(cells.outermost));
+        }
     const std::vector<double> size = at_vertices([&](const unsigned int c) {
-      // Size of an equilateral triangle of this area.
-      return ratio(upper_factor, c) *
-             std::sqrt(4. / std::sqrt(3.) * triangles.area(c));
+      return ratio(upper_factor, c) * size_of_cell[c];
     });
     CellSizes                 sizes;
     for (const auto &cell : triangles.cells)

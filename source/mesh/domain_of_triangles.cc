@@ -244,15 +244,17 @@ namespace geocone::GEOCONE_DIM
   }
 
   CoarseMesh
-  DomainOfTriangles::mesh(const CellSizes &sizes,
-                          MeshLines        lines,
-                          const int        algorithm,
-                          const MPI_Comm   comm) const
+  DomainOfTriangles::mesh(const CellSizes        &sizes,
+                          MeshLines               lines,
+                          const int               algorithm,
+                          const MPI_Comm          comm,
+                          const std::vector<Fan> &fans) const
   {
     MeshDomain by_gmsh = domain;
     by_gmsh.algorithm  = algorithm;
     lines.insert(lines.end(), borders.begin(), borders.end());
-    CoarseMesh mesh = mesh_with_sizes(by_gmsh, Regions({}), lines, sizes, comm);
+    CoarseMesh mesh =
+      mesh_with_fans(by_gmsh, Regions({}), lines, sizes, fans, comm);
     const MaterialPlaces places(triangles);
     for (auto &cell : mesh.cells)
       cell.material_id = places.at(mesh.centre(cell));

@@ -3,6 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
+#include <geocone/mesh/fan.h>
 #include <geocone/mesh/gmsh_mesh.h>
 #include <geocone/mesh/msh_mesh.h>
 
@@ -291,9 +292,48 @@ namespace geocone::GEOCONE_DIM
       gmsh::option::setNumber("Mesh.MeshSizeMax", largest);
     }
 
+    /** Adds a gmsh field by a formula. */
+    int
+    add_formula(const std::string &formula)
+    {
+      const int field = gmsh::model::mesh::field::add("MathEval");
+      gmsh::model::mesh::field::setString(field, "F", formula);
+      return field;
+    }
+
+    /** Limits a field of sizes around fans, whose outer edges are not divided: between
+     *  straight lines that decrease and grow with the distance from them.
+     *  @return the limited field */
+    int
+    limit_around_fans(int field, const std::vector<Fan> &fans)
+    {
+      constexpr double growth = 0.3, smallest = 0.8;
+      const auto       combine = [&](const char *type, const int by) {
+        const int both = gmsh::model::mesh::field::add(type);
+        gmsh::model::mesh::field::setNumbers(
+          both, "FieldsList", {double(field), double(by)});
+        field = both;
+      };
+      for (const Fan &fan : fans)
+        {
+          const double      chord = fan.chord();
+          const std::string distance =
+            format("(Sqrt((x-(%.17g))^2+(y-(%.17g))^2)-%.17g)",
+                   fan.apex[0],
+                   fan.apex[1],
+                   fan.radius);
+          combine("Min",
+                  add_formula(format("%.17g+%g*", chord, growth) + distance));
+          combine("Max",
+                  add_formula(format("%.17g-%g*", smallest * chord, growth) +
+                              distance));
+        }
+      return field;
+    }
+
     /** Sets sizes as gmsh's background field, by a view of data. */
     void
-    set_sizes(const CellSizes &sizes)
+    set_sizes(const CellSizes &sizes, const std::vector<Fan> &fans = {})
     {
       // x of the corners, then y, z and the values.
       std::vector<double> data;
@@ -316,7 +356,10 @@ namespace geocone::GEOCONE_DIM
       gmsh::view::addListData(view, "ST", sizes.triangles.size(), data);
       const int field = gmsh::model::mesh::field::add("PostView");
       gmsh::model::mesh::field::setNumber(field, "ViewIndex", 0);
-      gmsh::model::mesh::field::setAsBackgroundMesh(field);
+      gmsh::model::mesh::field::setAsBackgroundMesh(
+        limit_around_fans(field, fans));
+      for (const Fan &fan : fans)
+        smallest = std::min(smallest, fan.chord() / 2.);
       limit_sizes(smallest, largest);
     }
 
@@ -339,10 +382,7 @@ namespace geocone::GEOCONE_DIM
       std::vector<double> fields;
       for (const Point<dim> &x : parameters.grading_points)
         {
-          const int field = gmsh::model::mesh::field::add("MathEval");
-          gmsh::model::mesh::field::setString(
-            field,
-            "F",
+          const int field = add_formula(
             format("%.17g*Sqrt((x-(%.17g))^2+(y-(%.17g))^2+(z-(%.17g))^2)",
                    parameters.size_ratio,
                    x[0],
@@ -394,14 +434,79 @@ namespace geocone::GEOCONE_DIM
       return occ::addPlaneSurface(loops);
     }
 
+    /** Adds the lines of fans, each one edge. */
+    void
+    add_fans(const std::vector<Fan> &fans, gmsh::vectorpair &tools)
+    {
+      for (const Fan &fan : fans)
+        {
+          const unsigned int n = fan.rays.size();
+          std::vector<int>   inner(n,
+                                 occ::addPoint(fan.apex[0], fan.apex[1], 0.));
+          for (const double radius : fan.radii())
+            {
+              std::vector<int> outer(n);
+              for (unsigned int i = 0; i < n; ++i)
+                {
+                  const Point<dim> x = fan.at(i, radius);
+                  outer[i]           = occ::addPoint(x[0], x[1], 0.);
+                  if (i > 0)
+                    tools.emplace_back(1, occ::addLine(outer[i - 1], outer[i]));
+                  if (i > 0 && i + 1 < n)
+                    tools.emplace_back(1, occ::addLine(inner[i], outer[i]));
+                }
+              inner = outer;
+            }
+        }
+    }
+
+    /** Lets the pieces of fans be triangles, or two of them each. */
+    void
+    mesh_fans(const std::vector<Fan> &fans)
+    {
+      const auto is_in_fan = [&](const int tag) {
+        gmsh::vectorpair ends;
+        gmsh::model::getBoundary({{1, tag}}, ends, false, false);
+        return std::any_of(fans.begin(), fans.end(), [&](const Fan &fan) {
+          return std::all_of(ends.begin(), ends.end(), [&](const auto &end) {
+            std::vector<double> x;
+            gmsh::model::getValue(0, end.second, {}, x);
+            return std::hypot(x[0] - fan.apex[0], x[1] - fan.apex[1]) <
+                   1.001 * fan.radius;
+          });
+        });
+      };
+      gmsh::vectorpair curves, surfaces;
+      std::set<int>    inside;
+      gmsh::model::getEntities(curves, 1);
+      for (const auto &curve : curves)
+        if (is_in_fan(curve.second))
+          {
+            inside.insert(curve.second);
+            gmsh::model::mesh::setTransfiniteCurve(curve.second, 2);
+          }
+      gmsh::model::getEntities(surfaces, 2);
+      for (const auto &surface : surfaces)
+        {
+          gmsh::vectorpair sides;
+          gmsh::model::getBoundary({surface}, sides, false, false);
+          if (sides.size() <= 4 &&
+              std::all_of(sides.begin(), sides.end(), [&](const auto &side) {
+                return inside.count(side.second) > 0;
+              }))
+            gmsh::model::mesh::setTransfiniteSurface(surface.second);
+        }
+    }
+
     /** Adds the domain, fragmented by the boundaries of the body and the
-     *  materials, by lines (their parts inside) and by the grading points,
-     *  which become edges and vertices of the mesh. @return the tags of its
-     *  pieces */
+     *  materials, by lines (their parts inside), by fans and by the grading
+     *  points, which become edges and vertices of the mesh. @return the tags of
+     *  its pieces */
     std::set<int>
-    add_domain(const MeshDomain &of,
-               const Regions    &regions,
-               const MeshLines  &lines)
+    add_domain(const MeshDomain       &of,
+               const Regions          &regions,
+               const MeshLines        &lines,
+               const std::vector<Fan> &fans)
     {
       const gmsh::vectorpair domain = {
         {int(dim), add_body(of.outline, of.holes)}};
@@ -425,6 +530,7 @@ namespace geocone::GEOCONE_DIM
       for (const Point<dim> &x : of.vertices)
         tools.emplace_back(
           0, occ::addPoint(x[0], x[1], dim == 3 ? x[dim - 1] : 0.));
+      add_fans(fans, tools);
       gmsh::vectorpair              pieces = domain;
       std::vector<gmsh::vectorpair> origin = {domain};
       if (!tools.empty())
@@ -439,15 +545,18 @@ namespace geocone::GEOCONE_DIM
     /** Meshes the domain by gmsh, from numbers only. @param set_sizes of the cells */
     template <typename Function>
     MshData
-    mesh_domain(const MeshDomain  &domain,
-                const Regions     &regions,
-                const MeshLines   &lines,
-                const Function    &set_sizes,
-                const std::string &what)
+    mesh_domain(const MeshDomain       &domain,
+                const Regions          &regions,
+                const MeshLines        &lines,
+                const std::vector<Fan> &fans,
+                const Function         &set_sizes,
+                const std::string      &what)
     {
       gmsh::model::add("domain");
-      const std::set<int> pieces = add_domain(domain, regions, lines);
+      const std::set<int> pieces = add_domain(domain, regions, lines, fans);
       set_sizes();
+      if (!fans.empty())
+        mesh_fans(fans);
       gmsh::option::setNumber("Mesh.MeshSizeFromPoints", 0);
       gmsh::option::setNumber("Mesh.MeshSizeExtendFromBoundary", 0);
       gmsh::option::setNumber("Mesh.Algorithm", domain.algorithm);
@@ -465,11 +574,12 @@ namespace geocone::GEOCONE_DIM
 
     template <typename Function>
     CoarseMesh
-    mesh_by_gmsh(const MeshDomain &domain,
-                 const Regions    &regions,
-                 const MeshLines  &lines,
-                 const Function   &set_sizes,
-                 const MPI_Comm    comm)
+    mesh_by_gmsh(const MeshDomain       &domain,
+                 const Regions          &regions,
+                 const MeshLines        &lines,
+                 const std::vector<Fan> &fans,
+                 const Function         &set_sizes,
+                 const MPI_Comm          comm)
     {
       const std::string what = "the mesh that gmsh has made";
       const auto        mesh = [&]() {
@@ -478,7 +588,7 @@ namespace geocone::GEOCONE_DIM
                                 "'Mesh/Gmsh algorithm'",
                          [&]() {
                            return mesh_domain(
-                             domain, regions, lines, set_sizes, what);
+                             domain, regions, lines, fans, set_sizes, what);
                          });
       };
       return coarse_mesh(from_first_rank(comm, mesh), what, regions);
@@ -506,6 +616,7 @@ namespace geocone::GEOCONE_DIM
       domain_of(parameters),
       regions,
       lines,
+      {},
       [&]() { set_sizes(parameters); },
       comm);
   }
@@ -518,6 +629,18 @@ namespace geocone::GEOCONE_DIM
                   const MPI_Comm    comm)
   {
     return mesh_by_gmsh(
-      domain, regions, lines, [&]() { set_sizes(sizes); }, comm);
+      domain, regions, lines, {}, [&]() { set_sizes(sizes); }, comm);
+  }
+
+  CoarseMesh
+  mesh_with_fans(const MeshDomain       &domain,
+                 const Regions          &regions,
+                 const MeshLines        &lines,
+                 const CellSizes        &sizes,
+                 const std::vector<Fan> &fans,
+                 const MPI_Comm          comm)
+  {
+    return mesh_by_gmsh(
+      domain, regions, lines, fans, [&]() { set_sizes(sizes, fans); }, comm);
   }
 } // namespace geocone::GEOCONE_DIM

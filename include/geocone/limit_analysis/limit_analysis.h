@@ -87,9 +87,14 @@ namespace geocone::GEOCONE_DIM
              file_domain->obstacle().empty();
     }
 
-    /** Generates the next mesh with the cell sizes from the refinement. */
+    /** Generates the next mesh with the cell sizes and fans from the refinement. */
     CoarseMesh
     next_mesh() const;
+
+    /** Selects the cell sizes and fans of the next mesh.
+     *  @param level results on the current mesh */
+    void
+    refine(const BoundLevel &level);
 
     /** Returns the number of cells requested for the next mesh. */
     double
@@ -154,6 +159,7 @@ namespace geocone::GEOCONE_DIM
        {"seepage", AnalysisKind::seepage}}};
 
     std::optional<CellSizes> sizes; ///< cell sizes of the next mesh
+    std::vector<Fan>         fans;  ///< fans of triangles in the next mesh
 
     /** Domain of a mesh from a file; empty if this domain cannot be meshed
      *  again. */

@@ -1,0 +1,84 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_mesh_fan_h
+#define geocone_mesh_fan_h
+
+#include <geocone/base/state_row.h>
+#include <geocone/mesh/gmsh_mesh.h>
+#include <geocone/scene/scene.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace geocone::GEOCONE_DIM
+{
+  /** Rings of triangles around a vertex of the outline, in plane meshes: the innermost
+   *  ones meet there, the others halve the radius about. */
+  struct Fan
+  {
+    dealii::Point<dim> apex;
+    double             radius = 0., inner_radius = 0.;
+    std::vector<double>
+      rays; ///< angles to x, counterclockwise, from side to side
+
+    /** Radii of the rings from the innermost one. */
+    std::vector<double>
+    radii() const
+    {
+      const unsigned int  n   = std::lround(std::log2(radius / inner_radius));
+      std::vector<double> all = {radius};
+      for (unsigned int i = 1; i <= n; ++i)
+        all.insert(all.begin(),
+                   radius * std::pow(inner_radius / radius, double(i) / n));
+      return all;
+    }
+
+    /** The point of a ray at a distance from the apex. */
+    dealii::Point<dim>
+    at(const unsigned int ray, const double distance) const
+    {
+      dealii::Point<dim> x = apex;
+      x[0] += distance * std::cos(rays[ray]);
+      x[1] += distance * std::sin(rays[ray]);
+      return x;
+    }
+
+    /** The shortest outer edge. */
+    double
+    chord() const
+    {
+      double least = 2. * radius;
+      for (unsigned int i = 1; i < rays.size(); ++i)
+        least = std::min(least, at(i - 1, radius).distance(at(i, radius)));
+      return least;
+    }
+
+    void
+    state(StateRow &row)
+    {
+      row(apex, radius, inner_radius, rays);
+    }
+  };
+
+  /** Unstructured mesh with prescribed cell sizes and fans. Collective. */
+  CoarseMesh
+  mesh_with_fans(const MeshDomain       &domain,
+                 const Regions          &regions,
+                 const MeshLines        &lines,
+                 const CellSizes        &sizes,
+                 const std::vector<Fan> &fans,
+                 const MPI_Comm          comm);
+
+  /** Mesh of a scene of a polygon or box with prescribed cell sizes and fans, as
+   *  fitted_mesh(). Collective. */
+  CoarseMesh
+  fitted_mesh_with_fans(const MeshParameters   &parameters,
+                        const Scene            &scene,
+                        const CellSizes        &sizes,
+                        const std::vector<Fan> &fans,
+                        const MPI_Comm          comm);
+} // namespace geocone::GEOCONE_DIM
+
+#endif

@@ -1,0 +1,338 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/limit_analysis/fans_of_jumps.h>
+
+#include <deal.II/base/numbers.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+
+namespace geocone::GEOCONE_DIM
+{
+  using dealii::Point;
+  using dealii::Tensor;
+
+  namespace
+  {
+    constexpr double pi = dealii::numbers::PI;
+
+    /** End of a boundary edge at a vertex. */
+    struct EndAtVertex
+    {
+      unsigned int edge;
+      double       direction; ///< angle of the edge away from the vertex
+      bool         is_held; ///< by a prescribed velocity, or beside an obstacle
+      Tensor<1, dim>                normal;   ///< outwards
+      std::array<Tensor<1, dim>, 2> traction; ///< live and dead
+      double
+      pressure(const unsigned int i) const
+      {
+        return -(traction[i] * normal);
+      }
+      double
+      shear(const unsigned int i) const
+      {
+        return normal[0] * traction[i][1] - normal[1] * traction[i][0];
+      }
+    };
+
+    /** Vertex of the outline: the body lies to the left of the edge `after` and to the
+     *  right of `before`, both seen from the vertex. */
+    struct OutlineVertex
+    {
+      EndAtVertex after, before;
+
+      /** The interior angle. */
+      double
+      angle() const
+      {
+        const double turn = before.direction - after.direction;
+        return turn > 0. ? turn : turn + 2. * pi;
+      }
+    };
+
+    class LoadedOutline
+    {
+    public:
+      explicit LoadedOutline(const BoundScene &bound)
+        : bound(bound)
+        , triangles(bound.triangles)
+      {
+        const BoundProblem     problem = lower_problem(bound);
+        std::set<unsigned int> slides;
+        for (const Interface &interface : bound.interfaces)
+          slides.insert(interface.held.edge);
+        std::map<unsigned int, std::vector<EndAtVertex>> ends;
+        for (const auto &outer : triangles.outer_edges())
+          {
+            const auto  &two = triangles.edges[outer.edge].vertices;
+            const double half =
+              triangles.vertices[two[0]].distance(triangles.vertices[two[1]]) /
+              (2. * bound.units.length);
+            const Tensor<1, dim> g =
+              triangles.gradients(outer.cell)[outer.opposite_vertex];
+            for (unsigned int end = 0; end < 2; ++end)
+              {
+                const unsigned int first =
+                  dim * (triangles.cells.size() + 2 * outer.edge + end);
+                const Tensor<1, dim> along = triangles.vertices[two[1 - end]] -
+                                             triangles.vertices[two[end]];
+                EndAtVertex one = {outer.edge,
+                                   std::atan2(along[1], along[0]),
+                                   slides.count(outer.edge) > 0,
+                                   -1. * g / g.norm(),
+                                   {}};
+                for (unsigned int d = 0; d < dim; ++d)
+                  {
+                    one.is_held =
+                      one.is_held || (problem.is_prescribed[first + d] &&
+                                      !problem.has_no_force[first + d]);
+                    one.traction[0][d] = problem.live[first + d] / half;
+                    one.traction[1][d] = problem.dead[first + d] / half;
+                  }
+                for (const auto &t : one.traction)
+                  largest = std::max(largest, t.norm());
+                ends[two[end]].push_back(one);
+              }
+          }
+        for (const auto &[vertex, two] : ends)
+          if (two.size() == 2) // parts that touch in a point have more
+            {
+              // The body is to the left of the edge whose normal is to its right.
+              const Tensor<1, dim> &n = two[0].normal;
+              const bool is_before    = n[0] * std::sin(two[0].direction) -
+                                       n[1] * std::cos(two[0].direction) <
+                                     0.;
+              vertices[vertex] = {two[is_before ? 1 : 0],
+                                  two[is_before ? 0 : 1]};
+            }
+      }
+
+      std::vector<Fan>
+      fans(const double tolerance) const
+      {
+        std::vector<Fan> all;
+        for (const auto &[v, vertex] : vertices)
+          if (jumps(vertex))
+            if (Fan fan = fan_at(v, vertex, tolerance); fan.rays.size() > 2)
+              all.push_back(fan);
+        return all;
+      }
+
+    private:
+      /** Whether no continuous stress has the tractions of both sides. */
+      bool
+      jumps(const OutlineVertex &vertex) const
+      {
+        constexpr double part = 1e-6;
+        const auto      &a = vertex.after, &b = vertex.before;
+        if (a.is_held || b.is_held || vertex.angle() < pi / 1.8)
+          return false;
+        for (unsigned int i = 0; i < 2; ++i)
+          if (std::abs(a.pressure(i) - b.pressure(i)) > part * largest ||
+              (std::abs(a.shear(i)) + std::abs(b.shear(i)) > part * largest &&
+               (std::abs(a.traction[i] * b.normal - b.traction[i] * a.normal) >
+                  part * largest ||
+                (a.traction[i] - b.traction[i]).norm() > 0.3 * largest)))
+            return true;
+        return false;
+      }
+
+      /** Whether conditions change at a vertex, or the outline turns. */
+      bool
+      is_feature(const OutlineVertex &vertex) const
+      {
+        return std::abs(vertex.angle() - pi) > 1e-6 ||
+               vertex.after.is_held != vertex.before.is_held || jumps(vertex);
+      }
+
+      /** Distance to the nearest feature of the body that is not at the vertex. */
+      double
+      reach(const unsigned int v) const
+      {
+        const Point<dim> &x     = triangles.vertices[v];
+        double            least = std::numeric_limits<double>::max();
+        for (const auto &[other, vertex] : vertices)
+          if (other != v && is_feature(vertex))
+            least = std::min(least, x.distance(triangles.vertices[other]));
+        // Lines that do not end in the vertex or point to it.
+        const auto take = [&](const std::array<unsigned int, 2> &edge) {
+          const Point<dim> &a    = triangles.vertices[edge[0]],
+                           &b    = triangles.vertices[edge[1]];
+          const Tensor<1, dim> t = b - a, to = x - a;
+          if (std::abs(t[0] * to[1] - t[1] * to[0]) >
+              1e-6 * t.norm() * std::max(to.norm(), t.norm()))
+            least = std::min(least, distance_to_segment(x, a, b));
+        };
+        for (const auto &outer : triangles.outer_edges())
+          take(triangles.edges[outer.edge].vertices);
+        for (const auto &edge : borders())
+          take(edge);
+        return least;
+      }
+
+      /** Edges between materials. */
+      std::vector<std::array<unsigned int, 2>>
+      borders() const
+      {
+        std::vector<int> material(triangles.edges.size(), -1);
+        std::vector<std::array<unsigned int, 2>> all;
+        for (unsigned int c = 0; c < triangles.cells.size(); ++c)
+          for (const unsigned int e : triangles.edges_of_cell[c])
+            {
+              const int own = triangles.material[c];
+              if (material[e] >= 0 && material[e] != own)
+                all.push_back(triangles.edges[e].vertices);
+              material[e] = own;
+            }
+        return all;
+      }
+
+      Fan
+      fan_at(const unsigned int   v,
+             const OutlineVertex &vertex,
+             const double         tolerance) const
+      {
+        Fan fan;
+        fan.apex   = triangles.vertices[v];
+        fan.radius = 0.3 * reach(v);
+        fan.inner_radius = fan.radius / 16.;
+        // The weakest soil of the triangles there.
+        double                 a = 1., k = std::numeric_limits<double>::max();
+        std::set<unsigned int> materials;
+        for (unsigned int c = 0; c < triangles.cells.size(); ++c)
+          for (const unsigned int w : triangles.cells[c])
+            if (w == v)
+              {
+                const PointCone cone =
+                  bound.cone_at(triangles.material[c], fan.apex);
+                a = std::min(a, cone.a);
+                k = std::min(k, cone.k);
+                materials.insert(triangles.material[c]);
+              }
+        const unsigned int live =
+          (vertex.after.traction[0] - vertex.before.traction[0]).norm() >
+              1e-6 * largest
+            ? 0
+            : 1;
+        const double difference =
+          vertex.after.pressure(live) - vertex.before.pressure(live);
+        const bool is_sheared = std::abs(vertex.after.shear(live)) +
+                                  std::abs(vertex.before.shear(live)) >
+                                1e-6 * largest;
+        const double angle = vertex.angle(), turn = angle - pi / 2.;
+        unsigned int n = std::max(3., std::ceil(turn / (pi / 6.)));
+        while (n < most_rays && 1. - part_borne(n, turn, a) > tolerance)
+          ++n;
+
+        // From the side with the greater pressure.
+        std::vector<double> from_side = {0.};
+        const double        delta     = turn / n;
+        if (is_sheared || materials.size() > 1 || k <= 0.)
+          {
+            const unsigned int parts =
+              std::min<unsigned int>(std::ceil(angle / delta), 2 * most_rays);
+            for (unsigned int i = 1; i < parts; ++i)
+              from_side.push_back(i * angle / parts);
+          }
+        else
+          {
+            const double rho   = std::asin(a * std::cos(delta));
+            const double first = pi / 4. + rho / 2. + delta / 2.,
+                         last  = first + (n - 1) * delta;
+            add_growing(from_side, first, 0., delta);
+            for (unsigned int i = 0; i < n; ++i)
+              from_side.push_back(first + i * delta);
+            add_growing(from_side, last, angle, delta);
+          }
+        from_side.push_back(angle);
+        std::sort(from_side.begin(), from_side.end());
+        for (const double ray : from_side)
+          fan.rays.push_back(difference >= 0.
+                               ? vertex.after.direction + ray
+                               : vertex.after.direction + angle - ray);
+        std::sort(fan.rays.begin(), fan.rays.end());
+        take_borders(v, fan);
+        return fan;
+      }
+
+      /** Adds rays from one of the turn towards a side, at growing angles. */
+      static void
+      add_growing(std::vector<double> &rays,
+                  const double         from,
+                  const double         side,
+                  const double         delta)
+      {
+        constexpr double ratio = 1.6, widest = pi / 6.;
+        const double     sign = side > from ? 1. : -1.;
+        double step = std::min(ratio * delta, widest), ray = from + sign * step;
+        while (sign * (side - ray) > 0.5 * step)
+          {
+            rays.push_back(ray);
+            step = std::min(ratio * step, widest);
+            ray += sign * step;
+          }
+      }
+
+      /** Moves or adds rays along borders of materials. */
+      void
+      take_borders(const unsigned int v, Fan &fan) const
+      {
+        for (const auto &edge : borders())
+          for (unsigned int end = 0; end < 2; ++end)
+            if (edge[end] == v)
+              {
+                const Tensor<1, dim> t =
+                  triangles.vertices[edge[1 - end]] - fan.apex;
+                double ray = std::atan2(t[1], t[0]);
+                while (ray < fan.rays.front())
+                  ray += 2. * pi;
+                const auto next =
+                  std::upper_bound(fan.rays.begin(), fan.rays.end(), ray);
+                if (next == fan.rays.end() || next == fan.rays.begin())
+                  continue;
+                const unsigned int i     = next - fan.rays.begin();
+                const double       width = fan.rays[i] - fan.rays[i - 1];
+                if (i > 1 && ray - fan.rays[i - 1] < width / 3.)
+                  fan.rays[i - 1] = ray;
+                else if (i + 1 < fan.rays.size() &&
+                         fan.rays[i] - ray < width / 3.)
+                  fan.rays[i] = ray;
+                else
+                  fan.rays.insert(next, ray);
+              }
+      }
+
+      static constexpr unsigned int most_rays = 48;
+
+      const BoundScene                     &bound;
+      const Triangles                      &triangles;
+      double                                largest = 0.; ///< traction
+      std::map<unsigned int, OutlineVertex> vertices;
+    };
+  } // namespace
+
+  double
+  part_borne(const unsigned int n, const double turn, const double sin_phi)
+  {
+    const double delta = turn / n;
+    if (sin_phi < 1e-6)
+      return (1. + n * std::sin(delta)) / (1. + turn);
+    const double rho    = std::asin(sin_phi * std::cos(delta)),
+                 K      = (1. + sin_phi) / (1. - sin_phi),
+                 growth = std::cos(delta - rho) / std::cos(delta + rho),
+                 exact  = std::exp(2. * turn * std::tan(std::asin(sin_phi)));
+    return (K * std::pow(growth, n) - 1.) / (K * exact - 1.);
+  }
+
+  std::vector<Fan>
+  fans_of_jumps(const BoundScene &bound, const double tolerance)
+  {
+    return LoadedOutline(bound).fans(tolerance);
+  }
+} // namespace geocone::GEOCONE_DIM
