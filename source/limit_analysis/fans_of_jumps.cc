@@ -1,6 +1,7 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <geocone/cone/second_order_cone.h>
 #include <geocone/limit_analysis/fans_of_jumps.h>
 
 #include <deal.II/base/numbers.h>
@@ -24,20 +25,20 @@ namespace geocone::GEOCONE_DIM
     /** End of a boundary edge at a vertex. */
     struct EndAtVertex
     {
-      unsigned int edge;
-      double       direction; ///< angle of the edge away from the vertex
-      bool         is_held; ///< by a prescribed velocity, or beside an obstacle
-      Tensor<1, dim>                normal;   ///< outwards
-      std::array<Tensor<1, dim>, 2> traction; ///< live and dead
+      double direction; ///< angle of the edge away from the vertex
+      bool   is_held;   ///< by a prescribed velocity, or beside an obstacle
+      Tensor<1, dim> normal; ///< outwards
+      Tensor<1, dim> traction;
+
       double
-      pressure(const unsigned int i) const
+      pressure() const
       {
-        return -(traction[i] * normal);
+        return -(traction * normal);
       }
       double
-      shear(const unsigned int i) const
+      shear() const
       {
-        return normal[0] * traction[i][1] - normal[1] * traction[i][0];
+        return normal[0] * traction[1] - normal[1] * traction[0];
       }
     };
 
@@ -59,7 +60,7 @@ namespace geocone::GEOCONE_DIM
     class LoadedOutline
     {
     public:
-      explicit LoadedOutline(const BoundScene &bound)
+      LoadedOutline(const BoundScene &bound, const double load)
         : bound(bound)
         , triangles(bound.triangles)
       {
@@ -82,8 +83,7 @@ namespace geocone::GEOCONE_DIM
                   dim * (triangles.cells.size() + 2 * outer.edge + end);
                 const Tensor<1, dim> along = triangles.vertices[two[1 - end]] -
                                              triangles.vertices[two[end]];
-                EndAtVertex one = {outer.edge,
-                                   std::atan2(along[1], along[0]),
+                EndAtVertex one = {std::atan2(along[1], along[0]),
                                    slides.count(outer.edge) > 0,
                                    -1. * g / g.norm(),
                                    {}};
@@ -92,11 +92,11 @@ namespace geocone::GEOCONE_DIM
                     one.is_held =
                       one.is_held || (problem.is_prescribed[first + d] &&
                                       !problem.has_no_force[first + d]);
-                    one.traction[0][d] = problem.live[first + d] / half;
-                    one.traction[1][d] = problem.dead[first + d] / half;
+                    one.traction[d] = (problem.dead[first + d] +
+                                       load * problem.live[first + d]) /
+                                      half;
                   }
-                for (const auto &t : one.traction)
-                  largest = std::max(largest, t.norm());
+                largest = std::max(largest, one.traction.norm());
                 ends[two[end]].push_back(one);
               }
           }
@@ -133,14 +133,13 @@ namespace geocone::GEOCONE_DIM
         const auto      &a = vertex.after, &b = vertex.before;
         if (a.is_held || b.is_held || vertex.angle() < pi / 1.8)
           return false;
-        for (unsigned int i = 0; i < 2; ++i)
-          if (std::abs(a.pressure(i) - b.pressure(i)) > part * largest ||
-              (std::abs(a.shear(i)) + std::abs(b.shear(i)) > part * largest &&
-               (std::abs(a.traction[i] * b.normal - b.traction[i] * a.normal) >
-                  part * largest ||
-                (a.traction[i] - b.traction[i]).norm() > 0.3 * largest)))
-            return true;
-        return false;
+        const bool is_sheared =
+          std::abs(a.shear()) + std::abs(b.shear()) > part * largest;
+        return std::abs(a.pressure() - b.pressure()) > part * largest ||
+               (is_sheared &&
+                (std::abs(a.traction * b.normal - b.traction * a.normal) >
+                   part * largest ||
+                 (a.traction - b.traction).norm() > 0.3 * largest));
       }
 
       /** Whether conditions change at a vertex, or the outline turns. */
@@ -193,14 +192,29 @@ namespace geocone::GEOCONE_DIM
         return all;
       }
 
+      /** The pressure that a continuous turn of stresses carries beside a smaller one.
+       *  @param k c cos(phi) */
+      static double
+      greatest_pressure(const double smaller,
+                        const double turn,
+                        const double a,
+                        const double k)
+      {
+        if (a < 1e-6)
+          return smaller + 2. * k * (1. + turn);
+        return (smaller + k / a) * (1. + a) / (1. - a) *
+                 std::exp(2. * turn * std::tan(std::asin(a))) -
+               k / a;
+      }
+
       Fan
       fan_at(const unsigned int   v,
              const OutlineVertex &vertex,
              const double         tolerance) const
       {
         Fan fan;
-        fan.apex   = triangles.vertices[v];
-        fan.radius = 0.3 * reach(v);
+        fan.apex         = triangles.vertices[v];
+        fan.radius       = 0.3 * reach(v);
         fan.inner_radius = fan.radius / 16.;
         // The weakest soil of the triangles there.
         double                 a = 1., k = std::numeric_limits<double>::max();
@@ -215,25 +229,29 @@ namespace geocone::GEOCONE_DIM
                 k = std::min(k, cone.k);
                 materials.insert(triangles.material[c]);
               }
-        const unsigned int live =
-          (vertex.after.traction[0] - vertex.before.traction[0]).norm() >
-              1e-6 * largest
-            ? 0
-            : 1;
-        const double difference =
-          vertex.after.pressure(live) - vertex.before.pressure(live);
-        const bool is_sheared = std::abs(vertex.after.shear(live)) +
-                                  std::abs(vertex.before.shear(live)) >
-                                1e-6 * largest;
+        const double after  = vertex.after.pressure(),
+                     before = vertex.before.pressure();
+        const bool is_sheared =
+          std::abs(vertex.after.shear()) + std::abs(vertex.before.shear()) >
+          1e-6 * largest;
+        const bool   turns_all = is_sheared || materials.size() > 1 || k <= 0.;
         const double angle = vertex.angle(), turn = angle - pi / 2.;
+        // The part that acts of what a continuous turn carries.
+        const double used =
+          std::max(after, before) /
+          greatest_pressure(std::min(after, before), turn, a, k / sqrt2);
+        if (!turns_all && used < 0.4)
+          return fan;
+        const double wanted =
+          turns_all ? 1. - tolerance : std::min(1.2 * used, 1. - tolerance);
         unsigned int n = std::max(3., std::ceil(turn / (pi / 6.)));
-        while (n < most_rays && 1. - part_borne(n, turn, a) > tolerance)
+        while (n < most_rays && part_carried(n, turn, a) < wanted)
           ++n;
 
         // From the side with the greater pressure.
         std::vector<double> from_side = {0.};
         const double        delta     = turn / n;
-        if (is_sheared || materials.size() > 1 || k <= 0.)
+        if (turns_all)
           {
             const unsigned int parts =
               std::min<unsigned int>(std::ceil(angle / delta), 2 * most_rays);
@@ -253,7 +271,7 @@ namespace geocone::GEOCONE_DIM
         from_side.push_back(angle);
         std::sort(from_side.begin(), from_side.end());
         for (const double ray : from_side)
-          fan.rays.push_back(difference >= 0.
+          fan.rays.push_back(after >= before
                                ? vertex.after.direction + ray
                                : vertex.after.direction + angle - ray);
         std::sort(fan.rays.begin(), fan.rays.end());
@@ -318,7 +336,7 @@ namespace geocone::GEOCONE_DIM
   } // namespace
 
   double
-  part_borne(const unsigned int n, const double turn, const double sin_phi)
+  part_carried(const unsigned int n, const double turn, const double sin_phi)
   {
     const double delta = turn / n;
     if (sin_phi < 1e-6)
@@ -331,8 +349,10 @@ namespace geocone::GEOCONE_DIM
   }
 
   std::vector<Fan>
-  fans_of_jumps(const BoundScene &bound, const double tolerance)
+  fans_of_jumps(const BoundScene &bound,
+                const double      load,
+                const double      tolerance)
   {
-    return LoadedOutline(bound).fans(tolerance);
+    return LoadedOutline(bound, load).fans(tolerance);
   }
 } // namespace geocone::GEOCONE_DIM

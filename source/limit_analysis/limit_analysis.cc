@@ -247,10 +247,12 @@ namespace geocone::GEOCONE_DIM
       {
         const double F =
           reduces_strength() && level.certified() ? level.upper : 1.;
+        const double load = reduces_strength() ? 1. : bounds.upper.bound.load;
         // An eighth of the gap is left to the rays.
         fans = fans_of_jumps(reduces_strength()
                                ? bounded_load.reduced(scene, *triangles, F)
                                : bounded_load.on(scene, *triangles),
+                             load,
                              gap_tolerance / 8.);
       }
     sizes = adapted_sizes(*triangles, bounds.uneven, next_cells(level), &fans);

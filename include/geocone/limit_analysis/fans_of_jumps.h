@@ -17,20 +17,24 @@ namespace geocone::GEOCONE_DIM
    * from triangle to triangle only, however small they are: the number of triangles at
    * such a vertex limits the lower bound (doc/theory/limit_analysis.md). The rays are
    * those of the sector of the turn, at which the limit is closest to the exact load.
+   * Where less than 0.4 of what a continuous turn carries acts, there is no fan.
+   * @param load of the problem, about
    * @param tolerance relative error of the load that the number of rays may cause
    */
   std::vector<Fan>
-  fans_of_jumps(const BoundScene &bound, const double tolerance);
+  fans_of_jumps(const BoundScene &bound,
+                const double      load,
+                const double      tolerance);
 
   /**
-   * Ratio of the pressure that n stress discontinuities bear beside a free surface to that
+   * Ratio of the pressure that n stress discontinuities carry beside a free surface to that
    * of a continuous turn. Across each, principal stresses turn by turn/n; with
    * sin(rho) = sin(phi) cos(turn/n), mean stresses, to which c cot(phi) is added, grow by
    * cos(turn/n - rho)/cos(turn/n + rho).
    * @param sin_phi of the soil, or 0
    */
   double
-  part_borne(const unsigned int n, const double turn, const double sin_phi);
+  part_carried(const unsigned int n, const double turn, const double sin_phi);
 } // namespace geocone::GEOCONE_DIM
 
 #endif
