@@ -39,7 +39,7 @@ import pathlib
 import numpy as np
 
 import geocone
-from geocone.plots import answer, overlay
+from geocone.plots import answer, overlay, point_values
 from geocone.style import areas_of, columns_of, level
 
 size, count = pathlib.Path("cut/points.mp4").read_text().split()
@@ -83,7 +83,7 @@ class Two:
     cells = np.array([[0, 1, 2], [3, 4, 5]])
     data = {"material": np.array([[0.]] * 3 + [[1.]] * 3)}
 values = np.array([1.] * 3 + [3.] * 3)
-assert np.allclose(overlay.recovered(Two, values), [1., 2., 2., 2., 3., 2.])
+assert np.allclose(point_values.recovered(Two, values), [1., 2., 2., 2., 3., 2.])
 between, outer = overlay.borders_of(Two)
 assert len(between) == 1 and len(outer) == 4, (between, outer)
 PYTHON

@@ -26,6 +26,7 @@ import struct
 import numpy as np
 import geocone
 from geocone.plots import solid
+from geocone.plots.point_values import vertices_of
 for name, kind in (("hexahedra", "hexahedron"), ("tetra", "tetra")):
     png = open(f"{name}/plastic_strain_rate.png", "rb").read()
     assert min(struct.unpack(">II", png[16:24])) > 500
@@ -33,7 +34,7 @@ for name, kind in (("hexahedra", "hexahedron"), ("tetra", "tetra")):
     mesh = run.fields("cells")
     assert mesh.points.shape[1] == 3 and mesh.cells[0].type == kind
     cells = mesh.cells[0].data
-    faces, normals = solid.outer_faces(mesh.points, cells, solid.vertices_of(mesh.points))
+    faces, normals = solid.outer_faces(mesh.points, cells, vertices_of(mesh.points))
     a, b, c, d = (mesh.points[faces[:, i]] for i in range(4))
     area = np.linalg.norm(np.cross(c - a, d - b), axis=1) / 2.
     area[area == 0.] = np.linalg.norm(np.cross(b - a, c - a), axis=1)[area == 0.] / 2.
@@ -48,4 +49,69 @@ assert run.per_metre("J") == "J"
 last, = run.states("points")
 look = solid.SolidLook([last], [last.points[:, 0]], lambda size: size)
 assert look.view.signs[0] == 1. and np.ptp(look.box, axis=0).min() > 0.
+PYTHON
+# The same pictures by VTK where it and a display are to be had, and by matplotlib elsewhere.
+number=0
+if ! /usr/bin/python3 -c 'import vtkmodules' 2> /dev/null || ! command -v Xvfb > /dev/null; then
+  echo "skipped: images by VTK (needs python3-vtk9 and xvfb)" >&2
+else
+  Xvfb -displayfd 3 -screen 0 1600x1600x24 3> display 2> /dev/null &
+  server=$!
+  trap 'kill $server' EXIT
+  until [ -s display ]; do sleep 0.05; done
+  number=$(cat display)
+fi
+DISPLAY=:$number PYTHONPATH=$root/python /usr/bin/python3 -B - "${server:+with}" <<'PYTHON'
+import os
+import sys
+import numpy as np
+import geocone
+from geocone import style
+from geocone.plots import rates, rendered, solid
+from geocone.plots.point_values import vertices_of
+# A cube of 8^3 cells, of which the one behind the middle flows: it is opened there.
+n = np.arange(8)
+corner = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1],
+                   [1, 1, 1], [0, 1, 1]])
+origins = np.stack(np.meshgrid(n, n, n, indexing="ij"), axis=-1).reshape(-1, 1, 3)
+points = (origins + corner).reshape(-1, 3).astype(float)
+cells = np.arange(len(points)).reshape(-1, 8)
+flows = np.all(origins[:, 0] == [4, 4, 4], axis=1)
+view, faces, normals, cut = solid.chosen_view(points, cells, np.repeat(1. * flows, 8))
+assert np.allclose(cut, 4.5)
+where = view.seen(points)
+box = where.min(axis=0), where.max(axis=0)
+vertices = vertices_of(points)
+first = np.unique(vertices, return_index=True)[1]
+nodes = vertices[cells]
+height = points[first][:, 1] / 8.
+fields = [(np.where(flows, 1., -1.), style.RATES), (height, style.STEPS)]
+images = rendered.images_of(points[first], nodes, fields, view, box, cut)
+assert len(images) == (2 if sys.argv[1] else len(images))
+if sys.argv[1]:
+    def color(image, place):
+        """Of what is seen at a place in space."""
+        x, y = (view.seen(np.array(place)) - box[0]) / (box[1] - box[0])
+        rows, columns = image.shape[:2]
+        return image[int((1. - y) * rows), int(x * columns)] / 255.
+    # The cell that flows, inside of the cube, is seen in the sides of the cut.
+    in_side = cut + np.array([0., 0.2, 0.3 * view.signs[1]])
+    assert color(images[0], in_side).max() < 0.3
+    # Nodal values vary smoothly: colours of a vertical line of the outside, in its light.
+    x, z = np.where(view.signs > 0., [8., 2.5], [0., 5.5])
+    for y in 1.5, 2.6, 3.5:
+        seen = color(images[1], [x, y, z])
+        told = np.array(style.STEPS(y / 8.))[:3]
+        assert np.allclose(seen / seen.sum(), told / told.sum(), atol=0.02), (y, seen, told)
+    os.environ["GEOCONE_VTK"] = "0"
+    assert rendered.images_of(points[first], nodes, fields, view, box) == []
+    del os.environ["GEOCONE_VTK"]
+    with style.kept() as figures:
+        run = geocone.read("tetra")
+        rates.draw_run(run, run.folder / "rendered.png")
+    # Rates, smooth rates, displacement.
+    assert sum(len(axes.images) for axes in figures[0].axes) == 3
+# Without a display: VTK before 9.4 would end the process that it runs in.
+os.environ["DISPLAY"] = ":12345"
+assert len(rendered.images_of(points[first], nodes, fields, view, box)) in (0, 2)
 PYTHON

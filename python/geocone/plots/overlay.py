@@ -10,9 +10,9 @@ from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.patches import PathPatch, Polygon
 
 from geocone.plots.model import Model, draw_structures, outline_of
-from geocone.plots.solid import vertices_of
+from geocone.plots.point_values import recovered, vertices_of
 from geocone.reader import ReadError
-from geocone.style import areas_of, draw_free_surface, draw_obstacles, draw_water
+from geocone.style import draw_free_surface, draw_obstacles, draw_water
 
 BODY = {"edgecolor": "#303030", "linewidth": 1.}
 START = {"edgecolor": "#808080", "linewidth": 0.8, "linestyle": (0, (2, 2))}
@@ -34,17 +34,6 @@ def borders_of(field):
     second = np.argsort(edge.ravel(), kind="stable")[np.cumsum(number) - 1]
     between = (number == 2) & (material[first] != material[second])
     return ends[first[between]], ends[first[number == 1]]
-
-
-def recovered(field, values):
-    """Values of the cells, recovered at the nodes: means over the cells of a node, weighted
-    by their areas."""
-    vertices = vertices_of(field.points)
-    weights = np.repeat(areas_of(field.points[field.cells]), field.cells.shape[1])
-    corners = field.cells.ravel()
-    total = np.bincount(vertices[corners], weights)
-    sums = np.bincount(vertices[corners], weights * values[corners])
-    return (sums / np.maximum(total, 1e-300))[vertices]
 
 
 def triangles_of(cells):

@@ -40,6 +40,24 @@ def per_cell(field, values):
     return values[field.cells[:, 0]]
 
 
+def vertices_of(points):
+    """A number for each point, the same for those at one place."""
+    size = np.ptp(points, axis=0).max()
+    places = np.round((points - points.min(axis=0)) * (1e8 / size)).astype(np.int64)
+    return np.unique(places, axis=0, return_inverse=True)[1].ravel()
+
+
+def recovered(field, values):
+    """Values of the cells, recovered at the nodes: means over the cells of a node, weighted
+    by their areas or volumes."""
+    vertices = vertices_of(field.points)
+    weights = np.repeat(sizes_of(field), field.cells.shape[1])
+    corners = field.cells.ravel()
+    total = np.bincount(vertices[corners], weights)
+    sums = np.bincount(vertices[corners], weights * values[corners])
+    return (sums / np.maximum(total, 1e-300))[vertices]
+
+
 def level_of(fields, values):
     """Positive value at which colours end (style.level) for some states together; the
     smallest number if nothing is positive."""

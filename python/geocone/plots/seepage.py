@@ -9,7 +9,7 @@ from matplotlib.tri import LinearTriInterpolator, Triangulation
 from geocone.plots import overlay
 from geocone.plots.answer import heading
 from geocone.plots.bounds import column, plain_ticks
-from geocone.plots.solid import vertices_of
+from geocone.plots.point_values import vertices_of
 from geocone.style import BLUE, WATER, Skipped, add_bar, panels, plain, save, subplots
 
 HEADS = 14  # lines of equal head

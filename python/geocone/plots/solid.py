@@ -1,7 +1,8 @@
 # Copyright (C) 2026 by the geocone authors
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Bodies in three dimensions. plastic_strain_rate.png: the faces of the cells that are
-seen from where most of the flow is, the body cut open where the flow is inside.
+seen from where most of the flow is, the body cut open where the flow is inside (by VTK where
+it is installed: rendered.py).
 plastic_strain.png: material points as balls, the nearest in front."""
 
 import numpy as np
@@ -11,7 +12,9 @@ from matplotlib.colors import LogNorm, Normalize
 from matplotlib.patheffects import withStroke
 
 from geocone.plots.answer import heading, moment
-from geocone.plots.point_values import STRAIN, values_of, view_of
+from geocone.plots.point_values import (STRAIN, per_cell, recovered, values_of, vertices_of,
+                                        view_of)
+from geocone.plots.rendered import images_of
 from geocone.style import (RATES, SHOWN, STEPS, add_bar, areas_of, level, panels, save,
                            sizes_of)
 
@@ -22,13 +25,6 @@ FACES = {4: [(0, 1, 2, 2), (0, 1, 3, 3), (1, 2, 3, 3), (0, 2, 3, 3)],
 ON_DARK = [withStroke(linewidth=3., foreground="white")]
 HEIGHT = np.radians(30.)  # of the eye above the horizon
 HIDDEN = 0.3  # the body is cut open if less than this part of the greatest rate is seen
-
-
-def vertices_of(points):
-    """A number for each point, the same for those at one place."""
-    size = np.ptp(points, axis=0).max()
-    places = np.round((points - points.min(axis=0)) * (1e8 / size)).astype(np.int64)
-    return np.unique(places, axis=0, return_inverse=True)[1].ravel()
 
 
 def outer_faces(points, cells, vertices):
@@ -85,7 +81,8 @@ def chosen_view(points, cells, rates):
     """From where most of the flow is seen. If it is hidden, the body is opened: cells in
     front of that of the greatest rate are taken away.
 
-    @return the view, the faces that it shows, their normals, and whether it was opened"""
+    @return the view, the faces that it shows, their normals, and the corner of the cut, None
+        if the body is not opened"""
     vertices = vertices_of(points)
     views = [View(x, z) for x in (1., -1.) for z in (1., -1.)]
     outer = outer_faces(points, cells, vertices)
@@ -96,26 +93,24 @@ def chosen_view(points, cells, rates):
 
     best = max(views, key=seen)
     if seen(best)[0] >= HIDDEN * rates.max():
-        return best, *facing(*outer, best), False
+        return best, *facing(*outer, best), None
     centres = points[cells].mean(axis=1)
     fastest = centres[np.argmax(rates[cells[:, 0]])]
     view = max(views, key=lambda view: -np.sum(view.signs * fastest[[0, 2]]))
     in_front = np.all((centres - fastest)[:, [0, 2]] * view.signs > 0., axis=1)
-    return view, *facing(*outer_faces(points, cells[~in_front], vertices), view), True
+    return view, *facing(*outer_faces(points, cells[~in_front], vertices), view), fastest
 
 
-def add_faces(axes, view, points, faces, normals, values, colors, norm, label, **bar):
-    """Draws faces from the back to the front, in the colours of their values (one for
-    each face), darker where they are seen from the side."""
+def add_faces(axes, view, points, faces, normals, paint):
+    """Draws faces from the back to the front, in their colours (n, 4), darker where they
+    are seen from the side."""
     depth = points[faces].mean(axis=1) @ view.towards
     order = np.argsort(depth)
     light = 0.75 + 0.25 * np.abs(normals @ np.array([0.25, 0.9, 0.35]))
-    paint = colors(norm(values))
     paint[:, :3] *= np.minimum(light, 1.)[:, None]
     axes.add_collection(PolyCollection(view.seen(points)[faces[order]],
                                        facecolors=paint[order], edgecolors="#60606060",
                                        linewidths=0.3))
-    add_bar(axes, ScalarMappable(norm, colors), label, **bar)
 
 
 def add_directions(axes, view, box):
@@ -141,50 +136,105 @@ def add_directions(axes, view, box):
               ha="center", va="bottom", zorder=5, path_effects=ON_DARK)
 
 
+def add_image(axes, image, box):
+    """Shows an image of the box."""
+    (left, bottom), (right, top) = box
+    axes.imshow(image, extent=(left, right, bottom, top), aspect="equal",
+                interpolation="antialiased", zorder=1)
+
+
+def box_of_flow(places, moving):
+    """Where something moves, with a margin, as far as the body reaches.
+
+    @param places where the corners of the faces are in the picture (n, corners, 2)
+    @param moving whether something moves, of each face"""
+    shown, body = places[moving].reshape(-1, 2), places.reshape(-1, 2)
+    margin = 0.15 * np.ptp(shown, axis=0).max()
+    box = (np.maximum(shown.min(axis=0) - margin, body.min(axis=0)),
+           np.minimum(shown.max(axis=0) + margin, body.max(axis=0)))
+    return box[0] - 0.02 * np.ptp(box), box[1] + 0.02 * np.ptp(box)
+
+
+def draw_cells(run, field, rates, motion, most, label):
+    """Draws the rate of each cell that is seen and its motion; where VTK can be used smooth
+    contours of the rates too. The parameters are those of draw_rates.
+
+    @return the figure"""
+    name, unit, vectors = motion
+    points, cells = field.points, field.cells
+    speed = np.linalg.norm(vectors, axis=1)
+    view, faces, normals, cut = chosen_view(points, cells, rates)
+    size = speed[faces].mean(axis=1)
+    box = box_of_flow(view.seen(points)[faces],
+                      (rates[faces[:, 0]] > SHOWN * most) | (size > 0.02 * size.max()))
+    of_rates = LogNorm(SHOWN * most, most)
+    of_motion = norm_of(level(size, areas_of(points[faces])))
+    vertices = vertices_of(points)
+    first = np.unique(vertices, return_index=True)[1]
+    images = images_of(points[first], vertices[cells], [
+        (part_of(of_rates, per_cell(field, rates)), RATES),
+        (part_of(of_rates, recovered(field, rates)[first]), RATES),
+        (part_of(of_motion, speed[first]), STEPS)], view, box, cut)
+    figure, axes_of = panels(3 if images else 2, box)
+    for axes, image in zip(axes_of, images):
+        add_image(axes, image, box)
+    if not images:
+        add_faces(axes_of[0], view, points, faces, normals, RATES(of_rates(rates[faces[:, 0]])))
+        add_faces(axes_of[1], view, points, faces, normals, STEPS(of_motion(size)))
+    for axes in axes_of[:-1]:
+        add_bar(axes, ScalarMappable(of_rates, RATES), label, extend="both")
+    add_bar(axes_of[-1], ScalarMappable(of_motion, STEPS), unit, extend="max")
+    for axes in axes_of:
+        add_directions(axes, view, box)
+    axes_of[0].set_title(f"plastic strain rate of the cells, {moment(run, field.time)}\n"
+                         f"seen from {view.name()}{', cut open' * (cut is not None)}")
+    if images:
+        axes_of[1].set_title("smooth contours (nodal recovery)")
+    axes_of[-1].set_title(f"magnitude of the {name}")
+    return figure
+
+
+def draw_balls(run, field, rates, motion, most, label):
+    """Draws the rate of each point that is seen, and its motion. The parameters are those of
+    draw_rates.
+
+    @return the figure"""
+    name, unit, vectors = motion
+    size = np.linalg.norm(vectors, axis=1)
+    look = SolidLook([field], [rates], lambda box: box / 2.)
+    figure, axes_of = panels(2, look.box)
+    for axes, values, colors, norm, words in (
+            (axes_of[0], rates, RATES, LogNorm(SHOWN * most, most), label),
+            (axes_of[1], size, STEPS, norm_of(level(size, sizes_of(field))), unit)):
+        drawn = look.collection(axes, field, values)
+        drawn.set(cmap=colors, norm=norm)
+        axes.add_collection(drawn)
+        look.finish(axes)
+        add_bar(axes, drawn, words, extend="max")
+    axes_of[0].set_title(f"plastic strain rate, {moment(run, field.time)}\n"
+                         f"seen from {look.view.name()}")
+    axes_of[1].set_title(f"magnitude of the {name}")
+    return figure
+
+
 def draw_rates(run, path, field, rates, motion, most, label):
     """Draws the rate of each cell or ball that is seen, and its motion.
 
-    @param motion name, unit and vectors; most  the rate at which colours end
+    @param motion name, unit and vectors
+    @param most the rate at which colours end
     @param label unit of the rate"""
-    name, unit, vectors = motion
-    size = np.linalg.norm(vectors, axis=1)
-    if field.cells.shape[1] < 4:
-        look = SolidLook([field], [rates], lambda box: box / 2.)
-        figure, axes_of, view, opened = *panels(2, look.box), look.view, False
-        farthest = level(size, sizes_of(field))
-        for axes, values, colors, norm, words in (
-                (axes_of[0], rates, RATES, LogNorm(SHOWN * most, most), label),
-                (axes_of[1], size, STEPS, norm_of(farthest), unit)):
-            drawn = look.collection(axes, field, values)
-            drawn.set(cmap=colors, norm=norm)
-            axes.add_collection(drawn)
-            look.finish(axes)
-            add_bar(axes, drawn, words, extend="max")
-    else:
-        points = field.points
-        view, faces, normals, opened = chosen_view(points, field.cells, rates)
-        size = size[faces].mean(axis=1)
-        # The picture shows where something moves, with a margin.
-        moving = np.concatenate([rates[faces[:, 0]] > SHOWN * most,
-                                 size > 0.02 * size.max()]).reshape(2, -1).any(axis=0)
-        shown, body = (view.seen(points)[f.ravel()] for f in (faces[moving], faces))
-        margin = 0.15 * np.ptp(shown, axis=0).max()
-        box = (np.maximum(shown.min(axis=0) - margin, body.min(axis=0)),
-               np.minimum(shown.max(axis=0) + margin, body.max(axis=0)))
-        box = (box[0] - 0.02 * np.ptp(box), box[1] + 0.02 * np.ptp(box))
-        figure, axes_of = panels(2, box)
-        farthest = level(size, areas_of(points[faces]))
-        for axes, values, colors, norm, words in (
-                (axes_of[0], rates[faces[:, 0]], RATES, LogNorm(SHOWN * most, most), label),
-                (axes_of[1], size, STEPS, norm_of(farthest), unit)):
-            add_faces(axes, view, points, faces, normals, values, colors, norm, words,
-                      extend="max")
-            add_directions(axes, view, box)
-    axes_of[0].set_title(f"plastic strain rate, {moment(run, field.time)}\n"
-                         f"seen from {view.name()}{', cut open' * opened}")
-    axes_of[1].set_title(f"magnitude of the {name}")
+    draw = draw_balls if field.cells.shape[1] < 4 else draw_cells
+    figure = draw(run, field, rates, motion, most, label)
     figure.suptitle(heading(run), fontsize=13)
     save(figure, run, path, cropped=True)
+
+
+def part_of(norm, values):
+    """Values as parts of a scale; -1 where they are below it."""
+    parts = np.full(len(values), -1.)
+    shown = values >= norm.vmin
+    parts[shown] = np.minimum(norm(values[shown]), 1.)
+    return parts
 
 
 def norm_of(most):
