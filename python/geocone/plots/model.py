@@ -390,14 +390,16 @@ def draw_tractions(axes, model):
     return entries
 
 
-def draw_obstacles(axes, model):
-    """Obstacles where they begin, with their names."""
+def draw_obstacles(axes, model, with_names=True):
+    """Obstacles where they begin."""
     for obstacle in model.data["obstacles"]:
         triangles = np.array(obstacle["triangles"], dtype=float)
         if not len(triangles):
             continue
         axes.add_collection(PolyCollection(triangles, facecolors="#8c8c8c", edgecolors="face",
                                            linewidths=0.5, zorder=3), autolim=False)
+        if not with_names:
+            continue
         inside = np.clip(triangles.reshape(-1, 2), *np.array(
             [axes.get_xlim(), axes.get_ylim()]).T).mean(axis=0)
         axes.text(*inside, plain(obstacle["name"]), fontsize=8, ha="center", va="center",
@@ -537,6 +539,7 @@ def draw_stages(axes_of, model, stages, view):
         if "removed_lattice" in stage:
             draw_lattice(axes, stage["removed_lattice"], "#ffffff", zorder=1.4)
         draw_outlines(axes, model)
+        draw_obstacles(axes, model, with_names=False)
         draw_structures(axes, model, stage["name"], with_names=False)
         draw_acting(axes, model, stage["name"])
         draw_table(axes, table)
