@@ -19,7 +19,7 @@ from geocone.style import STRAINS, PlotError, Skipped, panels, plain
 
 SECONDS = 8.  # that a film takes
 MOST = 200  # pictures
-DOTS = 110  # per inch: films of many pictures are large
+DOTS = 88  # per inch: films of many pictures are large
 
 
 def mp4_of(frames, seconds):
