@@ -3,6 +3,7 @@
 """python3 -m geocone plot RUN-FOLDER ...     draws pictures of runs
 python3 -m geocone report STUDY.toml ...   computes studies and writes their report
 python3 -m geocone dxf DRAWING.dxf NEW.prm begins a parameter file from a drawing
+python3 -m geocone boreholes TABLE.csv NEW.prm begins one from a table of boreholes
 Each with --help."""
 
 import os
@@ -18,6 +19,8 @@ def main(arguments, prog=None):
         from geocone.report.study import main as call
     elif verb == "dxf":
         from geocone.dxf import main as call
+    elif verb == "boreholes":
+        from geocone.boreholes import main as call
     else:
         print(__doc__, file=sys.stdout if verb in ("-h", "--help") else sys.stderr)
         return 0 if verb in ("-h", "--help") else 1

@@ -214,8 +214,31 @@ def scene_of(file: str | os.PathLike, unit: float | None = None, body: str | Non
         name = re.sub(r"[^\w -]", "_", layer).strip() or "soil"
         same = sum(other == name or other.startswith(name + " ") for other in names)
         names.append(name if same == 0 else f"{name} {same + 1}")
+    return text_of_scene(f"the drawing {Path(file).name}, lengths in m", outline, names, parts,
+                         table, empty, tolerance)
+
+
+def text_of_scene(source: str, outline: Points, names: list[str], parts: list[tuple],
+                  table: Points | None, empty: list[Points], tolerance: float) -> str:
+    """Writes a parameter file that names its soils, of which the laws are not known.
+
+    Parameters
+    ----------
+    source
+        What it was made from.
+    outline, empty
+        The body, counterclockwise, and its holes.
+    names
+        Names of the materials; the first one is that of the body.
+    parts
+        Of each other material a name, a parameter of its region and points.
+    table
+        The water, if there is any.
+    tolerance
+        Distance within which points are the same (m).
+    """
     size = (abs(area(outline)) ** 0.5) / 20.
-    result = [f"# From the drawing {Path(file).name}, lengths in m. Choose the law of each "
+    result = [f"# From {source}. Choose the law of each "
               "material and\n# its parameters, then look at it: "
               "geocone --dry-run THIS_FILE --picture\n",
               section("Analysis", ["set Kind = strength reduction"]),

@@ -1,0 +1,47 @@
+# A table of boreholes becomes a scene of layers, one of which thins out, and of water.
+program=$1 root=$2 folder=$3
+rm -rf "$folder" && mkdir -p "$folder" && cd "$folder"
+cat >table.csv <<'CSV'
+borehole, x, top, soil
+B2, 20, 4, clay
+B2, 20, -2, sand
+B2, 20, -8, end
+B1, 0, 8, fill
+B1, 0, 4, clay
+B1, 0, 1, water
+B1, 0, -3, sand
+B1, 0, -10, end
+B3, 40, 4, clay
+B3, 40, 0, water
+B3, 40, -2, sand
+B3, 40, -8, end
+CSV
+export PYTHONPATH=$root/python
+boreholes() {
+  /usr/bin/python3 -B -m geocone boreholes "$@"
+}
+boreholes table.csv scene.prm
+for line in 'Polygon = 0, -10; 40, -10; 40, 4; 20, 4; 0, 8' 'Names = fill, clay, sand' \
+  'Region below = 0, 4; 20, 4; 40, 4' 'Region below = 0, -3; 20, -2; 40, -2' 'Table = 0, 1; 40, 0'; do
+  grep -qF "$line" <(tr -s ' ' <scene.prm) || { cat scene.prm; exit 1; }
+done
+"$program" scene.prm --dry-run --picture --quiet --output model \
+  --set 'Analysis/Kind = steps' --set 'Discretisation/Method = FEM' \
+  --set 'Loading/Stages = weight' --set 'Loading/weight/Duration = 1'
+grep -q '"sand"' model/model.json
+# Refused, and nothing is written.
+refused() { # TABLE WORDS
+  if boreholes "$1" none.prm 2>said; then exit 1; fi
+  grep -q "$2" said || { cat said; exit 1; }
+  [ ! -e none.prm ]
+}
+grep -v 'B3.*end' table.csv >no_end.csv
+refused no_end.csv "no soil above the row 'end'"
+sed 's/^B3, 40, 4, clay/B3, 40, -4, clay/' table.csv >order.csv
+refused order.csv 'different orders'
+grep -v 'B[23]' table.csv >one.csv
+refused one.csv 'two or more'
+sed 's/, 8, fill/, eight, fill/' table.csv >word.csv
+refused word.csv 'no table of boreholes'
+sed 's/fill/"fill\nend"/' table.csv >name.csv
+refused name.csv 'may not be called'
