@@ -54,6 +54,24 @@ assert [stage["name"] for stage in notable_stages(model)] == ["surcharge", "push
 assert Path("staged/model.png").stat().st_size > 10000
 PYTHON
 
+# Obstacles are in the pictures of stages too, without their names.
+"$program" "$root/prm/safety/excavation_wall.prm" --dry-run --picture --quiet --output wall
+PYTHONPATH=$root/python /usr/bin/python3 -B - <<'PYTHON'
+from pathlib import Path
+
+from geocone.plots.model import Model, draw_stages, notable_stages, view_of
+from geocone.style import subplots
+
+model = Model(Path("wall"))
+stages = notable_stages(model)
+assert [stage["name"] for stage in stages] == ["first lift", "second lift"]
+_, axes_of = subplots(1, 2, figsize=(4., 2.))
+draw_stages(axes_of, model, stages, view_of(model))
+triangles = len(model.data["obstacles"][0]["triangles"])
+for axes in axes_of:
+    assert triangles in [len(c.get_paths()) for c in axes.collections] and not axes.texts
+PYTHON
+
 # The table of the report has soil without tension, and a cohesion that is a formula.
 PYTHONPATH=$root/python /usr/bin/python3 -B - <<'PYTHON'
 from geocone.plots.scene_tables import soils_of
