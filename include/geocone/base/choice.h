@@ -58,7 +58,7 @@ namespace geocone
           value = meant;
     }
 
-    /** Returns the word for the current value, as used in the parameter
+    /** Returns the current value as a word, as written in the parameter
      *  file. */
     std::string
     word() const

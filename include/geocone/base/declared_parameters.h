@@ -48,7 +48,7 @@ namespace geocone
           const Declared    &section,
           const std::string &indent = "");
 
-  /** Returns the keys of a map. */
+  /** Returns the keys of a map as a list. */
   template <typename T>
   std::vector<std::string>
   keys(const std::map<std::string, T> &map)

@@ -13,9 +13,9 @@
 namespace geocone
 {
   /**
-   * Concatenates the arrays of all ranks on the first rank. On all other ranks,
-   * the result is empty. Collective. Only the first rank stores more than its
-   * own part.
+   * Concatenates the arrays of all ranks on the first rank, in rank order. On
+   * all other ranks, the result is empty. Collective. Only the first rank
+   * stores more than its own part.
    */
   template <typename T>
   std::vector<T>

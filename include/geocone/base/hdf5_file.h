@@ -68,7 +68,7 @@ namespace geocone
                 const unsigned int               n_columns);
     /** @} */
 
-    /** Source of a virtual dataset: a table in another file of the same
+    /** Source of a virtual dataset: a table in another file in the same
      *  folder. */
     struct Part
     {

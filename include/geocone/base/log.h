@@ -30,8 +30,8 @@ namespace geocone
     void
     open(const std::string &file_name, const bool goes_on = false);
 
-    /** Prepends the warnings of an earlier process of the same run (resumed
-     *  run). */
+    /** Prepends the warnings that a resumed run printed before it was
+     *  interrupted. */
     void
     add_earlier_warnings(const std::vector<std::string> &earlier)
     {

@@ -10,7 +10,8 @@
 
 namespace geocone
 {
-  /** Converts a string to a number. Empty if the string is not a number. */
+  /** Parses a string as a floating-point number. Empty if the string is not a
+   *  number. */
   inline std::optional<double>
   number_in(const std::string &text)
   {

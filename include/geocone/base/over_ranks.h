@@ -42,9 +42,9 @@ namespace geocone
              : 1.;
   }
 
-  /** Sums the state variables of the objects in a list over all ranks, object
-   *  by object and in place. State variables are listed by state(); their
-   *  number must be equal on all ranks. Collective. */
+  /** Sums the state variables of each object in a list over all ranks, in
+   *  place. State variables are listed by state(); their number must be equal
+   *  on all ranks. Collective. */
   template <typename Class>
   void
   sum_states_over_ranks(std::vector<Class> &list, const MPI_Comm comm)

@@ -30,9 +30,9 @@ namespace geocone
   class ParameterFile
   {
   public:
-    /** Types of objects (e.g. constitutive laws) that declare a parameter, by
-     *  section and parameter name. If the file uses no object of these types,
-     *  parse() skips the parameter. */
+    /** For each section and parameter name, the object types (e.g. constitutive
+     *  laws) that declare the parameter. If the file uses no object of these
+     *  types, parse() skips the parameter. */
     using OfOthers = std::map<std::string, std::map<std::string, std::string>>;
 
     /** A parameter set in the parameter file. If the parameter is set
@@ -181,7 +181,7 @@ namespace geocone
     std::vector<SetLine>
     set_lines(const bool checks) const;
 
-    /** Returns the subsections of a section by name, each with its first
+    /** Returns the names of the subsections of a section, each with its first
      *  line in the parameter file. */
     std::map<std::string, const Line *>
     subsections_of(const std::string &section) const;
@@ -192,7 +192,7 @@ namespace geocone
     unsigned int      n_files          = 0;
     bool              has_strict_lists = true;
 
-    /** Names of all listed objects (e.g. materials), by section. */
+    /** Names of the listed objects (e.g. materials) in each section. */
     mutable std::map<std::string, std::vector<std::string>> lists;
   };
 

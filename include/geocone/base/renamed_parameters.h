@@ -26,14 +26,14 @@ namespace geocone
     std::string section, before, now;
   };
 
-  /** Converts a former parameter name to the present one. Present names are
+  /** Converts a former parameter name to the current name. Present names are
    *  returned unchanged. */
   std::string
   present_name(const std::vector<std::string> &sections,
                const std::string              &name);
 
-  /** Returns a warning that lists the former parameter names in a file and their
-   *  present names. Empty if the file contains no former names. */
+  /** Returns a warning that lists the former parameter names in a parameter
+   *  file and the current names. Empty if the file contains no former names. */
   std::string
   former_names(const std::vector<ParameterFile::Setting> &settings);
 } // namespace geocone

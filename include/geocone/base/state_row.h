@@ -15,8 +15,9 @@
 namespace geocone
 {
   /**
-   * Serialises variables to an array of numbers and restores them, e.g. for a
-   * checkpoint. The same list of variables is used for writing and reading:
+   * Serialises variables into an array of numbers and restores them from the
+   * array, e.g. for a checkpoint. The same list of variables is used for
+   * writing and reading:
    *   void state(StateRow &row) { row(time, step, records); }
    * Supported are numbers that a double represents exactly, texts, arrays,
    * vectors and tensors of numbers, and classes with a function state(StateRow

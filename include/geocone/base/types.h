@@ -130,8 +130,7 @@ namespace geocone::GEOCONE_DIM
     return dim == 2 ? std::sqrt(volume) : std::cbrt(volume);
   }
 
-  /** Names of the coordinates, as single characters and as a comma-separated
-   *  list. */
+  /** Coordinate names, as single characters and as a comma-separated list. */
   constexpr char        coordinate[3] = {'x', 'y', 'z'};
   constexpr const char *coordinates   = dim == 2 ? "x, y" : "x, y, z";
 

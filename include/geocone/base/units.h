@@ -21,21 +21,23 @@ namespace geocone
   void
   choose_units(const std::string &word);
 
-  /** Unit of mass in the selected system of units (kg): 1 or 1000. */
+  /** Unit of mass (kg) in the selected system of units: 1 (SI) or 1000
+   *  (kN-m). */
   double
   mass_unit();
 
-  /** Replaces the SI units in a text or column name by units of the selected
-   *  system. Units must follow a number or a parenthesis: "12 Pa", "load (N/m)". */
+  /** Replaces the SI units in a text or column name with the units of the
+   *  selected system. Units must follow a number or a parenthesis: "12 Pa",
+   *  "load (N/m)". */
   std::string
   in_units(const std::string &text);
 
-  /** Converts the name of an SI unit to the selected system of units, e.g. "N/m"
-   *  to "kN/m". */
+  /** Returns the unit of the selected system of units that replaces an SI unit,
+   *  e.g. "kN/m" for "N/m". */
   std::string
   present_unit(const std::string &unit);
 
-  /** Replaces the SI unit in a key of summary.json by the selected unit, e.g.
+  /** Replaces the SI unit in a key of summary.json with the selected unit, e.g.
    *  "p_Pa" by "p_kPa". */
   std::string
   key_in_units(const std::string &key);

@@ -62,8 +62,8 @@ namespace geocone::GEOCONE_DIM
     ElementControl
     control(const ElementPoint &point) const;
 
-    /** Returns the fraction f of the stage (0 to 1) at the end of each
-     *  increment. */
+    /** Returns the completed fraction of the stage (0 to 1) at the end of each
+     *  loading increment. */
     std::vector<double>
     positions() const;
 

@@ -77,8 +77,8 @@ namespace geocone::GEOCONE_DIM
     LawCounts trial_counts; ///< statistics of the last trial
   };
 
-  /** Choice of the stress components that a material point uses (in-plane or
-   *  all). */
+  /** Stress components that a material point uses: in-plane components only, or
+   *  all. */
   enum class StressComponents
   {
     automatic, ///< all, if supported by the law

@@ -29,7 +29,7 @@ namespace geocone::GEOCONE_DIM
                  const std::string &text,
                  const std::string &parameter);
 
-    /** Pore pressure u (Pa). */
+    /** Pore pressure u (Pa) at a point. */
     double
     value(const dealii::Point<dim> &x) const;
 

@@ -37,8 +37,8 @@ namespace geocone::GEOCONE_DIM
     double
     value(const dealii::Point<dim> &x) const;
 
-    /** Gradient of the field at the point x, constant in each triangle (field
-     *  unit per metre). */
+    /** Gradient of the field in the triangle that contains x (field unit per
+     *  metre). */
     dealii::Tensor<1, dim>
     gradient(const dealii::Point<dim> &x) const;
 
