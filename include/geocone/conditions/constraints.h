@@ -42,8 +42,8 @@ namespace geocone::GEOCONE_DIM
   {
   public:
     /**
-     * Collects the boundary conditions on nodes and activates the conditions of the
-     * given stage.
+     * Collects the boundary conditions imposed on nodes and activates those of
+     * the given stage.
      * @throws InputError if a condition selects no node
      */
     Constraints(const Scene          &scene,
@@ -139,8 +139,8 @@ namespace geocone::GEOCONE_DIM
     }
 
   private:
-    /** A direction in which a boundary condition prescribes the velocity of a
-     *  node. */
+    /** A direction in which a boundary condition prescribes the velocity
+     *  component of a node. */
     struct Direction
     {
       unsigned int           condition;
@@ -177,7 +177,8 @@ namespace geocone::GEOCONE_DIM
       }
     };
 
-    /** A nodal velocity component prescribed by several boundary conditions. */
+    /** A nodal velocity component that is prescribed by more than one boundary
+     *  condition. */
     struct Shared
     {
       std::vector<unsigned int> conditions; ///< the last one governs
@@ -185,8 +186,8 @@ namespace geocone::GEOCONE_DIM
       unsigned int              first = 0;  ///< offset of Part::place
     };
 
-    /** Integral int N_i n dA over those faces of a cell on which a boundary
-     *  condition acts. */
+    /** Integral int N_i n dA of shape function times normal, over those faces
+     *  of a cell on which a boundary condition acts. */
     struct Part
     {
       unsigned int           place; ///< number, starts at Shared::first
@@ -220,15 +221,15 @@ namespace geocone::GEOCONE_DIM
     void
     find_prescribed(const BackgroundMesh &mesh);
 
-    /** Finds and numbers the velocity components that several boundary conditions
-     *  prescribe. Collective. */
+    /** Finds and numbers the velocity components that are prescribed by more
+     *  than one boundary condition. Collective. */
     void
     number_shared(
       const std::map<unsigned int, std::vector<unsigned int>> &of_dof);
 
     /** Finds the boundary faces that contribute to the reactions of shared
-     *  nodes, where several boundary conditions prescribe the same velocity
-     *  component. Collective. */
+     *  nodes, where a velocity component is prescribed by more than one
+     *  boundary condition. Collective . */
     void
     find_shared(
       const BackgroundMesh                                    &mesh,
@@ -242,8 +243,8 @@ namespace geocone::GEOCONE_DIM
     exerted_on_faces(const MaterialPoints      &points,
                      const std::vector<Mandel> &stress) const;
 
-    /** Divides a nodal force among the conditions that prescribe the same velocity
-     *  component. */
+    /** Divides a nodal force among the boundary conditions that prescribe the
+     *  same velocity component. */
     void
     divide(const PrescribedNode      &node,
            const Shared              &among,
@@ -284,9 +285,9 @@ namespace geocone::GEOCONE_DIM
     std::vector<unsigned int>              n_nodes;     ///< over all ranks
     std::vector<dealii::Point<dim>>        centres;     ///< per condition
 
-    /** Velocity components prescribed by several boundary conditions, by global
-     *  dof. The total number of conditions over all shared components is
-     *  n_shares, the same on all ranks. */
+    /** Velocity components that are prescribed by more than one boundary
+     *  condition, by global dof. The total number of conditions over all shared
+     *  components is n_shares, the same on all ranks. */
     std::map<dealii::types::global_dof_index, Shared> shared;
     unsigned int                                      n_shares = 0;
 

@@ -13,9 +13,9 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Computes the nodal integrals int rho N_i of the mass density over all cells
-   * that contain material points. Each integral is stored for all components of
-   * a node.
+   * Computes the nodal masses int rho N_i (density times shape function),
+   * integrated over all cells that contain material points. Each integral is
+   * stored for all components of a node.
    * @param[out] weight_per_g  int rho N_i, which times g is the weight (kg/m)
    * @param[out] lumped_mass  diagonal mass: the row sums int rho N_i, which are
    * positive for P1, P3, Q1, Q2, Q3 (vertex, edge, centre of P3: 1/30, 3/40,
@@ -72,7 +72,7 @@ namespace geocone::GEOCONE_DIM
 
     const Scene             &scene;
     std::vector<LoadedPoint> loaded;
-    /** Nodal forces due to each water surface, for the full value of gravity
+    /** Nodal forces due to the pressure of each water surface at full gravity
      *  (N/m). */
     std::vector<Vector> of_water;
   };

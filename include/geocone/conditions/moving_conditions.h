@@ -104,9 +104,9 @@ namespace geocone::GEOCONE_DIM
     std::pair<dealii::Point<dim>, dealii::Point<dim>>
     box_of(const BoundaryCondition &condition) const;
 
-    /** Marks the local nodes whose shape functions are nonzero on a boundary
-     *  segment with prescribed traction or velocity. Empty without such
-     *  segments. Collective. */
+    /** Returns, for each local node, whether its shape function is nonzero on a
+     *  boundary segment with prescribed traction or velocity. Empty without
+     *  such segments. Collective. */
     std::vector<bool>
     loaded_nodes() const;
 
@@ -171,8 +171,8 @@ namespace geocone::GEOCONE_DIM
                           const Transfer       &transfer,
                           Multipliers          &rows) const;
 
-    /** Adds the shape function values at a position x to the constraint matrix,
-     *  in the rows of a boundary condition. There is one row per prescribed
+    /** Adds the shape function values at a position x to the rows of a boundary
+     *  condition in the constraint matrix. There is one row per prescribed
      *  velocity component. */
     void
     add_to_row(const unsigned int                                  condition,

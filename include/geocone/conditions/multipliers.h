@@ -60,8 +60,8 @@ namespace geocone::GEOCONE_DIM
     void
     clear();
 
-    /** Adds a coefficient for a node, e.g. weight x N_i(x), to a row of the
-     *  constraint matrix H. */
+    /** Adds the coefficient of a node (e.g. a weight times the shape function
+     *  N_i) to a row of the constraint matrix H. */
     void
     add_coefficient(const Key                            &key,
                     const dealii::types::global_dof_index node,
@@ -90,9 +90,9 @@ namespace geocone::GEOCONE_DIM
              const Vector      &prescribed);
 
     /**
-     * Appends the constraint row F.v/sum |F_i| = velocity, which controls the load
-     * factor in load stepping. The multiplier of this row is the load factor times
-     * the sum of the magnitudes |F_i| of the nodal forces.
+     * Appends the constraint row F.v/sum |F_i| = velocity for the loads F in
+     * load stepping. The multiplier of this row is the load factor times the
+     * sum of the magnitudes |F_i| of the nodal forces.
      * @param force F, including prescribed dofs @param prescribed as in
      * assemble()
      * @return whether the loads can move the body. Collective.
@@ -140,18 +140,19 @@ namespace geocone::GEOCONE_DIM
     Eigen::VectorXd
     multiply(const Vector &f) const;
 
-    /** Adds @p factor times the constraint forces H' lambda to the owned entries of
-     *  f. */
+    /** Adds the constraint forces H' lambda, multiplied by @p factor, to the
+     *  owned entries of f. */
     void
     add_transposed(Vector                &f,
                    const double           factor,
                    const Eigen::VectorXd &lambda) const;
 
     /**
-     * QR factorisation D^{-1/2} H' = Q U of the scaled, transposed constraint
-     * matrix. Q has orthonormal columns, distributed over all ranks, and U is upper
-     * triangular. Nearly dependent rows make U ill-conditioned, but not Q: H D^{-1}
-     * H' = U'U would lose twice as many digits.
+     * QR factorisation D^{-1/2} H' = Q U of the transposed constraint matrix
+     * H', scaled by the diagonal matrix D. Q has orthonormal columns,
+     * distributed over all ranks, and U is upper triangular. Nearly dependent
+     * rows make U ill-conditioned, but not Q: H D^{-1} H' = U'U would lose
+     * twice as many digits.
      */
     struct Factors
     {
@@ -160,14 +161,15 @@ namespace geocone::GEOCONE_DIM
       Eigen::MatrixXd U;
     };
 
-    /** Computes the QR factorisation of D^{-1/2} H'. Collective.
+    /** Computes the QR factorisation of the scaled, transposed constraint
+     *  matrix D^{-1/2} H'. Collective.
      *  @param scale D, or null for the identity */
     Factors
     factorise(const Vector *scale) const;
 
     /**
-     * Subtracts the constraint forces H' lambda from a residual R. The multipliers
-     * lambda minimise
+     * Subtracts the constraint forces H' lambda (lambda: Lagrange multipliers)
+     * from a residual R. The multipliers lambda minimise
      *   sum_i (R - H' lambda)_i^2 / D_i over dofs().
      * The result is accurate to the rounding of R, however large the
      * multipliers of nearly dependent rows.
@@ -242,8 +244,9 @@ namespace geocone::GEOCONE_DIM
     void
     contribute(const Key &key, const double node, const double value);
 
-    /** Contributions of this rank to the constraint rows. Each contains the
-     *  condition, component, number, node (-1: target, -2: offset) and value. */
+    /** Coefficients and right-hand sides that this rank contributes to the
+     *  constraint rows. Each contains the condition, component, number, node
+     *  (-1: target, -2: offset) and value. */
     std::vector<std::array<double, 5>> contributions;
 
     MPI_Comm         comm         = MPI_COMM_SELF;

@@ -39,8 +39,8 @@ namespace geocone::GEOCONE_DIM
   {
     dealii::Tensor<1, dim> force; ///< resultant sum f_i (N/m)
 
-    /** Moment sum (x_i - c) x f_i about the reference point c, by rotation axis
-     *  (N m/m). */
+    /** Resultant moment sum (x_i - c) x f_i of the nodal forces about a
+     *  reference point c, one component per rotation axis (N m/m). */
     dealii::Tensor<1, n_rotations> moment;
 
     /** Adds one component of a nodal force f_i to the reaction. @param arm x_i -

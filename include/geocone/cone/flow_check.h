@@ -34,8 +34,8 @@ namespace geocone::GEOCONE_DIM
     double flow       = 0.; ///< scale |y| (-)
     double compliance = 0.; ///< scale 1/2G (1/Pa)
 
-    /** Number of residuals and scales in FlowCheck. Each is reduced over points
-     *  and ranks by its maximum. */
+    /** Number of values (residuals and their scales) in FlowCheck. Each is
+     *  reduced over points and ranks by its maximum. */
     static constexpr std::size_t n_numbers = 10;
     static constexpr std::array<double FlowCheck::*, n_numbers>
     numbers()
@@ -100,9 +100,9 @@ namespace geocone::GEOCONE_DIM
 
   private:
     /**
-     * Error (-) in the flow rule for the negative plastic strain increment z,
-     * at a stress s on the Rankine tension cut-off. It is the sum of negative
-     * plastic multipliers of the cone and of the cut-off,
+     * Residual (-) of the flow rule for the negative plastic strain increment
+     * z, at a stress s on the Rankine tension cut-off. It is the sum of
+     * negative plastic multipliers of the cone and of the cut-off,
      *   g_1 + g_2 = -z_t.u,  b g_1 + g_2 = z_n,  u = s_t/|s_t|,
      * of a nonzero multiplier of the cone if s is inside the cone, and of strain
      * increments orthogonal to u; at the tip of the cut-off, |z_t| - z_n.

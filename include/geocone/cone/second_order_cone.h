@@ -66,8 +66,8 @@ namespace geocone::GEOCONE_DIM
     return s;
   }
 
-  /** Transforms a tangent or another linear map from cone axes to Mandel
-   *  components. */
+  /** Transforms a linear map, e.g. a tangent stiffness, from cone axes to
+   *  Mandel components. */
   inline MandelMatrix
   from_cone_axes(const MandelMatrix &C)
   {
@@ -89,8 +89,8 @@ namespace geocone::GEOCONE_DIM
     apex     ///< at the apex
   };
 
-  /** Infinite tensile strength (Pa), by which a cone without tension cut-off is
-   *  marked. */
+  /** Infinite tensile strength (Pa), the value for a cone without tension
+   *  cut-off. */
   constexpr double infinite_tension = std::numeric_limits<double>::infinity();
 
   /**
@@ -160,8 +160,9 @@ namespace geocone::GEOCONE_DIM
       return tangential_norm(s) - s[0] - opening;
     }
 
-    /** De Saxce's change of variable, Psi(z) = z + (a - b) |z_t| n (Guillet et al.
-     *  2025, eq 25). */
+    /** De Saxce's change of variable Psi(z) = z + (a - b) |z_t| n, with the
+     *  slopes a of the yield cone and b of the plastic potential; n is the cone
+     *  axis (Guillet et al. 2025, eq. (25)). */
     template <typename V>
     V
     psi(const V &z) const
@@ -183,8 +184,9 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * Returns the yield cone for delayed friction: its strength depends in part
-     * on the normal stress s_n^n at t_n. For a fraction lambda,
+     * Returns the yield cone for delayed friction, in which part of the
+     * strength depends on the normal stress s_n^n at t_n. For a fraction
+     * lambda,
      *   |s_t| <= a ((1 - m) s_n + m s_n^n) + k,   m = lambda (a - b)/a.
      * The aperture is a - lambda (a - b) >= b; the flow rule is the same, and the
      * tensile strength is not larger. For lambda = 0 the law is exact; associated
@@ -206,7 +208,8 @@ namespace geocone::GEOCONE_DIM
       return later;
     }
 
-    /** Violation of the dual-cone condition y in K*: max(0, a |y_t| - y_n). */
+    /** Violation max(0, a |y_t| - y_n) of the condition that y lies in the dual
+     *  cone K*. */
     template <typename V>
     double
     dual_violation(const V &y) const
@@ -215,9 +218,10 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * Complementarity product of plastic flow and stress, <y, s + (k/a) n>
-     * (J/m^3). The form used includes the limit a = 0 for y on the boundary of
-     * K* (there (k/a) y_n = k |y_t|).
+     * Complementarity product <y, s + (k/a) n> of the plastic flow y and the
+     * stress s, measured from the apex of the cone (J/m^3). The form used
+     * includes the limit a = 0 for y on the boundary of K* (there (k/a) y_n = k
+     * |y_t|).
      */
     template <typename V>
     double
@@ -419,7 +423,7 @@ namespace geocone::GEOCONE_DIM
   }
 
   /**
-   * Euclidean projection onto the cone C = {|s_t| <= a s_n + k}.
+   * Euclidean projection onto the yield cone C = {|s_t| <= a s_n + k}.
    * @param[out] jacobian an element of Clarke's generalised Jacobian (Guillet et al.
    * 2025, appendix C, with the polar cone as the third case), if not null
    */
@@ -444,8 +448,9 @@ namespace geocone::GEOCONE_DIM
   }
 
   /**
-   * Natural map F(s, y) = s - P_C(s - rho y) with y = Psi(z). For any rho > 0, F is
-   * zero if and only if (s, z) satisfies the cone law (Guillet et al. 2025, eqs 58,
+   * Natural map F(s, y) = s - P_C(s - rho y), with the projection P_C onto the
+   * yield cone and De Saxce's variable y = Psi(z). For any rho > 0, F is zero
+   * if and only if (s, z) satisfies the cone law (Guillet et al. 2025, eqs 58,
    * 59).
    */
   template <typename V>
