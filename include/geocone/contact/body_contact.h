@@ -114,7 +114,8 @@ namespace geocone::GEOCONE_DIM
                  const std::vector<PlacedFace> &others,
                  const double                   reach) const;
 
-    /** Mortar integrals of a node, summed over the adjacent faces. */
+    /** Mortar integrals of a node, summed over the faces that contain the
+     *  node. */
     struct Sums
     {
       double                         D     = 0.;
@@ -125,8 +126,8 @@ namespace geocone::GEOCONE_DIM
       std::map<unsigned int, double> M;
     };
 
-    /** Adds the contributions of a face to the mortar matrices D and M and to the
-     *  nodal normals. */
+    /** Adds the contributions of a face to the mortar matrices (D on the first
+     *  body, M on the other body) and to the nodal normals. */
     void
     integrate(const PlacedFace              &placed_face,
               const std::vector<PointAhead> &points,

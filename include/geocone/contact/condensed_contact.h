@@ -11,8 +11,8 @@
 namespace geocone
 {
   /**
-   * Frictional contact problem with n nodes of a linear body, in which static
-   * condensation has eliminated all other unknowns. Find u and r = K u + c with
+   * Frictional contact problem of n nodes, after static condensation of all
+   * other unknowns of a linear body. Find u and r = K u + c with
    *   0 <= r_N + tension _|_ u_N - least >= 0,
    *   |r_T| <= mu r_N + adhesion, u_T against r_T where it slides,
    * in the axes n and t of each node, or in n alone if it has no friction. K
@@ -56,8 +56,8 @@ namespace geocone
     error(const Eigen::VectorXd &u) const;
 
   private:
-    /** Estimates the contribution of rounding errors in K u to the relative
-     *  residual error(). */
+    /** Estimates the contribution of rounding errors in the product K u to the
+     *  relative residual error(). */
     double
     rounding(const Eigen::VectorXd &u) const;
 
@@ -71,13 +71,14 @@ namespace geocone
     {
       Contact contact = Contact::open;
 
-      /** Direction d (unit vector) of the tangential contact force r_T during
+      /** Unit vector in the direction of the tangential contact force during
        *  slip. The matrix `turn` is the derivative of d with respect to r_T -
        *  rho u_T, times the friction bound; it is zero for one tangent. */
       Eigen::VectorXd direction;
       Eigen::MatrixXd turn;
 
-      /** Returns true if both contact states lead to the same linear equations. */
+      /** Returns true if two contact states lead to the same linear
+       *  equations. */
       bool
       operator==(const State &other) const
       {
@@ -86,12 +87,13 @@ namespace geocone
       }
     };
 
-    /** Predicts the contact states of all nodes from the velocities u and the
+    /** Predicts the contact states of all nodes from their velocities u and
      *  contact forces r = K u + c. */
     std::vector<State>
     states(const Eigen::VectorXd &u) const;
 
-    /** Solves the linear system of given contact states for the velocities u. */
+    /** Solves the linear system for the velocities u, with given contact states
+     *  of the nodes. */
     Eigen::VectorXd
     solve_for(const std::vector<State> &state) const;
 

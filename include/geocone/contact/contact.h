@@ -26,8 +26,8 @@ namespace geocone::GEOCONE_DIM
   constexpr double closed_gap = 1e-9;
 
   /** Tolerance for adjacent obstacles: their boundaries form one continuous
-   *  boundary if their distance is smaller than this fraction of the cell
-   *  size. */
+   *  boundary if the distance between them is smaller than this fraction of the
+   *  cell size. */
   constexpr double meeting = 1e-3;
 
   /** Threshold for parallel normals: cosine of the largest angle (10 degrees)
@@ -45,7 +45,7 @@ namespace geocone::GEOCONE_DIM
   {
     unsigned int node; ///< local number, owned or ghost
 
-    /** Number of the obstacle or contact pair to which the contact belongs.
+    /** Index of the obstacle or contact pair to which the contact belongs.
      *  Contact pairs are numbered after the obstacles. */
     unsigned int           obstacle;
     dealii::Tensor<1, dim> normal; ///< out of the obstacle or other body
@@ -184,14 +184,14 @@ namespace geocone::GEOCONE_DIM
     void
     begin_step(ContactStep step);
 
-    /** Groups of nodes coupled in the Jacobian by contact between bodies. Each
-     *  group is a contact node, followed by its partners. */
+    /** Groups of nodes that contact between bodies couples in the Jacobian.
+     *  Each group is a contact node, followed by its partners. */
     std::vector<std::vector<unsigned int>>
     links() const;
 
     /**
-     * Replaces the residual rows of contact nodes by the contact equations F. Forces
-     * r and residuals F are stored. Collective.
+     * Replaces the residual rows of contact nodes with the residuals F of the
+     * contact equations. Forces r and residuals F are stored. Collective.
      * @param[in,out] residual in owned rows
      * @param scale the diagonal of the elastic Jacobian (kg/(m s))
      * @param with_friction whether friction is included
@@ -204,9 +204,9 @@ namespace geocone::GEOCONE_DIM
             const bool    with_friction,
             const bool    holds);
 
-    /** Replaces the Jacobian rows of contact nodes by the linearised contact
-     *  equations. The matrices A and B are from the last replace(). Collective if
-     *  obstacles are free.
+    /** Replaces the Jacobian rows of contact nodes with the linearised contact
+     *  equations. The matrices A and B are from the last replace(). Collective
+     *  if obstacles are free.
      *  @return low-rank contribution of free obstacles */
     LowRank
     linearise(const JacobianPattern &pattern, SparseMatrix &matrix) const;
@@ -283,8 +283,8 @@ namespace geocone::GEOCONE_DIM
       obstacles.change(change);
     }
 
-    /** Calls f(number, G) for each free rigid-body motion of the obstacle in
-     *  contact with a node. G is the velocity of the node due to a unit
+    /** Calls f(number, G) for each free rigid-body motion of the obstacle that
+     *  is in contact with a node. G is the velocity of the node due to a unit
      *  motion. */
     template <typename Function>
     void
@@ -373,23 +373,24 @@ namespace geocone::GEOCONE_DIM
     void
     make_tangents(ContactNode &node) const;
 
-    /** Combines two contacts of the same node, whose normals are not parallel,
-     *  into a corner contact. */
+    /** Combines two contacts of a node with non-parallel normals into a corner
+     *  contact. */
     static void
     make_corner(ContactNode &a, ContactNode &b);
 
-    /** Adds the contact forces P' r to the residual rows of the partner nodes on
-     *  other bodies. Collective. */
+    /** Adds the contact forces r, distributed by the transposed weights P', to
+     *  the residual rows of the partner nodes on other bodies. Collective. */
     void
     load_partners(Vector &residual) const;
 
-    /** Adds the Jacobian rows of contact nodes, multiplied by P', to the rows of
-     *  their partners on other bodies. */
+    /** Adds the Jacobian rows of contact nodes, multiplied by the transposed
+     *  weights P' of the partner nodes, to the rows of the partner nodes. */
     void
     add_rows_to_partners(SparseMatrix &matrix) const;
 
-    /** Projected contact force q of a node, its residual F = r - q, and its
-     *  derivative Q = dq/dp. */
+    /** Contact force q of a node by the contact law, with the residual F = r -
+     *  q and the derivative Q = dq/dp. The force q is the projection of p = r -
+     *  rho (u - least n), with the relative velocity u. */
     struct Projection
     {
       Force  q, F;

@@ -8,13 +8,14 @@
 
 namespace geocone
 {
-  /** Low-rank contribution U W' to a Jacobian. The rows of U and W are the owned
-   *  free dofs. */
+  /** Low-rank contribution U W' to a Jacobian, with two matrices U and W of few
+   *  columns. The rows of U and W are the owned free dofs. */
   struct LowRank
   {
     Eigen::MatrixXd U, W;
 
-    /** Rank of U W', i.e. number of columns of U and W. The same on all ranks. */
+    /** Rank of the matrix U W', i.e. the number of columns of U and of W. The
+     *  same on all ranks. */
     unsigned int
     rank() const
     {

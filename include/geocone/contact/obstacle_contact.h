@@ -120,9 +120,9 @@ namespace geocone::GEOCONE_DIM
     ContactReport
     report(const Contact &contact, const Vector &v, const double h) const;
 
-    /** Resultant contact forces on the body, listed by obstacle and then by
-     *  contact between bodies. For contacts between bodies, the force acts on the
-     *  first body. Moments are about the given centre, the centre of the
+    /** Resultant contact forces on the body: first of each obstacle, then of
+     *  each contact between bodies. For contacts between bodies, the force acts
+     *  on the first body. Moments are about the given centre, the centre of the
      *  obstacle, or the origin. Collective. */
     std::vector<Reaction>
     reactions(const Contact &contact) const;
@@ -201,10 +201,10 @@ namespace geocone::GEOCONE_DIM
     bool
     has_bonds() const;
 
-    /** Bond of each node: 1 + number of the contact at the end of the last
-     *  step; 0 for nodes without contact. Stored at the first dof of the node.
-     *  Without bonds, tension would depend on the second-order error of the gap
-     *  to a rotating obstacle. */
+    /** Bond of each node: 1 + index of the obstacle or contact pair in contact
+     *  with the node at the end of the last step; 0 without contact. Stored at
+     *  the first dof of the node. Without bonds, tension would depend on the
+     *  second-order error of the gap to a rotating obstacle. */
     Vector &
     bonds_of_nodes()
     {
@@ -220,13 +220,13 @@ namespace geocone::GEOCONE_DIM
     const bool            mesh_is_body;
     const Unknowns       *supports;
 
-    /** Checks that no obstacle overlaps with given nodes of a body-fitted mesh.
+    /** Checks that no given node of a body-fitted mesh lies inside an obstacle.
      *  Collective. @throws InputError if an obstacle does */
     void
     check_overlap(const std::vector<unsigned int> &nodes) const;
 
-    /** Returns true if boundary conditions prescribe the velocity of a node along
-     *  a given normal. */
+    /** Returns true if boundary conditions prescribe the velocity component of
+     *  a node along a given normal. */
     bool
     is_held(const unsigned int            node,
             const dealii::Tensor<1, dim> &normal) const;

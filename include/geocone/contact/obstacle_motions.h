@@ -93,7 +93,8 @@ namespace geocone::GEOCONE_DIM
       return motion;
     }
 
-    /** Mobility matrix E^-1 of an obstacle. Zero for driven motions. */
+    /** Mobility matrix of an obstacle: velocity increments of the free motions
+     *  due to unit forces and moments. Zero for driven motions. */
     const Matrix &
     mobility(const unsigned int obstacle) const
     {
@@ -107,7 +108,8 @@ namespace geocone::GEOCONE_DIM
       return lack_of_all;
     }
 
-    /** Calls f(motion, number) for each free rigid-body motion of an obstacle. */
+    /** Calls f(motion, number) for each free rigid-body motion of an obstacle,
+     *  with the index of the motion among all free motions. */
     template <typename Function>
     void
     for_free(const unsigned int obstacle, const Function &f) const
@@ -118,8 +120,9 @@ namespace geocone::GEOCONE_DIM
           f(k, number++);
     }
 
-    /** Computes the inertia M/h of the free obstacle motions and the
-     *  out-of-balance forces M/h (y - y_0). Contact forces are not included. */
+    /** Computes the inertia M/h of the free obstacle motions y and the
+     *  out-of-balance forces M/h (y - y_0), with mass M and step size h.
+     *  Contact forces are not included. */
     void
     balance(Eigen::VectorXd &inertia, Eigen::VectorXd &lack) const;
 

@@ -83,8 +83,8 @@ namespace geocone::GEOCONE_DIM
       unsigned int first, other; ///< layers of both bodies
     };
 
-    /** A particle in the support of the shape functions of two coincident nodes,
-     *  one of each body. */
+    /** A particle in the support of the shape functions of a pair of coincident
+     *  nodes, one on each body. */
     struct Share
     {
       unsigned int       place;    ///< number of the position
@@ -124,8 +124,8 @@ namespace geocone::GEOCONE_DIM
 
     std::vector<Pair> pairs;
 
-    /** Local nodes of the mesh layers, by position. The arrays index_of and
-     *  layer_of contain the position and the layer of each local node. */
+    /** Local nodes of all mesh layers, grouped by position. The arrays index_of
+     *  and layer_of contain the position and the layer of each local node. */
     std::vector<std::vector<unsigned int>> nodes;
     std::vector<unsigned int>              index_of, layer_of;
   };
