@@ -229,7 +229,7 @@ namespace geocone::GEOCONE_DIM
 
     /** Finds the boundary faces that contribute to the reactions of shared
      *  nodes, where a velocity component is prescribed by more than one
-     *  boundary condition. Collective . */
+     *  boundary condition. Collective. */
     void
     find_shared(
       const BackgroundMesh                                    &mesh,

@@ -19,7 +19,7 @@ namespace geocone
   class BlockMatrix
   {
   public:
-    /** Set of equally large blocks (small dense matrices) with n_columns dofs
+    /** Set of small dense matrices (blocks) of equal size, with n_columns dofs
      *  each. */
     struct Set
     {

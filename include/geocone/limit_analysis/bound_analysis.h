@@ -91,7 +91,8 @@ namespace geocone::GEOCONE_DIM
     void
     print_reasons(const Side &upper, const Side &lower) const;
 
-    /** Converts both bounds on a mesh to the results of a refinement level.
+    /** Returns both bounds on a mesh, scaled to loads, as the results of a
+     *  refinement level.
      *  @param unit load that corresponds to the load factor 1 of a problem */
     static BoundLevel
     level_of(const Side        &upper,
@@ -114,8 +115,8 @@ namespace geocone::GEOCONE_DIM
     bool
     is_complete(const std::optional<double> &gap) const;
 
-    /** Prints the bracket of the load, and warns if the bounds are not certified or too
-     *  far apart. */
+    /** Prints the lower and upper bound of the load, and warns if the bounds
+     *  are not certified or too far apart. */
     void
     conclude(const LoadBracket &best,
              const std::string &rejection_upper,
@@ -132,21 +133,23 @@ namespace geocone::GEOCONE_DIM
      *  before the loads are prepared. */
     virtual void
     prepare_water(const RunOptions &options) = 0;
-    /** Returns true if meshes other than the first mesh can be generated. */
+    /** Returns true if finer meshes than the first mesh can be generated. */
     virtual bool
     refines() const = 0;
-    /** Returns the bracket of the load that is certified so far. */
+    /** Returns the lower and upper bound of the load that are certified so
+     *  far. */
     virtual LoadBracket
     bracket() const = 0;
     /** Whether the factor of safety, and not a load, is bounded. */
     virtual bool
     reduces_strength() const = 0;
-    /** Topics of the summary between the size and the cost. */
+    /** Sections of the summary that are specific to the analysis, between size
+     *  and cost. */
     virtual Json
     results() const;
     /** @} */
 
-    /** Name of the bounded quantity in messages. */
+    /** Name of the bounded quantity (load or factor of safety) in messages. */
     std::string
     bounded() const
     {

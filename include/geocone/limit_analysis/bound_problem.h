@@ -46,8 +46,8 @@ namespace geocone::GEOCONE_DIM
     }
   };
 
-  /** Placeholder yield cone for points that are excluded from the problem; such
-   *  points have no dofs and a zero strain matrix. */
+  /** Placeholder yield cone of points that are excluded from the problem, i.e.
+   *  have no dofs and a zero strain matrix. */
   constexpr PointCone inactive_cone = {0., 1.};
 
   /**
@@ -125,16 +125,17 @@ namespace geocone::GEOCONE_DIM
       return 3 * (n_triangles + n_interfaces());
     }
 
-    /** Returns the point of a triangle that coincides with a point of the
-     *  triangle's tension cut-off cell. */
+    /** Returns the index of the triangle's point that coincides with a given
+     *  point of the additional cell for the tension cut-off. */
     unsigned int
     point_of_triangle(const unsigned int cut_point) const
     {
       return 3 * owner[cut_point / 3 - n_triangles] + cut_point % 3;
     }
 
-    /** Returns true if stresses can always be scaled down to an admissible state for a
-     *  smaller load. There is then no dead load, and cohesion is positive everywhere. */
+    /** Returns true if any equilibrium stresses can be scaled down to
+     *  admissible stresses for a smaller load. There is then no dead load, and
+     *  cohesion is positive everywhere. */
     bool
     can_be_scaled() const;
     unsigned int
@@ -166,14 +167,13 @@ namespace geocone::GEOCONE_DIM
       return cone;
     }
 
-    /** Returns the load vector to which a type of loads contributes: live
-     *  (multiplied by the load factor) or dead (constant). */
+    /** Returns the vector of live loads (multiplied by the load factor) or of
+     *  dead loads (constant), depending on the type of the loads. */
     Eigen::VectorXd &
     loads(BoundProblem &problem, const LoadFactor kind) const;
 
-    /** Modifies the strength parameters of a material. Sets tan(phi),
-     *  multiplies the cohesion k/cos(phi) by a factor, and the tensile strength
-     *  by another factor. */
+    /** Sets tan(phi) of a material and scales its cohesion k/cos(phi) and
+     *  tensile strength, each by its own factor. */
     void
     change(const unsigned int material,
            const double       tan_phi,

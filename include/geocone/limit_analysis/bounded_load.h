@@ -51,12 +51,13 @@ namespace geocone::GEOCONE_DIM
     void
     prepare_reduction(const Scene &scene, const Triangles &triangles);
 
-    /** Returns the input of upper_problem() and lower_problem() on a given mesh. */
+    /** Returns the input of the upper-bound and lower-bound problems on a given
+     *  mesh. */
     BoundScene
     on(const Scene &scene, const Triangles &triangles) const;
 
-    /** Returns the input of a limit analysis on a mesh for the reduced strength c/F and
-     *  tan(phi)/F. */
+    /** Returns the input of a limit analysis on a mesh for the strength reduced
+     *  by the factor F, i.e. c/F and tan(phi)/F. */
     BoundScene
     reduced(const Scene     &scene,
             const Triangles &triangles,

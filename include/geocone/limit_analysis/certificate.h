@@ -11,7 +11,7 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Largest violation of the yield cones that certified stresses may have,
+  /** Largest permitted violation of the yield cones by certified stresses,
    *  relative to the largest stress. It applies if stresses cannot be scaled
    *  back. */
   constexpr double rounding_strength = 1e-8;
@@ -24,16 +24,18 @@ namespace geocone::GEOCONE_DIM
     bool        certified = false;
     std::string rejection; ///< reason for rejection, if not certified
 
-    /** Largest violation of the yield condition or the flow rule before the fields are
-     *  repaired. For a lower bound it is the violation of the yield cones, relative to
-     *  the largest stress; for an upper bound it is the violation of the flow rule,
+    /** Largest violation of the yield condition (lower bound) or the flow rule
+     *  (upper bound) before the stresses or velocities are repaired. For a
+     *  lower bound it is the violation of the yield cones, relative to the
+     *  largest stress; for an upper bound it is the violation of the flow rule,
      *  relative to the largest strain rate. */
     double violation = 0.;
 
-    /** Remaining error of the certified stresses or velocities. Lower bound: largest
-     *  residual of equilibrium, i.e. of div s + body force and of tractions across edges
-     *  and on the boundary, relative to the largest stress (divided by the cell size).
-     *  Upper bound: largest volumetric strain rate of cylinders, relative to the largest
+    /** Largest residual of equilibrium (lower bound) or of incompressibility
+     *  (upper bound). Lower bound: largest residual of equilibrium, i.e. of div
+     *  s + body force and of tractions across edges and on the boundary,
+     *  relative to the largest stress (divided by the cell size). Upper bound:
+     *  largest volumetric strain rate of cylinders, relative to the largest
      *  rate. */
     double error = 0.;
 
@@ -46,11 +48,12 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Certifies a lower bound by checking its stresses. The stresses must lie inside the
-   * yield cones at the points, hence everywhere since they are linear, and be in
-   * equilibrium with the loads to rounding. If the strength is exceeded, all stresses are
-   * scaled by theta = min k/(k + excess). This requires cohesion and no dead load;
-   * otherwise the tolerance for rounding is 1e-8 of the largest stress.
+   * Certifies a lower bound by checking equilibrium and yield condition of its
+   * stresses. The stresses must lie inside the yield cones at the points, hence
+   * everywhere since they are linear, and be in equilibrium with the loads to
+   * rounding. If the strength is exceeded, all stresses are scaled by theta =
+   * min k/(k + excess). This requires cohesion and no dead load; otherwise the
+   * tolerance for rounding is 1e-8 of the largest stress.
    */
   Bound
   certify_lower(const BoundScene    &scene,
@@ -58,10 +61,11 @@ namespace geocone::GEOCONE_DIM
                 const BoundSolution &solution);
 
   /**
-   * Certifies an upper bound by checking its velocities. They must satisfy the flow rule,
-   * -B q in K*, at the points, hence everywhere since strain rates are linear. For
-   * cylinders, a projection removes volumetric strain rates. For other cones, violations
-   * are removed by adding the uniaxial extension (0, y - y_bottom), if it satisfies the
+   * Certifies an upper bound by checking that its velocities satisfy the flow
+   * rule. They must satisfy the flow rule, -B q in K*, at the points, hence
+   * everywhere since strain rates are linear. For cylinders, a projection
+   * removes volumetric strain rates. For other cones, violations are removed by
+   * adding the uniaxial extension (0, y - y_bottom), if it satisfies the
    * boundary conditions.
    */
   Bound

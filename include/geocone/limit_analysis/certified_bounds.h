@@ -22,8 +22,9 @@ namespace geocone::GEOCONE_DIM
       Bound         bound;
       unsigned int  n_unknowns = 0;
 
-      /** Internal power |V s.e| of each triangle, for a lower bound only. The strain
-       *  rates e are those of the dual velocities. */
+      /** Internal power |V s.e| of each triangle (volume, stress, strain rate),
+       *  computed with the lower bound only. The strain rates e are those of
+       *  the dual velocities. */
       std::vector<double> power;
     };
     Side upper, lower;
@@ -33,15 +34,15 @@ namespace geocone::GEOCONE_DIM
     std::vector<double> gap;
 
     /**
-     * Refinement indicator of each triangle; on an optimal mesh it is equal for
-     * all triangles. It is the contribution to the gap, plus a multiple of the
-     * internal power of the lower bound times the size of the triangle. The
+     * Refinement indicator of each triangle, which is equal for all triangles
+     * of an optimal mesh. It is the contribution to the gap, plus a multiple of
+     * the internal power of the lower bound times the size of the triangle. The
      * power marks stresses at yield away from the upper bound's mechanism.
      */
     std::vector<double> uneven;
 
-    /** Sum of the contributions of all triangles to the gap, divided by the gap. It is 1
-     *  if both fields are exact. */
+    /** Sum of the contributions of all triangles to the gap, relative to the
+     *  gap (1 if both fields are exact). */
     double gap_share = 0.;
   };
 

@@ -51,7 +51,8 @@ namespace geocone::cone_algebra
     return y;
   }
 
-  /** Returns the largest step, at most 1/0.99, for which l + step d is in the cone. */
+  /** Returns the largest step length, at most 1/0.99, for which l + step d is
+   *  in the cone. */
   template <int N>
   double
   step_in_cone(const ConeVector<N> &l, const ConeVector<N> &d)
@@ -100,22 +101,24 @@ namespace geocone::cone_algebra
       eta  = std::sqrt(dx / dz);
     }
 
-    /** Returns the product W v. */
+    /** Returns the product W v of the Nesterov-Todd scaling W and a vector
+     *  v. */
     ConeVector<N>
     times(const ConeVector<N> &v) const
     {
       return eta * turned(w.template tail<N - 1>(), v);
     }
 
-    /** Returns the product W^-1 v. */
+    /** Returns the product W^-1 v of the inverse Nesterov-Todd scaling and a
+     *  vector v. */
     ConeVector<N>
     inverse_times(const ConeVector<N> &v) const
     {
       return turned(-w.template tail<N - 1>(), v) / eta;
     }
 
-    /** Returns the product W^2 v = eta^2 (2 w w' - J) v, with J = diag(1, -1, ...,
-     *  -1). */
+    /** Returns the product of the squared Nesterov-Todd scaling and a vector,
+     *  W^2 v = eta^2 (2 w w' - J) v, with J = diag(1, -1, ..., -1). */
     ConeVector<N>
     square_times(const ConeVector<N> &v) const
     {
@@ -125,7 +128,7 @@ namespace geocone::cone_algebra
       return eta * eta * r;
     }
 
-    /** Returns the matrix W^2. */
+    /** Returns the squared Nesterov-Todd scaling W^2 as a matrix. */
     Eigen::Matrix<double, N, N>
     square() const
     {
@@ -155,7 +158,8 @@ namespace geocone::cone_algebra
                (1. + 2. * w.template tail<N - 1>().squaredNorm()) *
                w.template tail<N - 1>();
     }
-    /** Returns the component dz_0 that satisfies (W^2 dz)_0 = r_0 for a given dz_t. */
+    /** Returns the component dz_0 of a vector dz that satisfies (W^2 dz)_0 =
+     *  r_0 for given components dz_t, with the Nesterov-Todd scaling W. */
     double
     first_rate(const double r_0, const ConeVector<N - 1> &dz_t) const
     {
@@ -166,8 +170,8 @@ namespace geocone::cone_algebra
     /** @} */
 
   private:
-    /** Returns W v/eta if the argument is w_t, or the inverse product
-     *  (W/eta)^-1 v if the argument is -w_t. */
+    /** Returns the product of W/eta (for the argument w_t) or its inverse (for
+     *  -w_t) and a vector v, with the Nesterov-Todd scaling W. */
     ConeVector<N>
     turned(const ConeVector<N - 1> &w_t, const ConeVector<N> &v) const
     {

@@ -22,9 +22,10 @@ namespace geocone::GEOCONE_DIM
     double                     value =
       0.; ///< p; for a load, the mean unit weight or largest traction
 
-    /** Derivatives of the lower and the upper bound with respect to p, and elasticities d
-     *  ln bound/d ln p. For a friction angle they are derivatives per degree and d ln
-     *  bound/d ln tan(phi). NaN if the bound is not certified. */
+    /** Derivatives of the lower and the upper bound with respect to a parameter
+     *  p, and elasticities d ln bound/d ln p. For a friction angle they are
+     *  derivatives per degree and d ln bound/d ln tan(phi). NaN if the bound is
+     *  not certified. */
     std::array<double, 2> derivative, elasticity;
   };
 
@@ -74,7 +75,8 @@ namespace geocone::GEOCONE_DIM
   Json
   topic_of(const std::vector<Gradient> &gradients);
 
-  /** Returns the elasticities of both bounds as lines of text, in descending order. */
+  /** Returns the elasticities of both bounds (relative change per relative
+   *  change of a parameter) as lines of text, in descending order. */
   std::string
   text_of(const std::vector<Gradient> &gradients, const std::string &bounded);
 } // namespace geocone::GEOCONE_DIM

@@ -18,8 +18,8 @@ namespace geocone::GEOCONE_DIM
   {
     double part = 0.; ///< fraction of the edge length
 
-    /** Dofs of the x components at the nodes of the edge, with the weight of each node in
-     *  the velocity at the point. */
+    /** Dofs of the x velocities of the edge's nodes, each with its
+     *  interpolation weight at the point. */
     std::vector<std::pair<unsigned int, double>> nodes;
 
     /** Position at which the rigid-body velocity of the obstacle is evaluated. */

@@ -25,9 +25,10 @@ namespace geocone::GEOCONE_DIM
     int                    obstacle = -1; ///< index; -1: oblique side
 
     /**
-     * Face of the yield surface of the interface. The traction r is inside all faces.
-     * These are Coulomb's cone, and r_N >= -t with the tensile strength t if the cone
-     * extends beyond it; or |r_T| <= k alone, with free r_N.
+     * Face of the yield surface of an interface, i.e. one of its strength
+     * conditions. The traction r is inside all faces. These are Coulomb's cone,
+     * and r_N >= -t with the tensile strength t if the cone extends beyond it;
+     * or |r_T| <= k alone, with free r_N.
      */
     struct Face
     {
@@ -36,9 +37,10 @@ namespace geocone::GEOCONE_DIM
     };
     std::vector<Face> faces;
 
-    /** Returns true if both faces of the yield surface bound the normal traction r_N. The
-     *  interface then opens at a rate w associated with the second face, and the rate
-     *  (u_N - w, u_T) is associated with the first. */
+    /** Returns true if both faces of the interface's yield surface bound the
+     *  normal traction r_N. The interface then opens at a rate w associated
+     *  with the second face, and the rate (u_N - w, u_T) is associated with the
+     *  first. */
     bool
     opens() const
     {

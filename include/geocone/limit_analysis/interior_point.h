@@ -56,9 +56,9 @@ namespace geocone::GEOCONE_DIM
        *  velocities of the upper bound. */
       bool stresses = false;
 
-      /** Reduction of the strength k, by which the computed stresses remain
-       *  inside the yield cones with a safety margin. Stresses that cannot be
-       *  scaled back then become admissible after fewer iterations. */
+      /** Reduction of the strength k that keeps the computed stresses inside
+       *  the yield cones with a safety margin. Stresses that cannot be scaled
+       *  back then become admissible after fewer iterations. */
       double strength_margin = 0.;
 
       unsigned int correctors = 2; ///< maximum number per iteration

@@ -65,7 +65,8 @@ namespace geocone::GEOCONE_DIM
     static Side
     figures_of(const CertifiedBounds::Side &side);
 
-    /** Converts both bounds on the current mesh to the results of a refinement level.
+    /** Returns both bounds on the current mesh, scaled to loads, as the results
+     *  of a refinement level.
      *  @param unit load that corresponds to the load factor 1 of a problem */
     BoundLevel
     level_of(const double unit) const;
@@ -106,8 +107,9 @@ namespace geocone::GEOCONE_DIM
     std::vector<std::array<double, 2>>
     estimates_by_davis() const;
 
-    /** Returns the bracket of the load certified by all meshes. If water pressures differ
-     *  between meshes, it is the bracket of the last mesh with both bounds. */
+    /** Returns the tightest lower and upper bound of the load certified on all
+     *  meshes. If water pressures differ between meshes, it is the bracket of
+     *  the last mesh with both bounds. */
     LoadBracket
     certified_by(const std::vector<BoundLevel> &levels) const;
 
@@ -115,7 +117,8 @@ namespace geocone::GEOCONE_DIM
     std::vector<Gradient>
     gradients_of_last() const;
 
-    /** Returns the bracket of the load certified so far, with Davis's estimate. */
+    /** Returns the lower and upper bound of the load certified so far, with
+     *  Davis's estimate. */
     LoadBracket
     bracket() const override;
 
@@ -161,8 +164,8 @@ namespace geocone::GEOCONE_DIM
     std::optional<CellSizes> sizes; ///< cell sizes of the next mesh
     std::vector<Fan>         fans;  ///< fans of triangles in the next mesh
 
-    /** Domain of a mesh from a file; empty if this domain cannot be meshed
-     *  again. */
+    /** Domain of a mesh that was read from a file; empty if the domain cannot
+     *  be remeshed. */
     std::optional<DomainOfTriangles> file_domain;
 
     double asked_cells = 0.; ///< requested; 0 for the first mesh

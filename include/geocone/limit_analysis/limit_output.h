@@ -39,8 +39,9 @@ namespace geocone::GEOCONE_DIM
     state(StateRow &row);
   };
 
-  /** Returns the best certified bounds over several levels, with the total cost of all
-   *  levels. This is possible because the bounds of every mesh are valid for the body. */
+  /** Returns the tightest certified bounds over a list of refinement levels,
+   *  with the total cost of all levels. This is possible because the bounds of
+   *  every mesh are valid for the body. */
   LoadBracket
   best_of(const std::vector<BoundLevel> &levels);
 

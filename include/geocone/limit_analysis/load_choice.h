@@ -31,7 +31,8 @@ namespace geocone::GEOCONE_DIM
       return chosen;
     }
 
-    /** Returns true if the bounded load is the reaction to prescribed velocities. */
+    /** Returns true if the bounded load is the reaction force at supports with
+     *  prescribed velocities. */
     bool
     is_reaction() const
     {
@@ -75,7 +76,7 @@ namespace geocone::GEOCONE_DIM
     choose(const std::optional<dealii::Tensor<1, dim>> &velocity,
            const bool                                   has_weight);
 
-    /** Selects weight and tractions, for strength reduction.
+    /** Selects weight and tractions as the loads for strength reduction.
      *  @throws InputError if a velocity is prescribed that is not zero */
     void
     choose_all(const bool has_velocity);

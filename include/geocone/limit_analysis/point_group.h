@@ -50,8 +50,8 @@ namespace geocone
     virtual bool
     has_free_direction() const = 0;
 
-    /** Sets the weight of each point in the barrier function: the volume V over the mean
-     *  volume. */
+    /** Sets the weight of each point in the barrier function: the volume V
+     *  divided by the mean volume. */
     virtual void
     begin(const double mean_volume) = 0;
 
@@ -66,9 +66,9 @@ namespace geocone
                        const double           stiffness,
                        Eigen::VectorXd       &F) const = 0;
 
-    /** Updates the Lagrange multipliers of those strain rates that the flow
-     *  rule constrains to zero. The function add_constraint_forces() adds the
-     *  forces of the multipliers and of the stiffness. */
+    /** Updates the Lagrange multipliers of the strain rates that the flow rule
+     *  constrains to zero. The function add_constraint_forces() adds the forces
+     *  of the multipliers and of the stiffness. */
     virtual void
     add_multipliers(const Eigen::VectorXd &q, const double stiffness) = 0;
     virtual void
@@ -76,8 +76,8 @@ namespace geocone
                           const double           stiffness,
                           Eigen::VectorXd       &F) const = 0;
 
-    /** Returns two sums over the points: the sum of V |B q|^2 and the sum of the weights
-     *  V. */
+    /** Returns two sums over the points: of V |B q|^2 (weight V, strain rate B
+     *  q) and of the weights V. */
     virtual std::array<double, 2>
     rate_square(const Eigen::VectorXd &q) const = 0;
 
@@ -86,7 +86,8 @@ namespace geocone
     virtual void
     start(const Eigen::VectorXd &q, const double mean_rate) = 0;
 
-    /** Sums over the points of the group for the current iterate. */
+    /** Sums of complementarity products and residuals over the points of the
+     *  group, for the current iterate. */
     struct Sums
     {
       double product = 0.; ///< X.Z
@@ -96,12 +97,14 @@ namespace geocone
       double most    = 0.; ///< largest X over k
     };
 
-    /** Computes the residuals and their sums for the velocities q. @param margin of the
-     *  rates in their cone */
+    /** Computes the residuals of the conic problem, and their sums over the
+     *  points, for the velocities q. @param margin of the rates in their
+     *  cone */
     virtual Sums
     evaluate(const Eigen::VectorXd &q, const double margin) = 0;
 
-    /** Adds the internal forces sum V B's of all points. */
+    /** Adds the internal forces sum V B's of all points (volume V, strain
+     *  matrix B, stress s). */
     virtual void
     add_forces(Eigen::VectorXd &F) const = 0;
 
@@ -113,7 +116,7 @@ namespace geocone
 
     /** @name Newton's direction for lambda-scaled right-hand sides d */
     /** @{ */
-    /** Sets the right-hand side d = -lambda of the predictor step, with the
+    /** Sets the right-hand side of the predictor step to -lambda, with the
      *  scaled iterate lambda. */
     virtual void
     predict() = 0;
@@ -149,7 +152,7 @@ namespace geocone
     virtual void
     restore() = 0;
 
-    /** Returns the stress of a point, with Law::rows components. */
+    /** Returns the stress of a point as a vector of Law::rows components. */
     virtual Eigen::VectorXd
     stress(const unsigned int point) const = 0;
   };

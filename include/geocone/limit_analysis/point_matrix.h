@@ -11,8 +11,9 @@
 
 namespace geocone
 {
-  /** Sparse symmetric matrix sum_p B_p' C_p B_p of the free dofs, with its Cholesky
-   *  factors. The matrices C_p of the points are symmetric 3 x 3 matrices. */
+  /** Sparse symmetric stiffness matrix sum_p B_p' C_p B_p of the free dofs,
+   *  with its Cholesky factors. The matrices C_p of the points are symmetric 3
+   *  x 3 matrices. */
   class PointMatrix : public BlockMatrix
   {
   public:
@@ -20,7 +21,7 @@ namespace geocone
     PointMatrix(const std::vector<bool> &is_prescribed,
                 const PointStrains      &strains);
 
-    /** Symmetric 3 x 3 matrices C_p of all points. */
+    /** Symmetric 3 x 3 stiffness matrices C_p of all points. */
     using Blocks = std::vector<Eigen::Matrix3d>;
 
     /** Assembles the matrix and computes the Cholesky factorisation.

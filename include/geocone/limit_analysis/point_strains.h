@@ -44,7 +44,8 @@ namespace geocone
     bool
     is_removed(const unsigned int point) const;
 
-    /** Divides the row of the normal strain in the matrix B of a point by a number. */
+    /** Divides the normal-strain row of the strain-displacement matrix B of a
+     *  point by a number. */
     void
     divide_normal(const unsigned int point, const double by);
 
@@ -54,12 +55,13 @@ namespace geocone
       return n_columns == 0 ? 0 : dofs.size() / n_columns;
     }
 
-    /** Computes the strain rates B_p q of all points. */
+    /** Computes the strain rates B_p q of all points from the dof values q. */
     std::vector<Eigen::Vector3d>
     rates(const Eigen::VectorXd &q) const;
 
-    /** Computes the internal forces sum_p V_p B_p' s_p at all dofs. The sum begins with
-     *  the point @p first_point. */
+    /** Computes the internal forces sum_p V_p B_p' s_p at all dofs from the
+     *  stresses s_p and volumes V_p of the points. The sum begins with the
+     *  point @p first_point. */
     Eigen::VectorXd
     forces(const std::vector<double>          &volume,
            const std::vector<Eigen::Vector3d> &s,
@@ -90,8 +92,8 @@ namespace geocone
         &values[3 * n * point]);
     }
 
-    /** Returns an array of the n_columns dofs of a point. For a point with fewer dofs,
-     *  some dofs are repeated with zero columns of B. */
+    /** Returns the dofs of a point as an array of n_columns entries. For a
+     *  point with fewer dofs, some dofs are repeated with zero columns of B. */
     const unsigned int *
     dofs_of(const unsigned int point) const
     {

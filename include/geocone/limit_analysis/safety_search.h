@@ -32,7 +32,7 @@ namespace geocone
       upper
     };
 
-    /** A bound of the load factor for a given F. */
+    /** A bound of the load factor for a given strength reduction factor F. */
     struct Attempt
     {
       double       load           = 0.;
@@ -46,34 +46,38 @@ namespace geocone
       is_usable() const;
     };
 
-    /** Limit analyses on a mesh with the strength divided by F. */
+    /** Limit analyses on a mesh with the strength divided by a factor F. */
     class Solver
     {
     public:
       virtual ~Solver() = default;
 
-      /** Solves for both bounds. @return by Side */
+      /** Computes both bounds of the load factor for a given F. @return by
+       *  Side */
       virtual std::array<Attempt, 2>
       both(const double F) = 0;
 
-      /** Solves for one bound. */
+      /** Computes one bound of the load factor for a given F. */
       virtual Attempt
       one(const double F, const Side side) = 0;
 
-      /** Keeps the last solution of a side, which certifies a bound of F. */
+      /** Stores the last solution of a side (lower or upper bound), which
+       *  certifies a bound of F. */
       virtual void
       keep(const Side side) = 0;
     };
 
-    /** Results of a mesh. */
+    /** Bounds of the factor of safety and computational cost on a mesh. */
     struct Level
     {
       double factor = 1.; ///< last F for which both bounds were computed
 
-      /** Bounds of the factor of safety certified on this mesh, if any. */
+      /** Certified bounds of the factor of safety on this mesh; empty if not
+       *  certified. */
       std::optional<double> lower, upper;
 
-      /** Number of factorisations on the mesh, by Side. */
+      /** Number of matrix factorisations on the mesh for the lower and for the
+       *  upper bound, indexed by Side. */
       std::array<unsigned int, 2> iterations = {{0, 0}};
     };
 
@@ -89,7 +93,8 @@ namespace geocone
     }
 
   private:
-    /** A factor certified by one bound, near the root of lambda = 1.
+    /** A strength reduction factor F certified by one bound, near the root of
+     *  lambda(F) = 1 of the load factor lambda.
      *  @param load the bound for `factor` */
     std::optional<double>
     prove(Solver       &solver,

@@ -59,9 +59,9 @@ namespace geocone::GEOCONE_DIM
   unsigned int
   cell_of_jump(const SolidScene &bound, const unsigned int facet);
 
-  /** Returns the strength at the points of a cell (or, for velocity jumps, of a facet).
-   *  With these values, the sum over the points bounds the dissipation of linearly
-   *  varying strength from above. */
+  /** Returns the strength at each point of a cell, or of a facet for velocity
+   *  jumps. With these values, the sum over the points bounds the dissipation
+   *  of linearly varying strength from above. */
   /** @{ */
   std::vector<double>
   strength_of_rates(const SolidScene  &bound,
@@ -73,10 +73,10 @@ namespace geocone::GEOCONE_DIM
                     const unsigned int facet);
   /** @} */
 
-  /** Returns the nodal forces per unit area due to a traction on a facet. For each node
-   *  of the facet, the force is the integral of the traction times the basis function,
-   *  divided by the area. The traction is linear, with the given values at the
-   *  vertices. */
+  /** Returns the equivalent nodal forces of a traction on a facet, divided by
+   *  the area of the facet. The force at a node is the integral of the traction
+   *  times the basis function. The traction is linear, with the given values at
+   *  the vertices. */
   std::vector<dealii::Tensor<1, dim>>
   forces_of_traction(const unsigned int                           order,
                      const std::array<dealii::Tensor<1, dim>, 3> &traction);

@@ -25,11 +25,11 @@ namespace geocone::GEOCONE_DIM
      *  of admissible flow, relative to the largest strain rate or jump. */
     double violation = 0.;
 
-    /** Remaining error of the certified stresses or velocities. Lower bound: largest
-     *  error of div s + body force (times the cell size) and of tractions across faces
-     *  and on the boundary, relative to the largest stress. Upper bound: largest
-     *  volumetric strain rate and normal jump where phi = 0, relative to the largest rate
-     *  and jump. */
+    /** Largest residual of equilibrium (lower bound), or of incompressibility
+     *  where phi = 0 (upper bound). Lower bound: div s + body force (times the
+     *  cell size) and the imbalance of tractions across faces and on the
+     *  boundary, relative to the largest stress. Upper bound: volumetric strain
+     *  rate and normal jump, relative to the largest rate and jump. */
     double error = 0.;
 
     unsigned int factorisations = 0, n_unknowns = 0;
@@ -42,12 +42,13 @@ namespace geocone::GEOCONE_DIM
     std::vector<Mandel>                 stress;
     std::vector<dealii::Tensor<1, dim>> velocity;
 
-    /** Lower bound: load factor with which the stresses are in equilibrium, before they
-     *  are scaled. */
+    /** Load factor of the lower bound for which the stresses are in
+     *  equilibrium, before the stresses are scaled. */
     double lambda = 0.;
 
-    /** Upper bound: dissipation of each cell and of the jump on each facet, and power of
-     *  the loads that the load factor multiplies, 1 for prescribed velocities. */
+    /** Dissipation of the upper bound in each cell and in the velocity jump on
+     *  each facet. The power of the loads that the load factor multiplies is
+     *  `work`, 1 for prescribed velocities. */
     std::vector<double> dissipation_of_cell, dissipation_of_facet;
     double              work = 1.;
   };

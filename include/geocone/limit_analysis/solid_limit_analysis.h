@@ -15,9 +15,10 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Limit analysis of a three-dimensional rigid-plastic scene with associated flow: strict
-   * bounds of the limit load or the factor of safety on tetrahedra, which are bisected where the bounds differ.
-   * Each mesh is a step of the run.
+   * Limit analysis of a three-dimensional rigid-plastic scene with associated
+   * flow. Strict bounds of the limit load or the factor of safety are computed
+   * on tetrahedra, which are bisected where the bounds differ. Each mesh is a
+   * step of the run.
    */
   class SolidLimitAnalysis : public BoundAnalysis
   {

@@ -32,12 +32,14 @@ namespace geocone::GEOCONE_DIM
       return k + growth.at(x[1]);
     }
 
-    /** Divides c and tan(phi), or k of a circular cone without friction, by F. */
+    /** Reduces the strength of a material: divides c and tan(phi), or k of a
+     *  circular cone without friction, by F. */
     void
     reduce(const double F);
 
-    /** Coulomb's |s_t| <= c - mu s_n of a face on which velocities jump, whose
-     *  dissipation is that of the material (doc/theory/limit_analysis.md). */
+    /** Coulomb strength |s_t| <= c - mu s_n of a face across which the velocity
+     *  jumps. Its dissipation is that of the material
+     *  (doc/theory/limit_analysis.md). */
     double
     face_friction() const;
     double

@@ -45,8 +45,8 @@ namespace geocone
     /** @{ */
     Eigen::Matrix<double, size, columns> pseudo_inverse; ///< of A'
 
-    /** Orthonormal basis of the null space of A' (n_null columns), with the
-     *  matrix A of the admissibility condition X = k o - A y. */
+    /** Orthonormal basis (n_null columns) of the null space of A', where A is
+     *  the matrix in the admissibility condition X = k o - A y. */
     Eigen::Matrix<double, size, size> null;
     int                               n_null = 0;
     /** @} */
@@ -59,8 +59,9 @@ namespace geocone
     }
   };
 
-  /** Returns the ratio of the cone variable X to the strength k at the initial guess.
-   *  With increasing friction, the initial guess is farther from the apex. */
+  /** Returns the ratio of the cone variable X to the strength k for the initial
+   *  guess. With increasing friction, the initial guess is farther from the
+   *  apex. */
   inline double
   start_of_friction(const double a)
   {

@@ -21,7 +21,8 @@ namespace geocone::GEOCONE_DIM
 
     struct Level : SafetySearch::Level
     {
-      /** Both bounds of the load factor for `factor`. */
+      /** Both bounds of the load factor for the strength divided by
+       *  `factor`. */
       CertifiedBounds bounds;
 
       /** Solutions that certify the bounds of the factor of safety. */

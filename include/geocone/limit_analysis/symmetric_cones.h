@@ -138,10 +138,11 @@ namespace geocone
     }
 
     /**
-     * Nesterov-Todd scaling of two positive definite matrices X and Z by a matrix R. It
-     * satisfies R^-1 X R^-T = R' Z R = diag(l). For X = L_1 L_1', Z = L_2 L_2' and the
-     * singular value decomposition L_2' L_1 = U diag(l) V', R = L_1 V diag(l)^-1/2, and
-     * R^-1 = diag(l)^-1/2 U' L_2' requires no inversion.
+     * Nesterov-Todd scaling of two positive definite matrices X and Z, defined
+     * by a matrix R. It satisfies R^-1 X R^-T = R' Z R = diag(l). For X = L_1
+     * L_1', Z = L_2 L_2' and the singular value decomposition L_2' L_1 = U
+     * diag(l) V', R = L_1 V diag(l)^-1/2, and R^-1 = diag(l)^-1/2 U' L_2'
+     * requires no inversion.
      */
     struct Scaling
     {

@@ -9,12 +9,12 @@
 namespace geocone
 {
   /**
-   * Selects the OpenBLAS kernels by the instruction sets of the processor. By
-   * default OpenBLAS selects kernels by the processor model, with SSE3 for
-   * models unknown to the installed version: factorisations in three dimensions
-   * are then three times slower. Has no effect if OpenBLAS has selected AVX2 or
-   * better, if the environment variable OPENBLAS_CORETYPE is set, or with
-   * another BLAS. Must be called before any BLAS function.
+   * Selects the OpenBLAS kernels according to the instruction sets of the
+   * processor. By default OpenBLAS selects kernels by the processor model, with
+   * SSE3 for models unknown to the installed version: factorisations in three
+   * dimensions are then three times slower. Has no effect if OpenBLAS has
+   * selected AVX2 or better, if the environment variable OPENBLAS_CORETYPE is
+   * set, or with another BLAS. Must be called before any BLAS function.
    */
   void
   select_blas_kernels();

@@ -41,7 +41,7 @@ namespace geocone
     factorise(const SparseMatrix &matrix) = 0;
 
     /**
-     * Solves the linear system for several right-hand sides. The solutions
+     * Solves the linear system for a set of right-hand sides. The solutions
      * replace the right-hand sides.
      * @param x owned rows, column by column
      */

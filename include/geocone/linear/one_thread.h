@@ -7,10 +7,10 @@
 namespace geocone
 {
   /**
-   * Restricts all libraries to one thread per MPI rank; parallelism is by MPI
-   * only. Linking this function also replaces GOMP_parallel() (one_thread.cc),
-   * so that parallel regions of OpenMP in any library of the process are
-   * executed serially.
+   * Restricts all libraries to one thread per MPI rank, since the program is
+   * parallelised with MPI only. Linking this function also replaces
+   * GOMP_parallel() (one_thread.cc), so that parallel regions of OpenMP in any
+   * library of the process are executed serially.
    */
   void
   use_one_thread();
