@@ -42,8 +42,8 @@ namespace geocone::GEOCONE_DIM
     double left_front = 0., right_front = 0.;
     double largest_speed = 0.; ///< (m/s)
 
-    /** Number, position and wave speed of the point with the largest elastic wave
-     *  speed. This point limits the time step. */
+    /** Index, position and wave speed of the point with the largest elastic
+     *  wave speed. This point limits the time step. */
     unsigned int       limiting_id = 0;
     dealii::Point<dim> limiting_place;
     double             limiting_wave_speed = 0.;
@@ -83,8 +83,8 @@ namespace geocone::GEOCONE_DIM
      *  body. */
     std::vector<Reaction> reactions;
 
-    /** Saves or restores the statistics of an interrupted step, except the
-     *  reactions. */
+    /** Saves or restores the statistics of an interrupted step in a checkpoint,
+     *  except the reactions. */
     void
     state(StateRow &row)
     {
@@ -95,8 +95,8 @@ namespace geocone::GEOCONE_DIM
   /**
    * Explicit material point method with three orders of operations: stress
    * update last (USL), modified last (MUSL) or first (USF). The method follows
-   * section 2 of the STSM report. The elastic wave speed limits the time step
-   * (Courant condition),
+   * section 2 of Pereira et al. (2016). The elastic wave speed limits the time
+   * step (Courant condition),
    *   dt = C h/(c + v),  c^2 = max M V/m,  v = max |v_p|.
    * With basis functions N at the start of the step and boundary conditions on
    * the sides of the grid, the three orders of operations are
@@ -285,7 +285,7 @@ namespace geocone::GEOCONE_DIM
                 const std::function<void(const Seeding::Take &)> &for_each,
                 std::vector<std::string>                         &remarks);
 
-    /** Removes the points that a stage selects, or starts to ramp down their
+    /** Removes the points that a stage excavates, or starts to ramp down their
      *  mass. */
     std::string
     remove_points(const Stage &stage, const double t);
@@ -409,8 +409,8 @@ namespace geocone::GEOCONE_DIM
     void
     stop_points();
 
-    /** Combines the results of the last pass over the points, reduced over all
-     *  ranks. Decides whether the points must be sorted again (refresh). */
+    /** Combines the results of the last pass over the points on all ranks.
+     *  Decides whether the points must be sorted again (refresh). */
     void
     gather_sums();
 
@@ -426,9 +426,9 @@ namespace geocone::GEOCONE_DIM
     double
     kinetic_energy(const PointArrays &group, const unsigned int p) const;
 
-    /** Converts a unit of plane strain to the unit of the present problem:
-     *  without "per metre of thickness" in axisymmetric and three-dimensional
-     *  problems. */
+    /** Converts a unit for plane strain to the unit for the current problem,
+     *  i.e. without "per metre of thickness" in axisymmetric and
+     *  three-dimensional problems. */
     std::string
     unit(const std::string &in_plane_strain) const
     {
@@ -498,8 +498,8 @@ namespace geocone::GEOCONE_DIM
                    const std::string &name,
                    const std::size_t  size) const;
 
-    /** Saves or restores the checkpoint data of each rank, except the points.
-     *  Data common to all ranks are handled by state_of_all(). */
+    /** Saves or restores the data of each rank in a checkpoint, except the
+     *  points. Data common to all ranks are handled by state_of_all(). */
     void
     state_of_ranks(StateRow &row);
     void

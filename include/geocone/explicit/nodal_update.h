@@ -93,8 +93,8 @@ namespace geocone::GEOCONE_DIM
       bool                   measures_force; ///< for unbalanced_force()
     };
 
-    /** Marks the nodal velocity components with prescribed values. Must be
-     *  called after GridTransfer::sort(). */
+    /** Lists the velocity components with prescribed values at the stored
+     *  nodes. Must be called after GridTransfer::sort(). */
     void
     mark_held();
 
@@ -145,7 +145,7 @@ namespace geocone::GEOCONE_DIM
     }
 
   private:
-    /** Component of the nodal force that the points have scattered to a node
+    /** Component of the force that the points have scattered to a node
      *  (N/m). */
     double &
     force_at(const unsigned int node, const unsigned int component)

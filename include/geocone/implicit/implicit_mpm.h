@@ -186,7 +186,7 @@ namespace geocone::GEOCONE_DIM
     void
     check_bodies() const;
 
-    /** Reason for rejecting a solved step because low-mass basis functions
+    /** Reason for rejecting a solved step in which low-mass basis functions
      *  dominate a constraint; empty if the step is accepted. */
     std::string
     rejection(const Multipliers::LowMassShare &share) const;

@@ -277,10 +277,10 @@ namespace geocone::GEOCONE_DIM
                    const Vector   &v,
                    const Vector   &residual) const;
 
-    /** Adds the work contributions of a solved step, and the relative error of
-     *  the step's energy balance, to the step report. The work of contact
-     *  forces is included, the plastic dissipation is not; the points are still
-     *  at t_n. */
+    /** Adds the work contributions of a solved step and the relative residual
+     *  of its energy balance to the step report. The work of contact forces is
+     *  included, the plastic dissipation is not; the points are still at
+     *  t_n. */
     void
     take_works(const TimeStep       &step,
                const MaterialPoints &points,

@@ -24,7 +24,7 @@ namespace geocone::GEOCONE_DIM
   class RampedForces
   {
   public:
-    /** Adds a ramp of nodal forces that starts at time begin (s).
+    /** Adds nodal forces that are ramped linearly from the time `begin` (s).
      *  @param difference n_before - n_after (N/m)
      *  @param duration T (s), or 0 */
     void

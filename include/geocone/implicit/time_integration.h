@@ -30,7 +30,8 @@ namespace geocone::GEOCONE_DIM
      *  extrapolation to t + h. */
     theta_scheme,
 
-    /** Newmark scheme; the constitutive equations are satisfied at t + h. */
+    /** Newmark scheme in which the constitutive equations are satisfied at t +
+     *  h. */
     newmark
   };
 

@@ -25,8 +25,8 @@ namespace geocone
   class EnergyBalance
   {
   public:
-    /** Threshold for a warning: numerically created energy, relative to the
-     *  reference energy turnover(). */
+    /** Ratio of numerically created energy to the reference energy turnover()
+     *  above which the run warns. */
     static constexpr double tolerance = 0.01;
 
     /** Sets the energies of the body at the start of the run. */
@@ -34,7 +34,7 @@ namespace geocone
     begin(const Energies &energies);
 
     /**
-     * Adds a step to the energy balance.
+     * Adds the energies and the work of a step to the energy balance.
      * @param end energies of the body at the end of the step
      * @param of_lost energies of particles that left the mesh, not included in `end`
      */
@@ -51,8 +51,8 @@ namespace geocone
         const double    removed,
         const double    removed_potential);
 
-    /** Updates the energy balance for parts added to or removed from the body. The
-     *  change follows from the energies before and after. */
+    /** Updates the energy balance for parts of the body that are added or
+     *  removed. The change follows from the energies before and after. */
     void
     change_body(const Energies &before, const Energies &after);
 
@@ -106,8 +106,8 @@ namespace geocone
       return at_start.potential - removed_potential - last.potential;
     }
 
-    /** Reference energy of relative losses: the largest energy or work of the run
-     *  (J/m). */
+    /** Reference energy for relative losses: the largest energy or work so far
+     *  in the run (J/m). */
     double
     turnover() const;
 

@@ -43,7 +43,7 @@ namespace geocone::GEOCONE_DIM
       return given;
     }
 
-    /** Computes the errors of displacement and stress.
+    /** Computes the relative L2 errors of displacement and stress.
      *  @param displacement nodal displacements (FEM), or empty (MPM)
      *  @param points_move whether points move with their displacement */
     FieldErrors

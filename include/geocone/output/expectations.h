@@ -29,7 +29,8 @@ namespace geocone
     bool
     holds(const Json &summary) const;
 
-    /** Returns the value that the criterion refers to, as text. */
+    /** Returns the value of summary.json that the criterion refers to, as
+     *  text. */
     std::string
     found(const Json &summary) const;
 

@@ -54,8 +54,8 @@ namespace geocone::GEOCONE_DIM
     void
     state_of_run(StateRow &row) override;
 
-    /** Sets the initial state, the reference for the gains of energy and
-     *  momentum. */
+    /** Sets the initial state, relative to which changes in energy and momentum
+     *  are measured. */
     void
     set_initial(const ExplicitState &state);
 

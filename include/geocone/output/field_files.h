@@ -18,9 +18,9 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Part of a field file written by one rank. Cells do not share nodes; values are
-   * nodal. Arrays are generated one at a time, so that only one of them is held in
-   * memory.
+   * Part of a field file that one rank writes. Cells do not share nodes; values
+   * are nodal. Arrays are generated one at a time, so that only one of them is
+   * held in memory.
    */
   struct FieldTable
   {

@@ -60,7 +60,8 @@ namespace geocone::GEOCONE_DIM
                     const Obstacles                &obstacles,
                     const std::vector<RigidMotion> &moved);
 
-    /** Saves or restores the list of field files written so far, for checkpoints. */
+    /** Saves or restores the list of field files written so far in a
+     *  checkpoint. */
     void
     state(StateRow &row)
     {

@@ -16,7 +16,7 @@ namespace geocone
     double load;         ///< (N/m)
   };
 
-  /** Plateau at the end of a load-displacement curve. */
+  /** Final plateau of a load-displacement curve. */
   struct LimitLoad
   {
     bool        found     = false; ///< whether the load has settled

@@ -34,8 +34,8 @@ namespace geocone
     unsigned int cells   = 0;  ///< number of cells of the last mesh
     double       seconds = 0.; ///< computing time of all meshes (s)
 
-    /** Replaces a bound if another mesh provides a tighter bound. A bound is
-     *  empty if it is not certified. */
+    /** Replaces each bound for which another mesh provides a tighter bound. A
+     *  bound is empty if it is not certified. */
     void
     take(const std::optional<double> other_lower,
          const std::optional<double> other_upper);

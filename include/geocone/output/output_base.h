@@ -103,7 +103,7 @@ namespace geocone::GEOCONE_DIM
 
     /**
      * Writes summary.json with the sections "run" and "warnings" and the
-     * sections of the method.
+     * sections specific to the method (e.g. FEM, MPM).
      * @param status running | finished | failed: why
      * @param topics of the method, in order of output
      * @throws StepFailure if the status is "finished" but a number is not finite; the
@@ -112,7 +112,7 @@ namespace geocone::GEOCONE_DIM
     void
     write_summary(const std::string &status, const Json &topics);
 
-    /** Prints the results of a finished run, as in its last summary. */
+    /** Prints the main results of a finished run from its last summary. */
     virtual void
     print_result() const
     {}
@@ -123,7 +123,8 @@ namespace geocone::GEOCONE_DIM
     report() const;
 
     /**
-     * Saves or restores the state of the tables and the summary, for checkpoints.
+     * Saves or restores the state of the tables and the summary in a
+     * checkpoint.
      */
     virtual void
     state_of_run(StateRow &row);

@@ -43,8 +43,8 @@ namespace geocone
                   const IfExists     if_exists);
 
   /**
-   * Reads the parameters of a run from its output folder. File names among the
-   * parameters are relative to the same folder as in that run.
+   * Reads the parameter file of a run from the output folder of the run. File
+   * names among the parameters are relative to the same folder as in that run.
    * @throws InputError if it is not the folder of a run
    */
   ParameterFile

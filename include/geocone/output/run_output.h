@@ -50,8 +50,8 @@ namespace geocone::GEOCONE_DIM
     }
   };
 
-  /** Returns true if the loaded support moves in one direction over three successive
-   *  steps. */
+  /** Returns true if the loaded support moves in the same direction in three
+   *  successive steps. */
   bool
   moves_on(const ImplicitRecord &a,
            const ImplicitRecord &b,
@@ -97,7 +97,7 @@ namespace geocone::GEOCONE_DIM
       balance.begin(energies);
     }
 
-    /** Includes added and removed parts of the body in the energy balance. */
+    /** Updates the energy balance for added and removed parts of the body. */
     void
     change_body(const BodyChange &change)
     {
@@ -211,8 +211,9 @@ namespace geocone::GEOCONE_DIM
     std::optional<double>
     bracketed_load(const Json &of_run) const;
 
-    /** Warns if friction with memory contributes to the plastic work, and
-     *  recommends a comparison if its effect exceeds 0.5 %. */
+    /** Warns if friction memory contributes to the plastic work. If its effect
+     *  on the work or the load exceeds 0.5 %, recommends a comparison run with
+     *  half the memory time, or a longer run. */
     void
     warn_of_memory() const;
 

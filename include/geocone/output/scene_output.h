@@ -31,8 +31,7 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * Text with the kinetic energy and the largest plastic strain, for the progress
-     * line.
+     * Kinetic energy and largest plastic strain as text for the progress line.
      */
     std::string
     text_of_motion(const StepEnd &end) const
@@ -56,9 +55,9 @@ namespace geocone::GEOCONE_DIM
       this->make_folder(options);
     }
 
-    /** Converts a unit of plane strain to the unit of the present problem:
-     *  without "per metre of thickness" in axisymmetric and three-dimensional
-     *  problems. See Geometry::unit(). */
+    /** Converts a unit for plane strain to the unit for the current problem,
+     *  i.e. without "per metre of thickness" in axisymmetric and
+     *  three-dimensional problems. See Geometry::unit(). */
     std::string
     unit(const std::string &in_plane_strain) const
     {

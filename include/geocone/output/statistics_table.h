@@ -17,7 +17,7 @@ namespace geocone
     may_be ///< e.g. the displacement of a point that has left the mesh
   };
 
-  /** Final part of the error message about a non-finite value in a column. */
+  /** End of the error message for a non-finite value in a column. */
   inline constexpr const char *not_finite_remedy =
     " is not a finite number\n  remedy:  look for absurd magnitudes among "
     "the parameters, the formulas and the files that were read";

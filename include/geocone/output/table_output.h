@@ -12,8 +12,8 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Output of a run that stores records and writes each record as a line of a
-   *  table. */
+  /** Run output that stores one record per step and writes each record as a
+   *  line of a table. */
   template <typename Record>
   class TableOutput : public OutputBase
   {

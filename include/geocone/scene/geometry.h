@@ -107,8 +107,8 @@ namespace geocone::GEOCONE_DIM
                 const dealii::Point<dim> &d,
                 const double              tolerance);
 
-  /** Returns the vertices of a polygon in the format of the parameter file, for
-   *  error messages. */
+  /** Returns the vertices of a polygon as text in the format of the parameter
+   *  file, for error messages. */
   std::string
   text_of_polygon(const Polygon &polygon);
 
@@ -153,10 +153,10 @@ namespace geocone::GEOCONE_DIM
       return symmetry == Symmetry::axisymmetric;
     }
 
-    /** Returns the factor by which an area in the plane of the model is
-     *  multiplied to obtain a volume. Lengths are multiplied by the same factor
-     *  to obtain areas. The factor is 1 in plane strain (per metre of
-     *  thickness) and 2 pi r at the point x in axisymmetry (m). */
+    /** Returns the factor that converts an area in the plane of the model to a
+     *  volume. Lengths are multiplied by the same factor to obtain areas. The
+     *  factor is 1 in plane strain (per metre of thickness) and 2 pi r at the
+     *  point x in axisymmetry (m). */
     static double
     measure(const Symmetry symmetry, const dealii::Point<dim> &x)
     {
@@ -174,9 +174,10 @@ namespace geocone::GEOCONE_DIM
       return length_of(volume / measure(symmetry, x));
     }
 
-    /** Converts a unit of plane strain to the unit of the present problem:
-     *  without "per metre of thickness" in axisymmetric and three-dimensional
-     *  problems. In axisymmetry, units are not per metre of thickness.
+    /** Converts a unit for plane strain to the unit for the current problem,
+     *  i.e. without "per metre of thickness" in axisymmetric and
+     *  three-dimensional problems. In axisymmetry, units are not per metre of
+     *  thickness.
      *  @param in_plane_strain unit in plane strain, e.g. "N/m" or "load (N/m)"
      *  or "energy_J_per_m" */
     std::string
