@@ -13,9 +13,10 @@ namespace geocone::GEOCONE_DIM
 {
   /**
    * Computes the cell sizes of an adapted mesh such that all cells contribute
-   * equally to an error. Contributions scale with the cube of the cell size.
-   * Contributions are averaged over neighbouring cells: a coarse cell beside
-   * refined ones would otherwise be refined one mesh later.
+   * equally to a given error measure (e.g. the gap between bounds).
+   * Contributions scale with the cube of the cell size. Contributions are
+   * averaged over neighbouring cells: a coarse cell beside refined ones would
+   * otherwise be refined one mesh later.
    * @param error contribution of each cell
    * @param n_wanted approximate number of triangles
    * @param[in,out] fans of the mesh; they become smaller as other cells do, and

@@ -113,15 +113,15 @@ namespace geocone::GEOCONE_DIM
       return owners;
     }
 
-    /** Redistributes the cells over the MPI ranks such that the sum of cell
-     *  weights per rank is about equal. Collective. @param weight positive
+    /** Redistributes the cells over the MPI ranks such that all ranks have
+     *  about the same sum of cell weights. Collective. @param weight positive
      *  weight of a cell of this rank */
     void
     repartition(const std::function<unsigned int(const Cell &)> &weight);
 
-    /** Marks the cells that are contained in the given list @p cells of any
-     *  rank. The result is indexed by active cell index, for owned and ghost
-     *  cells. Collective. */
+    /** Returns, for each active cell, whether it is in the list @p cells of at
+     *  least one rank. The result includes owned and ghost cells.
+     *  Collective. */
     std::vector<bool>
     is_among(const std::vector<Cell> &cells) const;
 
@@ -174,23 +174,24 @@ namespace geocone::GEOCONE_DIM
       return parted;
     }
 
-    /** Number of mesh layers: one per body for particle bodies in contact,
-     *  otherwise 1. */
+    /** Number of mesh layers (copies of the mesh): one per body for bodies of
+     *  particles in contact, otherwise 1. */
     unsigned int
     n_layers() const
     {
       return layers;
     }
 
-    /** Index of the mesh layer that contains a cell, counted from 0. */
+    /** Index of the mesh layer (copy of the mesh for one body) that contains a
+     *  cell, counted from 0. */
     unsigned int
     layer_of(const Cell &cell) const
     {
       return cell->active_cell_index() / (tria->n_active_cells() / layers);
     }
 
-    /** Cell at the same position in another mesh layer. The cell may be owned
-     *  by another rank. */
+    /** The coincident cell in another mesh layer (copy of the mesh for another
+     *  body). The cell may be owned by another rank. */
     Cell
     twin(const Cell &cell, const unsigned int layer) const
     {

@@ -12,12 +12,13 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Bisects tetrahedra at their longest edges until all contributions to an error are
-   * about equal. The new mesh is nested in the given one and keeps its materials and
-   * sides. Contributions scale with V^(4/3) of the volume. They are averaged with those of
-   * the cells at the same vertices, as a coarse cell beside refined ones would otherwise be
-   * refined one mesh later. No cell is divided into more than 16 parts, except where its
-   * neighbours require it.
+   * Bisects tetrahedra at their longest edges until all cells contribute about
+   * equally to a given error measure (e.g. the gap between bounds). The new
+   * mesh is nested in the given one and keeps its materials and sides.
+   * Contributions scale with V^(4/3) of the volume. They are averaged with
+   * those of the cells at the same vertices, as a coarse cell beside refined
+   * ones would otherwise be refined one mesh later. No cell is divided into
+   * more than 16 parts, except where its neighbours require it.
    * @param error contribution of each cell
    * @param n_wanted number of tetrahedra; a few more close the mesh
    */

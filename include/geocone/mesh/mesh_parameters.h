@@ -127,8 +127,9 @@ namespace geocone::GEOCONE_DIM
     void
     choose_outline(const Geometry &geometry, const Method &method);
 
-    /** Checks that the number of cells is feasible. @throws InputError if it
-     *  exceeds the range of indices or the memory */
+    /** Checks that the number of cells exceeds neither the range of indices nor
+     *  the available memory.
+     *  @throws InputError if it exceeds the range of indices or the memory */
     void
     check_sizes() const;
 

@@ -112,7 +112,7 @@ namespace geocone::GEOCONE_DIM
   inline const std::string msh_remedy =
     "write it anew, e.g.: gmsh OLD.msh -save -format msh41 -o NEW.msh";
 
-  /** Terms of gmsh for boundary faces and for cell regions, used in error
+  /** Names used by gmsh for boundary faces and for cell regions, for error
    *  messages. */
   const std::string face_word = dim == 2 ? "curve" : "surface";
   const std::string cell_word = dim == 2 ? "surface" : "volume";
@@ -134,8 +134,8 @@ namespace geocone::GEOCONE_DIM
                      const std::string &element);
 
   /**
-   * Returns true if a text begins like a .msh file. The first section must be
-   * MeshFormat, possibly after comments.
+   * Returns true if a text begins with the header of a .msh file. The first
+   * section must be MeshFormat, possibly after comments.
    */
   bool
   begins_as_msh(const std::string &text);

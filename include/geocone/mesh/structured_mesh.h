@@ -13,11 +13,11 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Number of intervals in each direction of a uniform or graded box mesh,
-   * computed without creating the mesh. Uniform: length / size, rounded, at
-   * least 1. Graded: over a length L from a fine end, the sizes s, s g, s g^2,
-   * ..., of which k = ceil(ln(l/s) / ln g) are smaller than the largest size l,
-   * sum up to
+   * Number of cells in each direction of a uniform or graded box mesh, computed
+   * without creating the mesh. Uniform: length / size, rounded, at least 1.
+   * Graded: over a length L from a fine end, the sizes s, s g, s g^2, ..., of
+   * which k = ceil(ln(l/s) / ln g) are smaller than the largest size l, sum up
+   * to
    *   S_n = s (g^n - 1)/(g - 1) for n <= k, and S_k + (n - k) l beyond;
    * the number is the smallest n with S_n >= L. Between two grading points,
    * rounding can make it differ from grid_lines() by one.

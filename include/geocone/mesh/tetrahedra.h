@@ -70,12 +70,14 @@ namespace geocone::GEOCONE_DIM
     unsigned int
     index_in_cell(const unsigned int cell, const unsigned int vertex) const;
 
-    /** Checkpoint data: the mesh without the names of its sides. */
+    /** Saves or restores the mesh in a checkpoint, without the names of its
+     *  sides. */
     void
     state(StateRow &row);
 
   private:
-    /** Orients the cells and finds their facets, none of which has a side yet.
+    /** Orients the cells and finds their facets, without assigning facets to
+     *  named sides.
      *  @return numbers of the facets by vertices */
     std::map<std::array<unsigned int, 3>, unsigned int>
     connect();
