@@ -130,8 +130,8 @@ namespace geocone::GEOCONE_DIM
     }
   };
 
-  /** Implements advance_cone() for one SIMD instruction set, with or without
-   *  friction memory. */
+  /** Implements the stress update advance_cone() for one SIMD instruction set,
+   *  with or without friction memory. */
   template <typename Arch, bool has_memory>
   void
   advance_cone_block(const ConeNumbers &cone, const PointBlock &block)
@@ -206,7 +206,8 @@ namespace geocone::GEOCONE_DIM
       }
   }
 
-  /** Calls the cone kernel, in its version with or without friction memory. */
+  /** Calls the version of the cone kernel with or without friction memory, as
+   *  required. */
   template <typename Arch>
   void
   advance_cone_block(const ConeNumbers &cone, const PointBlock &block)

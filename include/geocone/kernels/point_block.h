@@ -97,8 +97,7 @@ namespace geocone::GEOCONE_DIM
     unsigned long long limited  = 0; ///< states limited to retain a stiffness
     unsigned int       most     = 0; ///< most substeps of a point in a step
 
-    /** Reads the counters from a checkpoint, or writes the counters to a
-     *  checkpoint. @tparam Row StateRow */
+    /** Reads or writes the counters in a checkpoint. @tparam Row StateRow */
     template <typename Row>
     void
     state(Row &row)

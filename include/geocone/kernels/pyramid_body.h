@@ -60,8 +60,8 @@ namespace geocone::GEOCONE_DIM
       return more * t[i] + less * t[j] - size;
     }
 
-    /** Component k of D g_ij, the elastic stiffness times the flow direction of
-     *  the yield plane f_ij = 0. */
+    /** Component k of the vector D g_ij: elastic stiffness times flow direction
+     *  of the yield plane f_ij = 0. */
     const P &
     stiff_flow(const int i, const int j, const int k) const
     {

@@ -483,8 +483,8 @@ namespace geocone
         }
     }
 
-    /** Stress ratio eta_beta,cs at the critical state in the direction of the
-     *  stress deviator s.
+    /** Critical-state stress ratio eta_beta,cs in the direction of the stress
+     *  deviator s.
      *  @param norm_s norm of s @param[out] lode Willam and Warnke's h */
     Number
     critical_ratio(const Vector &s, const Number &norm_s, Number &lode) const

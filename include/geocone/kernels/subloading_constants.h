@@ -7,10 +7,10 @@
 namespace geocone
 {
   /**
-   * Material constants of the subloading soil model of Pereira et al. (the STSM
-   * report). Numbers such as "(21)" refer to equations of the report. Any
-   * consistent unit of stress can be used; defaults are in Pa. Compression is
-   * positive here.
+   * Material constants of the subloading soil model of Pereira et al. (2016).
+   * Numbers such as "(21)" refer to equations of the report. Any consistent
+   * unit of stress can be used; defaults are in Pa. Compression is positive
+   * here.
    */
   struct SubloadingConstants
   {
@@ -34,7 +34,7 @@ namespace geocone
     double delta = 0.01; ///< margin of the similarity centre (38) (-)
 
     /** True if the rotation of the surfaces uses sh = s - ph beta instead of sh
-     *  = s - p beta, in equation (24) of the STSM report
+     *  = s - p beta, in equation (24) of Pereira et al. (2016)
      *  (SubloadingConstants). */
     bool rotates_with_ph = false;
 

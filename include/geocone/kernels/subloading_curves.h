@@ -24,7 +24,8 @@ namespace geocone::GEOCONE_DIM
     return y;
   }
 
-  /** Converts a Mandel vector into tensor components, multiplied by a sign.
+  /** Converts a Mandel vector into tensor components, multiplied by a given
+   *  sign (1 or -1).
    *  @param sign -1 reverses the sign convention */
   template <int n>
   Tensor6

@@ -88,8 +88,8 @@ namespace geocone
     using Body   = SubloadingBody<State, n>;
     using Vector = typename Body::Vector;
 
-    /** Returns 1 if a plastic substep over the full increment respects the
-     *  error tolerance and all limits, otherwise 0. */
+    /** Returns 1 if a plastic substep over the full strain increment satisfies
+     *  the error tolerance and all limits, otherwise 0. */
     P
     is_good(const typename Body::Substep &next, const P &R) const
     {

@@ -103,19 +103,20 @@ namespace geocone
     ratio(const State &state) const;
 
     /** Yield function fbar(S; beta, pcb) of the subloading model (Pa^2),
-     *  negative inside the yield surface; equation (21) of the STSM report. */
+     *  negative inside the yield surface; equation (21) of Pereira et al.
+     *  (2016). */
     double
     yield_function(const Vector &S, const Vector &beta, const double pcb) const;
 
     /**
-     * Size pc (Pa) of the yield surface with inclination beta that passes
+     * Size pc (Pa) of the yield surface with rotation tensor beta that passes
      * through a stress. The size is not positive if no such surface exists.
      */
     double
     size_through(const Vector &stress, const Vector &beta) const;
 
-    /** Computes the plastic rates for a strain increment at a given state and
-     *  similarity ratio R. */
+    /** Computes the plastic rates of the state variables for a strain increment
+     *  at a given state and similarity ratio R. */
     SubloadingRates<n>
     rates(const State &state, const double R, const Vector &strain) const;
 
@@ -132,7 +133,7 @@ namespace geocone
     }
 
     /** Ratio of shear to bulk modulus (-), G/K = 3(1-2nu)/(2(1+nu)); equation
-     *  (25) of the STSM report. */
+     *  (25) of Pereira et al. (2016). */
     double
     g_over_k() const
     {

@@ -112,8 +112,8 @@ namespace geocone::GEOCONE_DIM
       return 1.;
     }
 
-    /** Strength parameters for Prandtl's limit load in plane strain. No value
-     *  for laws without cohesion and friction angle. */
+    /** Strength parameters that determine Prandtl's limit load in plane strain.
+     *  No value for laws without cohesion and friction angle. */
     virtual std::optional<FrictionalStrength>
     plane_strain_strength() const
     {
@@ -146,8 +146,8 @@ namespace geocone::GEOCONE_DIM
     n_history() const = 0;
 
     /**
-     * Initialises the history variables of a point from a given stress and the
-     * parameters of the law.
+     * Initialises the history variables of a point from the initial stress and
+     * the parameters of the law.
      * @param size length over which strain localises (m), for softening laws:
      * cell size over polynomial degree; 0: a single point with uniform strain
      * @param[out] history n_history() values
@@ -205,7 +205,7 @@ namespace geocone::GEOCONE_DIM
     virtual std::vector<OutputQuantity>
     output_quantities() const = 0;
 
-    /** Section curves of the yield surfaces at a given state, outermost first.
+    /** Plane sections of the yield surfaces at a given state, outermost first.
      *  Empty for laws that do not provide curves. */
     virtual std::vector<YieldCurve>
     yield_curves(const Components & /*stress*/,
@@ -223,8 +223,8 @@ namespace geocone::GEOCONE_DIM
     /** @} */
 
   protected:
-    /** Full parameter name for error messages, e.g. "Materials/soil/NAME";
-     *  without a name, the section. */
+    /** Full parameter name for error messages, e.g. "Materials/soil/NAME"; if
+     *  the name is empty, the name of the section. */
     std::string
     parameter(const std::string &name = "") const;
 
@@ -254,7 +254,7 @@ namespace geocone::GEOCONE_DIM
   public:
     ShownValue(const ConstitutiveLaw &law, const std::string &name);
 
-    /** Evaluates the selected output quantity, see
+    /** Evaluates the output quantity selected in the constructor, see
      *  ConstitutiveLaw::output(). */
     double
     operator()(const ConstitutiveLaw::Components &stress,

@@ -118,8 +118,8 @@ namespace geocone::GEOCONE_DIM
                             {"outer", Match::outer},
                             {"inner", Match::inner}}};
 
-    /** Yield cone of a step, whose strength includes the delayed part of the
-     *  normal stress (friction with memory). */
+    /** Yield cone of a step, in which the strength includes the delayed part of
+     *  the normal stress (friction with memory). */
     FlowCone
     cone_of(const OwnStrength &own) const
     {

@@ -60,8 +60,8 @@ namespace geocone::GEOCONE_DIM
       return tau;
     }
 
-    /** Weight lambda of the previous delayed normal stress p_n in the new one,
-     *  for a step of size h (s). */
+    /** Weight lambda of the delayed normal stress at the beginning of the step
+     *  in its value at the end, for a step of size h (s). */
     double
     remembered(const double h) const
     {
@@ -78,7 +78,7 @@ namespace geocone::GEOCONE_DIM
       return part * p + (1. - part) * s_n;
     }
 
-    /** Returns true for strongly non-associated laws, in which the value
+    /** Returns true for strongly non-associated laws, for which the value
      *  "automatic" activates friction with memory. @param non_associativity (a
      *  - b)/a
      *  @param aperture_left sin(phi) - sin(theta) */

@@ -162,8 +162,8 @@ namespace geocone::GEOCONE_DIM
       return given.gradient != 0. || profile || ratio > 0.;
     }
 
-    /** Difference (Pa) between the cohesion at a point and the parameter value
-     *  c.
+    /** Difference (Pa) between the cohesion at a point and the parameter
+     *  'Cohesion'.
      *  @param history of the point; null: no increase */
     double
     grown_cohesion(const double *history) const

@@ -27,7 +27,7 @@ namespace geocone
     double level    = 0.; ///< y at which the cohesion is c (m)
 
     /** Difference (Pa) between the cohesion at the coordinate y and the
-     *  parameter value c. */
+     *  parameter 'Cohesion'. */
     double
     growth(const double y) const
     {

@@ -132,7 +132,7 @@ namespace geocone::GEOCONE_DIM
     check_curves() const;
 
     /** Plastic shear strains (-) at which the strength parameters are checked:
-     *  all points of the curves. */
+     *  those of all points of the hardening curves. */
     std::vector<double>
     places() const;
 

@@ -210,8 +210,8 @@ namespace geocone::GEOCONE_DIM
       return std::nullopt;
     }
 
-    /** Section curve of the yield cone flow_cone() in a plane of stress space.
-     *  The curve is the line |s_t| = a s_n + k with s_n = sqrt2 p and |s_t| =
+    /** Section of the yield cone flow_cone() by a plane in stress space. The
+     *  curve is the line |s_t| = a s_n + k with s_n = sqrt2 p and |s_t| =
      *  q/sqrt2. */
     std::vector<YieldCurve>
     yield_curves(const Components   &stress,
@@ -219,8 +219,8 @@ namespace geocone::GEOCONE_DIM
                  const SectionPlane &plane) const override;
 
     /**
-     * Yield cone of an implicit step: flow_cone(), but with the delayed part of
-     * the normal stress (FlowCone::delayed()).
+     * Yield cone of an implicit step, in which the strength includes the
+     * delayed part of the normal stress (FlowCone::delayed()).
      * @param stress_n,history_n state of the point at t_n
      */
     virtual std::optional<FlowCone>
@@ -250,8 +250,8 @@ namespace geocone::GEOCONE_DIM
     /** @name Formulation of the law as a root of its natural map, see
      *  NaturalMap */
     /** @{ */
-    /** Returns true if the natural map s - P_C(s - rho Psi(z)) of the law
-     *  exists in this space dimension. Spatial laws have no natural map in
+    /** Returns true if the natural map s - P_C(s - rho Psi(z)) is implemented
+     *  for the law in this space dimension. Spatial laws have no natural map in
      *  plane problems, where s_zz is not an unknown. */
     virtual bool
     has_natural_map() const
@@ -259,8 +259,8 @@ namespace geocone::GEOCONE_DIM
       return !is_spatial();
     }
 
-    /** Projection of s - rho Psi(z) onto the set of admissible stresses, for
-     *  laws without a yield cone. */
+    /** Projection of the natural-map argument s - rho Psi(z) onto the set of
+     *  admissible stresses, for laws without a yield cone. */
     struct Projection
     {
       Mode         mode;      ///< region of the projection
@@ -280,8 +280,8 @@ namespace geocone::GEOCONE_DIM
     }
     /** @} */
 
-    /** Value of the yield function of three-dimensional laws (Pa), see
-     *  overstress().
+    /** Value of the yield function of three-dimensional laws (Pa), positive
+     *  outside the yield surface.
      *  @param history of the point */
     virtual std::optional<double>
     yield_function(const SpatialMandel & /*stress*/,
@@ -327,8 +327,8 @@ namespace geocone::GEOCONE_DIM
     Mandel
     nearest_admissible(const Mandel &stress, const double *history) const;
 
-    /** Reduces the strength: divides the c and tan(phi) given in the parameter
-     *  file by F, and limits the dilatancy angle theta to the reduced phi.
+    /** Reduces the strength: divides c and tan(phi) of the parameter file by F,
+     *  and limits the dilatancy angle theta to the reduced phi.
      *  @throws InputError for laws without cohesion and friction */
     virtual void
     reduce_strength(const double F);
@@ -340,7 +340,8 @@ namespace geocone::GEOCONE_DIM
       return reduced;
     }
 
-    /** Linear increase of the cone strength k with depth: slope (level - y). */
+    /** Linear increase of the cone strength k with depth, equal to slope (level
+     *  - y). */
     struct Growth
     {
       double slope = 0.; ///< (Pa/m)
@@ -431,7 +432,7 @@ namespace geocone::GEOCONE_DIM
     /** @} */
 
   protected:
-    /** Source of the elastic moduli: constant parameters, or a function of the
+    /** Origin of the elastic moduli: constant parameters, or a function of the
      *  state. */
     enum class Stiffness
     {

@@ -108,8 +108,8 @@ namespace geocone::GEOCONE_DIM
     /** @} */
 
     /**
-     * Checks that all laws have the closed-form return mapping required by the
-     * method @p method. @throws InputError
+     * Checks that all laws have the closed-form return mapping that the
+     * numerical method @p method requires. @throws InputError
      */
     void
     check_closed_form(const std::string &method) const;

@@ -151,8 +151,8 @@ namespace geocone::GEOCONE_DIM
      *  ellipse. */
     struct Trial;
 
-    /** Elastic response to a volumetric strain increment x from the pressure
-     *  P_n, compression positive. */
+    /** Pressure and tangent moduli after an elastic volumetric strain increment
+     *  x from the pressure P_n, compression positive. */
     struct Elastic
     {
       double P;     ///< P_n exp(x/kappa) (Pa)
@@ -176,8 +176,8 @@ namespace geocone::GEOCONE_DIM
       return a - trace(stress) / 3.;
     }
 
-    /** Size Pc = P + q^2/(M^2 P) of the yield surface that passes through a
-     *  stress (Pa). */
+    /** Size Pc = P + q^2/(M^2 P) of the yield ellipse through a stress with
+     *  pressure P and deviatoric stress q (Pa). */
     double
     size_through(const SpatialMandel &stress) const;
 

@@ -49,9 +49,9 @@ namespace geocone::GEOCONE_DIM
     std::optional<FlowCone>
     flow_cone(const double *history) const override;
 
-    /** Returns true if the natural map s - P_C(s - rho Psi(z)) of the law
-     *  exists. The map exists only without tension cut-off, because it projects
-     *  onto the cone alone. */
+    /** Returns true if the natural map s - P_C(s - rho Psi(z)) is implemented
+     *  for the law. The map exists only without tension cut-off, because it
+     *  projects onto the cone alone. */
     bool
     has_natural_map() const override
     {
@@ -155,7 +155,7 @@ namespace geocone::GEOCONE_DIM
     double   k_per_cohesion = 0.; ///< dk/dc after reduction (-)
 
     /**
-     * Return mapping of one material point, in the axes of the cone.
+     * Return mapping of one material point, in cone axes.
      * @param elastic of the point
      * @param trial s_n + D e @param[out] slip |z_t| of the step (-)
      * @param[out] tangent ds/de, or null

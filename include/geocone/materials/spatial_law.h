@@ -94,8 +94,8 @@ namespace geocone::GEOCONE_DIM
              double * /*history*/) const
     {}
 
-    /** Return mapping: computes the stress s at t_{n+1} from the trial stress
-     *  s_n + D e.
+    /** Return mapping: computes the stress at t_{n+1} from the trial stress s_n
+     *  + D e (elastic stiffness D, strain increment e).
      *  @param[out] tangent ds/de, or null */
     virtual Mode
     return_to_strength(const SpatialMandel &trial,

@@ -109,7 +109,7 @@ namespace geocone::GEOCONE_DIM
     using PrincipalMatrix = Eigen::Matrix3d;
 
     /** Mohr-Coulomb pyramid with the yield functions f_ij = s_i - s_j + (s_i +
-     *  s_j) sine - size. */
+     *  s_j) sin(phi) - 2 c cos(phi) of principal stresses. */
     struct Pyramid
     {
       double sine, size; ///< sin(phi) (-), 2 c cos(phi) (Pa)
@@ -121,7 +121,8 @@ namespace geocone::GEOCONE_DIM
                          : std::numeric_limits<double>::infinity();
       }
 
-      /** Largest yield function f_13 of ordered principal stresses (Pa). */
+      /** Largest yield function f_13 (Pa) of principal stresses in decreasing
+       *  order. */
       double
       yield_function(const Principal &s) const
       {

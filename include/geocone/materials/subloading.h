@@ -122,7 +122,8 @@ namespace geocone::GEOCONE_DIM
     void
     check_initial() const;
 
-    /** Choice of the pressure that multiplies the rotation tensor beta. */
+    /** Pressure that multiplies the rotation tensor beta, selected by a
+     *  parameter. */
     enum class Rotation
     {
       p,

@@ -72,8 +72,8 @@ namespace geocone::GEOCONE_DIM
   protected:
     using Base::Base;
 
-    /** Steady-state value at constant stress of the delayed normal stress p of
-     *  friction with memory (Pa). */
+    /** Steady-state value of the delayed normal stress p of friction with
+     *  memory at constant stress (Pa). */
     virtual double
     remembered_stress(const Stress &stress) const = 0;
 

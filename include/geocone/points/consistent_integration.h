@@ -12,8 +12,8 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Part of a fixed boundary, normal to a coordinate axis, with soil on one
-   *  side. */
+  /** Part of a fixed boundary that is normal to a coordinate axis and has soil
+   *  on one side. */
   struct SoilLimit
   {
     unsigned int             axis;

@@ -68,8 +68,8 @@ namespace geocone::GEOCONE_DIM
         throw Error(why);
     }
 
-    /** Appends a remark to the list @p remarks if the constitutive laws changed
-     *  initial states of material points. Collective. */
+    /** Appends a remark to the list @p remarks if the constitutive laws
+     *  modified the initial states of material points. Collective. */
     void
     remark(const MPI_Comm comm, std::vector<std::string> &remarks) const
     {

@@ -10,7 +10,8 @@
 
 namespace geocone
 {
-  /** Treatment of particles that leave the background mesh. */
+  /** Treatment of particles that leave the background mesh: error or
+   *  removal. */
   class Outflow : public dealii::ParameterAcceptor
   {
   public:

@@ -73,9 +73,9 @@ namespace geocone::GEOCONE_DIM
         }
     }
 
-    /** Distributes the affine momentum of APIC from the point to the nodes
-     *  (P2G). The vector mass N_i C (x_i - x) is added to the first dim of the
-     *  m values of node i. */
+    /** Distributes the affine momentum of the point (APIC) to the nodes (P2G).
+     *  The vector mass N_i C (x_i - x) is added to the first dim of the m
+     *  values of node i. */
     template <unsigned int m>
     void
     scatter_affine(const double                  mass,

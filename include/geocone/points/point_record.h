@@ -15,8 +15,8 @@
 namespace geocone::GEOCONE_DIM
 {
   /** Checks that the points of a checkpoint have the same state variables as
-   *  this run. The variables are listed by PointState::variables(). @throws
-   *  RunError */
+   *  the current run. The variables are listed by PointState::variables().
+   *  @throws RunError */
   void
   check_variables(const std::string &written, const std::string &here);
 
@@ -44,8 +44,8 @@ namespace geocone::GEOCONE_DIM
       return cells->has(cell);
     }
 
-    /** State variables of the points of a cell, one row per point. @throws
-     *  RunError for an unknown cell */
+    /** State variables of the points of a cell as stored in a checkpoint, one
+     *  row per point. @throws RunError for an unknown cell */
     std::vector<const double *>
     of(const BackgroundMesh::Cell &cell) const;
 

@@ -118,8 +118,8 @@ namespace geocone::GEOCONE_DIM
       this->reserve(width * n);
     }
 
-    /** Copies the components of the variable from point @p p to a row of
-     *  numbers or back, and advances @p row. */
+    /** Copies the components of the variable at point @p p to or from a row of
+     *  numbers, and advances @p row. */
     void
     get(const std::size_t p, double *&row) const
     {
@@ -296,7 +296,7 @@ namespace geocone::GEOCONE_DIM
     PointValues<dealii::Point<dim>> unit;
     /** @} */
 
-    /** Calls visit(name, variable) for each state variable. */
+    /** Calls the function visit(name, variable) for each state variable. */
     template <typename Visit>
     void
     visit(const Visit &visit)
@@ -359,7 +359,7 @@ namespace geocone::GEOCONE_DIM
       return n;
     }
 
-    /** Copies all state variables of a point to a row of numbers or back, in
+    /** Copies all state variables of a point to or from a row of numbers, in
      *  the order of variables(). The position comes first. */
     void
     get(const std::size_t p, double *row) const

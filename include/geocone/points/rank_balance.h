@@ -29,8 +29,8 @@ namespace geocone::GEOCONE_DIM
     bool
     is_due(const double n_particles, const MPI_Comm comm) const;
 
-    /** Redistributes the cells over the ranks by the number of particles per
-     *  cell. Nodes are renumbered.
+    /** Redistributes the cells over the ranks, weighted by the number of
+     *  particles per cell. Nodes are renumbered.
      *  @param n_in_cell number of particles per cell on this rank, by active
      *  cell index. Collective. */
     void
@@ -46,8 +46,9 @@ namespace geocone::GEOCONE_DIM
     }
 
   private:
-    /** Tolerance of the load imbalance, and the remaining imbalance after the
-     *  last repartition. The latter exceeds 1 since cells are not divided. */
+    /** Tolerance for the load imbalance, and the imbalance that remained after
+     *  the last repartition. The latter exceeds 1 since cells are not
+     *  divided. */
     double       largest = 1.2, least = 1.;
     unsigned int n = 0;
   };

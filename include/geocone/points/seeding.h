@@ -131,8 +131,8 @@ namespace geocone::GEOCONE_DIM
           const Detail                       detail,
           const Take                        &take) const;
 
-    /** Block of seeds, and flags for the columns that are present in a particle
-     *  file. */
+    /** Block of seeds read from a particle file, with flags for the columns
+     *  that the file contains. */
     using Block     = std::vector<Seed>;
     using Given     = std::array<bool, ParticleFile::n_columns>;
     using TakeBlock = std::function<void(Block &, const Given &)>;
