@@ -73,8 +73,8 @@ namespace geocone::GEOCONE_DIM
     void
     add(const std::vector<unsigned int> &chosen, const bool relaxed);
 
-    /** Solves the linear system after subtracting the contact forces from the
-     *  nodal residuals. */
+    /** Subtracts the contact forces from the nodal residuals and solves the
+     *  linear system. */
     void
     solve_with(const Eigen::VectorXd &force,
                const Vector          *prescribed,
@@ -82,7 +82,8 @@ namespace geocone::GEOCONE_DIM
                Vector                &direction) const;
 
     /** Contact forces for which the full Newton step satisfies the contact
-     *  laws, and the motion increments of free obstacles. Collective.
+     *  laws, with the corresponding motion increments of free obstacles.
+     *  Collective.
      *  @param without relative velocity increments du of the direction without
      *  contact forces */
     struct End
@@ -98,7 +99,7 @@ namespace geocone::GEOCONE_DIM
     entered(Vector &direction) const;
 
     /** Increment of the relative velocity between a contact node on this rank
-     *  and the obstacle. @param direction with ghost values */
+     *  and its obstacle. @param direction with ghost values */
     dealii::Tensor<1, dim>
     relative_change(const ContactNode &node, const Vector &direction) const;
 

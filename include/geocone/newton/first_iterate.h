@@ -9,10 +9,11 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Computes the initial guess by fixed-point iterations v -= K^-1 R(v) with
-   * the elastic Jacobian K. The Jacobian is factorised once. Each iteration is
-   * an elastic step with the plastic strain of the previous iterate. Prescribed
-   * velocities and H v = q are imposed at the end of the step.
+   * Computes the initial guess for the velocities v by fixed-point iterations v
+   * -= K^-1 R(v), with the elastic Jacobian K and the residual R. The Jacobian
+   * is factorised once. Each iteration is an elastic step with the plastic
+   * strain of the previous iterate. Prescribed velocities and H v = q are
+   * imposed at the end of the step.
    * @return stresses of the return mapping at v (Pa)
    */
   std::vector<Mandel>

@@ -27,9 +27,9 @@ namespace geocone::GEOCONE_DIM
     void
     move(const double x);
 
-    /** Directional residual R.d at the current iterate. For associated flow it
-     *  is the derivative of a convex function along d. A ContactDirection
-     *  defines its own slope. */
+    /** Directional residual R.d at the current iterate, along the Newton
+     *  direction d. For associated flow it is the derivative of a convex
+     *  function along d. A ContactDirection defines its own slope. */
     double
     slope() const
     {
@@ -38,8 +38,8 @@ namespace geocone::GEOCONE_DIM
                : work.problem.free_dot(work.residual, direction);
     }
 
-    /** Merit function sum R_i^2 / D_i at the current iterate, with the diagonal
-     *  D of the elastic Jacobian. */
+    /** Merit function sum R_i^2 / D_i of the residual R at the current iterate,
+     *  with the diagonal D of the elastic Jacobian. */
     double
     merit() const
     {
@@ -68,8 +68,8 @@ namespace geocone::GEOCONE_DIM
     virtual ~Globalisation() = default;
 
     /**
-     * Weight w of the elastic stiffness D in the blended tangent (1 - w) C + w
-     * D, for the next Newton direction.
+     * Weight w of the elastic stiffness D in the tangent (1 - w) C + w D for
+     * the next Newton direction.
      * @param residual relative residual (by the norm of the forces)
      */
     virtual double
@@ -79,8 +79,8 @@ namespace geocone::GEOCONE_DIM
     virtual double
     move(NewtonLine &line);
 
-    /** Returns true if only descent directions, with NewtonLine::slope() < 0,
-     *  are acceptable. */
+    /** Returns true if only descent directions (NewtonLine::slope() < 0) are
+     *  accepted. */
     virtual bool
     needs_descent() const
     {
@@ -109,7 +109,8 @@ namespace geocone::GEOCONE_DIM
   {
   public:
     /** Empirical factors c in the weight w = min(1/2, c |R_free| / |B'V s|) of
-     *  the elastic stiffness. */
+     *  the elastic stiffness, with residual R_free and internal forces B'V
+     *  s. */
     static constexpr double with_return_map = 0.3, with_natural_map = 0.05;
 
     /** @param factor c */

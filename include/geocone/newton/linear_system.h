@@ -37,9 +37,9 @@ namespace geocone::GEOCONE_DIM
     set_pattern(IncrementalProblem &problem, dealii::TimerOutput &timer);
 
     /**
-     * Assembles and factorises the Jacobian dR/dv at the iterate of the last
-     * residual evaluation. The tangent contains a fraction elastic_blend of
-     * elastic stiffness.
+     * Assembles and factorises the Jacobian dR/dv of the residual R at the
+     * iterate of its last evaluation. The tangent contains a fraction
+     * elastic_blend of elastic stiffness.
      * @return whether the matrix is regular; the same on all ranks
      */
     [[nodiscard]] bool

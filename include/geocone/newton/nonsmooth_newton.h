@@ -54,8 +54,8 @@ namespace geocone::GEOCONE_DIM
     {
       bool elastic_first = false; ///< elastic tangent in iteration 1
 
-      /** Largest accepted value, in a converged step, of the share of plastic
-       *  work that is due to lagged friction (SolverReport::excess_share). */
+      /** Largest share of plastic work due to lagged friction that is accepted
+       *  in a converged step (SolverReport::excess_share). */
       double accepted_excess = std::numeric_limits<double>::infinity();
     };
 

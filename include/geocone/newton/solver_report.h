@@ -25,7 +25,8 @@ namespace geocone::GEOCONE_DIM
     unsigned int n_switched        = 0;
   };
 
-  /** Report on the solution of the incremental problem of a step. */
+  /** Solver report for the incremental problem of a step: iterations, residuals
+   *  and outcome. */
   struct SolverReport
   {
     bool         converged      = false;

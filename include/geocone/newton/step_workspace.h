@@ -39,11 +39,12 @@ namespace geocone::GEOCONE_DIM
            const double          friction_lag) const;
 
     /**
-     * Returns true if the residual R satisfies the momentum balance in the free
-     * dofs: |R_free| <= max(tolerance x force norm, absolute, c N). N is the
-     * estimated rounding error, InternalForces::rounding_floor(). At contact
-     * nodes the criterion is relative to the contact forces. N is used only if
-     * it is small itself, and is reported.
+     * Returns true if the residual in the free dofs is within the tolerance of
+     * the momentum balance: |R_free| <= max(tolerance x force norm, absolute, c
+     * N), with the rounding error N. N is the estimated rounding error,
+     * InternalForces::rounding_floor(). At contact nodes the criterion is
+     * relative to the contact forces. N is used only if it is small itself, and
+     * is reported.
      */
     bool
     is_balanced(const ResidualReport &state,
@@ -69,8 +70,8 @@ namespace geocone::GEOCONE_DIM
     jump() const;
 
     /**
-     * Factorises the Jacobian dR/dv with a fraction of elastic stiffness
-     * blended in.
+     * Factorises the Jacobian dR/dv, in which a given fraction of the stiffness
+     * is elastic.
      * @return whether the matrix is regular
      */
     bool

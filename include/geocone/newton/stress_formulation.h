@@ -30,7 +30,8 @@ namespace geocone::GEOCONE_DIM
   {
     const char *name; ///< value of 'Newton/Formulation'
 
-    /** Rejects problems to which the formulation does not apply.
+    /** Rejects problems to which the formulation with stresses as unknowns does
+     *  not apply.
      *  @throws InputError */
     std::function<void(const IncrementalProblem &problem)> check;
 
@@ -43,7 +44,7 @@ namespace geocone::GEOCONE_DIM
   {
     const char *name; ///< value of 'Newton/First iterate'
 
-    /** Rejects problems to which the method does not apply.
+    /** Rejects problems to which the first-iterate method does not apply.
      *  @throws InputError */
     std::function<void(const IncrementalProblem &problem)> check;
 

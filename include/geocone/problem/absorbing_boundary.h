@@ -85,13 +85,14 @@ namespace geocone::GEOCONE_DIM
       return dashpots;
     }
 
-    /** Nodal forces 2 C v_in of incoming waves at time t (N/m). */
+    /** Nodal forces 2 C v_in of incoming waves at time t (N/m), with dashpot
+     *  coefficients C and wave velocity v_in. */
     void
     incoming_force(const double t, Vector &force) const;
 
   private:
-    /** Adds the dashpot forces C_i x_i of all nodes to dst, for nodal
-     *  velocities x. */
+    /** Adds the dashpot forces C_i x_i of all nodes i to dst, with dashpot
+     *  coefficients C_i and nodal velocities x_i. */
     void
     add_product(Vector &dst, const Vector &x) const;
 

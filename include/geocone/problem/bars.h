@@ -100,9 +100,9 @@ namespace geocone::GEOCONE_DIM
 
   /**
    * Bars between two points of the body, or between a point of the body and a
-   * fixed point outside. They represent anchors, struts, geogrids, and the
-   * segments of plates. With b.v the rate of elongation of a bar, the axial force
-   * at the end of a step is the projection
+   * fixed point outside the body. They represent anchors, struts, geogrids, and
+   * the segments of plates. With b.v the rate of elongation of a bar, the axial
+   * force at the end of a step is the projection
    *   N = P(N_0 + k (e + h b.v - e_p)),  k = EA/L,  P on [-N_c, N_t],
    * the closed form of the complementarity between force and plastic
    * elongation e_p, see doc/theory/structures.md. Without compressive strength
@@ -126,9 +126,10 @@ namespace geocone::GEOCONE_DIM
          const BackgroundMesh &mesh,
          const Space          &space);
 
-    /** Prepares the bars for a step. Bars are installed and removed at the
-     *  beginning of a stage; the step size h (s) and the vectors b along rotated
-     *  dofs are set. Collective.
+    /** Prepares the bars for a step: installation or removal, step size and
+     *  coefficient vectors. Bars are installed and removed at the beginning of
+     *  a stage; the step size h (s) and the vectors b along rotated dofs are
+     *  set. Collective.
      *  @throws RunError if a bar is tied to a removed part of the body */
     void
     begin_step(const std::string &stage,
@@ -147,15 +148,15 @@ namespace geocone::GEOCONE_DIM
     std::vector<std::vector<unsigned int>>
     node_groups() const override;
 
-    /** Adds the tangent stiffness to the Jacobian, for those bars whose
-     *  stiffness is assembled. */
+    /** Adds the tangent stiffness of the bars with assembled stiffness to the
+     *  Jacobian. */
     void
     linearise(const JacobianPattern &pattern,
               const double           elastic_blend,
               SparseMatrix          &matrix) const override;
 
-    /** Low-rank tangent stiffness, over the owned free dofs, of those bars that
-     *  are not assembled into the Jacobian. It belongs to the last call of
+    /** Low-rank tangent stiffness of the bars that are not assembled into the
+     *  Jacobian, on the owned free dofs. It belongs to the last call of
      *  residual().
      *  @param elastic_blend as in linearise() */
     LowRank
@@ -282,8 +283,8 @@ namespace geocone::GEOCONE_DIM
      *  ranks and for points outside the body. */
     using Tie = std::vector<std::pair<unsigned int, double>>;
 
-    /** Points whose displacements enter a linear functional, each with a vector
-     *  of weights. */
+    /** Points whose displacements enter a linear functional (e.g. an
+     *  elongation), each with a vector of weights. */
     using Factors = std::vector<std::pair<const Tie *, dealii::Tensor<1, dim>>>;
 
     /** Coefficients b of a weighted sum of point displacements, in terms of the
@@ -304,13 +305,13 @@ namespace geocone::GEOCONE_DIM
               std::vector<dealii::Point<dim>> points,
               const std::vector<Tie>         &ties);
 
-    /** Computes the vectors b of all bars in terms of the (possibly rotated)
-     *  dofs of the step. Collective. */
+    /** Computes the coefficient vectors b of all bars in terms of the (possibly
+     *  rotated) dofs of the step. Collective. */
     void
     set_rows();
 
-    /** Scalar products b.x of all bars with a vector x of the dofs, summed over
-     *  the ranks. Collective. */
+    /** Scalar products b.x of the coefficient vector b of each bar and a dof
+     *  vector x, summed over the ranks. Collective. */
     std::vector<double>
     products(const Vector &x) const;
 

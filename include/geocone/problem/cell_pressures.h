@@ -51,8 +51,8 @@ namespace geocone::GEOCONE_DIM
     begin_step();
 
     /**
-     * Adds volumetric strains t_p I/n to the strains, so that the mean stress pi_p is
-     * polynomial in each cell.
+     * Adds a volumetric strain t_p to each point p (as t_p I/n, n = dimension),
+     * such that the mean stresses pi_p of each cell lie on a polynomial.
      * @param update computes stresses and tangents from the strains of a range
      * of points [first, second)
      * @param strain_zz hoop strains, empty unless axisymmetric
@@ -65,17 +65,17 @@ namespace geocone::GEOCONE_DIM
       std::vector<Mandel>             &strain,
       const std::vector<double>       &strain_zz);
 
-    /** Largest relative difference between the mean stresses pi_p and the polynomials
-     *  fitted by equalise(). It is relative to the largest stress of the points of this
-     *  rank. */
+    /** Largest relative difference between the mean stresses pi_p of the points
+     *  and the polynomials fitted by equalise(). It is relative to the largest
+     *  stress of the points of this rank. */
     double
     difference() const
     {
       return largest_difference;
     }
 
-    /** Adds the volumetric strain rates t_p I/n to the B-bar strain rates at the points
-     *  of a cell. */
+    /** Adds the volumetric strain rates t_p (as t_p I/n, n = dimension) to the
+     *  B-bar strain rates at the points of a cell. */
     void
     equalise_rates(const unsigned int                    cell,
                    const std::vector<MandelMatrix>      &tangent,
@@ -83,10 +83,12 @@ namespace geocone::GEOCONE_DIM
                    std::vector<Mandel>                  &rate,
                    const std::vector<double>            &rate_zz);
 
-    /** Maximum number of polynomials M_j in a cell: degree 2, used with Q3. */
+    /** Maximum number of polynomials M_j in a cell, for degree 2 (elements
+     *  Q3). */
     static constexpr int most_modes = dim == 2 ? 6 : 10;
 
-    /** Polynomial basis M_j of a cell, with its Gram matrix G weighted by 1/k_p. */
+    /** Polynomial basis M_j of a cell, with the Gram matrix G of the basis,
+     *  weighted by 1/k_p (bulk stiffness k_p). */
     struct Basis
     {
       using Matrix = Eigen::Matrix<double,
@@ -100,13 +102,13 @@ namespace geocone::GEOCONE_DIM
        *  is a point at which M_j = 1 and all other M_i = 0. */
       Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>
         modes;
-      /** Index of the point of the cell at which M_j = 1, for each basis polynomial
-       *  M_j. The index is -1 if M_j = 0 at all points. */
+      /** For each basis polynomial M_j, the index of the point of the cell at
+       *  which M_j = 1. The index is -1 if M_j = 0 at all points. */
       std::vector<int>    point;
       Eigen::LDLT<Matrix> compliance; ///< factorisation of G
     };
 
-    /** Terms of the stiffness matrix of a cell after elimination of the volumetric
+    /** Terms of a cell's stiffness matrix after elimination of the volumetric
      *  strains t_p, see condense(). */
     struct Condensed
     {
@@ -116,8 +118,8 @@ namespace geocone::GEOCONE_DIM
     };
 
     /**
-     * Eliminates the volumetric strains t_p of a cell from the tangents C_p (static
-     * condensation). The tangents become
+     * Eliminates the volumetric strains t_p of a cell from the tangents C_p of
+     * its points (static condensation). The tangents become
      *   C_p <- C_p - a_p b_p'/k_p,   a_p = C_p I/n,   b_p = C_p' I/n,
      * which then have no volumetric stiffness. The remainder of the stiffness is,
      * with a column for each M_j,
@@ -160,8 +162,8 @@ namespace geocone::GEOCONE_DIM
                  const std::vector<double> &softness,
                  Basis                     &result) const;
 
-    /** Fits the closest polynomial to the mean stresses pi_p of a cell, in the metric
-     *  of G.
+    /** Fits the polynomial closest to the mean stresses pi_p of a cell, in the
+     *  metric of the Gram matrix G.
      *  @return the largest difference between pi_p and the polynomial (Pa); NaN if
      *  some pi_p is NaN */
     double
@@ -171,13 +173,15 @@ namespace geocone::GEOCONE_DIM
     void
     shift(const unsigned int cell);
 
-    /** Shortens the last Newton step of a cell to a fraction of its length. */
+    /** Shortens the last Newton step for the volumetric strains of a cell to a
+     *  fraction of its length. */
     void
     shorten(const unsigned int cell, const double part);
 
-    /** Directional derivative sum_p V_p pi_p dt_p of a cell's potential along the last
-     *  Newton step. The potential, a function of the t_p, is minimal if the pi_p are a
-     *  polynomial, and convex, as pi_p never decreases if a point expands. */
+    /** Directional derivative sum_p V_p pi_p dt_p of a cell's potential along
+     *  the last Newton step dt_p, with the mean stresses pi_p. The potential, a
+     *  function of the t_p, is minimal if the pi_p are a polynomial, and
+     *  convex, as pi_p never decreases if a point expands. */
     double
     slope(const unsigned int cell) const;
 

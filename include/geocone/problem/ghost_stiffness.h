@@ -60,7 +60,7 @@ namespace geocone::GEOCONE_DIM
     void
     add_elastic_diagonal(Vector &dst) const override;
 
-    /** Work W of the ghost stiffness forces in a step with the velocities v
+    /** Work of the ghost stiffness forces in a step with the velocities v
      *  (J/m). Collective. */
     double
     work(const Vector &v) const;
@@ -75,14 +75,15 @@ namespace geocone::GEOCONE_DIM
     node_groups() const override;
 
   private:
-    /** Velocity difference g = c.v of a stencil for one component of the velocity. */
+    /** Weighted velocity difference g = c.v of the three nodes of a stencil,
+     *  for one velocity component. */
     static double
     bend(const GhostStencil &stencil,
          const Vector       &v,
          const unsigned int  component);
 
     /** Adds the ghost stiffness forces k h c g(v) of all stencils to @p part,
-     *  including ghosts. */
+     *  including entries of ghost dofs. */
     void
     add_forces(Vector &part, const Vector &v) const;
 
@@ -101,8 +102,8 @@ namespace geocone::GEOCONE_DIM
   public:
     GhostPlaces(const BackgroundMesh &mesh, const Space &space);
 
-    /** Threshold of fill() below which a basis function is low-mass and
-     *  receives ghost stiffness. */
+    /** Material fraction of the support, see fill(), below which a basis
+     *  function is low-mass and receives ghost stiffness. */
     static constexpr double least_fill = 0.2;
 
     /** Fraction of the support of a basis function that contains material, sum_p V_p
@@ -129,8 +130,8 @@ namespace geocone::GEOCONE_DIM
              const std::vector<bool> &is_wanted,
              const double             gamma) const;
 
-    /** Number of low-mass basis functions (with little material in their
-     *  support) that have nonzero mass, summed over all ranks. Collective. */
+    /** Number of low-mass basis functions (little material in the support) with
+     *  nonzero mass, summed over all ranks. Collective. */
     unsigned int
     n_light(const Vector &volume, const Unknowns &unknowns) const;
 

@@ -32,7 +32,7 @@ namespace geocone::GEOCONE_DIM
 
     double local_error = 0.; ///< see InternalForces::local_error()
 
-    /** Norm of the contact equations and sum of the reference forces
+    /** Residual norm of the contact equations and sum of the reference forces
      *  Contact::Touch::size (N/m), both over the potential contact nodes.
      *  Contact forces can be small compared with the internal forces of the
      *  soil. */
@@ -82,8 +82,8 @@ namespace geocone::GEOCONE_DIM
       terms.push_back(&term);
     }
 
-    /** Appends the bars of the scene to the residual. They must outlive the
-     *  problem. */
+    /** Appends the bars of the scene as a term of the residual. They must
+     *  outlive the problem. */
     void
     add(Bars &of_scene)
     {
@@ -158,7 +158,7 @@ namespace geocone::GEOCONE_DIM
     SparseMatrix
     make_pattern(const bool one_triangle);
 
-    /** Number of the node to which each row of the Jacobian belongs, for
+    /** Global index of the node to which each row of the Jacobian belongs, for
      *  algebraic multigrid. Collective. */
     NodalRows
     nodal_rows() const;
@@ -170,9 +170,9 @@ namespace geocone::GEOCONE_DIM
     needs_pattern() const;
 
     /**
-     * Assembles the generalised Jacobian dR/dv = M/h + h sum V B' C B at the last
-     * residual(). The tangent C is replaced by (1 - w) C + w D, w the elastic
-     * blend.
+     * Assembles the generalised Jacobian dR/dv = M/h + h sum V B' C B at the
+     * last residual(), with the tangents C of the points. The tangent C is
+     * replaced by (1 - w) C + w D, w the elastic blend.
      * @return low-rank contribution of free obstacles or of bars
      */
     LowRank
@@ -249,11 +249,13 @@ namespace geocone::GEOCONE_DIM
       return points.stress;
     }
 
-    /** Diagonal of the elastic Jacobian M/h + h sum V B'DB (kg/(m s)). */
+    /** Diagonal of the elastic Jacobian M/h + h sum V B'DB (kg/(m s)), with
+     *  mass M, step size h and elastic stiffness D. */
     const Vector &
     scale();
 
-    /** Merit function sum R_i^2 / scale_i over the free dofs. */
+    /** Merit function sum R_i^2 / scale_i over the free dofs, with the residual
+     *  R and the diagonal scale(). */
     double
     merit(const Vector &residual);
 
@@ -276,8 +278,9 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * Exports the problem as data on the first rank. Data of the time stepper are
-     * not included (parameters of materials, whether points move). Collective.
+     * Exports the incremental problem as data on the first rank. Data of the
+     * time stepper are not included (parameters of materials, whether points
+     * move). Collective.
      */
     FrozenProblem
     freeze(const Vector &start) const;

@@ -9,8 +9,9 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Inertia term M (v - vL)/h of the residual. The mass matrix is M = (1 - c)
-   * diag(m) + c M_c, with M_c the sum of m_p N_p' N_p over the points.
+   * Inertia term M (v - vL)/h of the residual, with the mass matrix M and the
+   * initial velocity vL of the step. The mass matrix is M = (1 - c) diag(m) + c
+   * M_c, with M_c the sum of m_p N_p' N_p over the points.
    */
   class Inertia : public Term
   {
@@ -33,9 +34,9 @@ namespace geocone::GEOCONE_DIM
     void
     residual(Vector &part, const Vector &v, const LocalLaw &law) override;
 
-    /** Appends the squared reference norms of the inertia term, including 1e-6 |M
-     *  vL/h|^2. The latter is the only nonzero reference of a body in free
-     *  flight. */
+    /** Appends the squared reference norms of the inertia term, which include a
+     *  fraction 1e-6 of |M vL/h|^2. The latter is the only nonzero reference of
+     *  a body in free flight. */
     void
     add_sizes(const Vector &part, std::vector<double> &sizes) const override;
 
@@ -50,7 +51,8 @@ namespace geocone::GEOCONE_DIM
     void
     add_elastic_diagonal(Vector &dst) const override;
 
-    /** Computes dst = M x in all rows, with the mass matrix M. The ghosts of
+    /** Computes the product dst = M x with the mass matrix M in all rows. The
+     *  ghosts of
      *  @p x must be up to date. */
     void
     apply_mass(Vector &dst, const Vector &x) const;
@@ -61,8 +63,8 @@ namespace geocone::GEOCONE_DIM
       return mass;
     }
 
-    /** Fraction c of the consistent (instead of lumped) mass matrix in the mass
-     *  matrix M. */
+    /** Fraction c of the consistent mass matrix in the mass matrix M; the
+     *  remaining fraction is lumped. */
     double
     consistent_part() const
     {

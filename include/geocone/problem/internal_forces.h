@@ -20,11 +20,11 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Residuals of the yield cone and flow rule at a computed state, independent
-   * of the solver. They are maxima over all points, with z = S (s - s_n) - h B
-   * v recomputed from the state, y = Psi(z), the stress scale max |s| + max k,
-   * and the strain scale max |y|, at least stress scale/2G (without plastic
-   * flow y is rounding).
+   * Residuals of the yield condition and the flow rule at a computed state,
+   * evaluated independently of the solver. They are maxima over all points,
+   * with z = S (s - s_n) - h B v recomputed from the state, y = Psi(z), the
+   * stress scale max |s| + max k, and the strain scale max |y|, at least stress
+   * scale/2G (without plastic flow y is rounding).
    */
   struct Quality
   {
@@ -33,14 +33,14 @@ namespace geocone::GEOCONE_DIM
     double dual_violation  = 0.; ///< max(0, a |y_t| - y_n) / strain scale
     double complementarity = 0.; ///< |<y, s + (k/a) n>| / (both scales)
 
-    /** Violation max(0, |s_t| - a s_n - k) of the exact friction cone (Pa). It is
-     *  nonzero with lagged friction or friction with memory, for which the other
-     *  members refer to the law that was solved. */
+    /** Violation max(0, |s_t| - a s_n - k) of the yield cone of the exact
+     *  friction law (Pa). It is nonzero with lagged friction or friction with
+     *  memory, for which the other members refer to the law that was solved. */
     double cone_excess = 0.;
 
-    /** Residual |s - P_C(s - 2G y)| of the natural map of the exact law,
-     *  divided by the stress scale. It equals natural_map if the exact law was
-     *  solved. */
+    /** Residual |s - P_C(s - 2G y)| of the natural map of the exact law at a
+     *  stress s, divided by the stress scale. It equals natural_map if the
+     *  exact law was solved. */
     double exact_natural_map = 0.;
 
     /** Ratio of the plastic work due to lagged friction or friction with memory
@@ -74,7 +74,8 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Internal forces sum_p V_p B_p' s_p(v) of a step. The stress of point p follows
+   * Internal forces sum_p V_p B_p' s_p(v) of a step, with the stresses s_p at
+   * the points as functions of the velocities v. The stress of point p follows
    * from the constitutive law,
    *   s_p(v) = material(h B_p v, state at t_n).
    * Undrained soil additionally has an excess pore pressure,
@@ -122,10 +123,9 @@ namespace geocone::GEOCONE_DIM
     void
     count_modes(double *counts) const;
 
-    /** Largest relative error, over all points, of the constitutive equations
-     *  (local equations) of the step. It is |R| of NaturalMap divided by the
-     *  stress scale, or CellPressures::difference(); 0 for the return map
-     *  alone. Collective. */
+    /** Largest relative residual of the constitutive equations of the step over
+     *  all points. It is |R| of NaturalMap divided by the stress scale, or
+     *  CellPressures::difference(); 0 for the return map alone. Collective. */
     double
     local_error() const;
 
@@ -139,7 +139,7 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * Estimated rounding error N of the residual norm for a velocity field (N/m).
+     * Estimated rounding error in the residual norm for a velocity field (N/m).
      * It is
      *   N^2 = eps^2 sum_p sum_i |grad N_i|^2 (V_p K_p h sum_j |grad N_j| |v_j|)^2
      * with K_p = 2 (lambda + G). The terms of the strain e_p = h B_p v have the
@@ -151,8 +151,8 @@ namespace geocone::GEOCONE_DIM
     double
     rounding_floor(const Vector &v) const;
 
-    /** Evaluates the residuals of the yield cone and flow rule for the trial
-     *  states of the points. The result is the same on all ranks.
+    /** Evaluates the residuals of the yield condition and the flow rule for the
+     *  trial states of the points. The result is the same on all ranks.
      *  @param excess_work result of excess_work() (J/m) */
     Quality
     quality(const double excess_work) const;
@@ -199,7 +199,8 @@ namespace geocone::GEOCONE_DIM
     {
       return mode;
     }
-    /** Trial history variables of all points, in the layout of MaterialPoints. */
+    /** Trial history variables of all points, in the memory layout of
+     *  MaterialPoints. */
     std::vector<double>
     trial_history() const;
 
@@ -270,8 +271,9 @@ namespace geocone::GEOCONE_DIM
         update_materials(true);
     }
 
-    /** Computes the strains B_p v, multiplied by a factor, at the points of a cell.
-     *  In axisymmetric problems hoop strains are included. */
+    /** Computes the strains B_p v at the points of a cell from the velocities
+     *  v, multiplied by a factor (e.g. the step size). In axisymmetric problems
+     *  hoop strains are included. */
     template <int n>
     void
     strains_of_cell(const unsigned int   c,
@@ -280,9 +282,9 @@ namespace geocone::GEOCONE_DIM
                     std::vector<Mandel> &strain,
                     std::vector<double> &strain_zz) const;
 
-    /** Adds the internal forces sum B_p' s_p of a cell to cell_f. The stress s_p is
-     *  multiplied by the weight of the point; in axisymmetric problems the hoop
-     *  stress is included. */
+    /** Adds the internal forces sum B_p' s_p of the points of a cell to the
+     *  cell vector cell_f. The stress s_p is multiplied by the weight of the
+     *  point; in axisymmetric problems the hoop stress is included. */
     template <int n, typename WeightedStress, typename WeightedHoopStress>
     void
     add_forces_of_cell(const unsigned int        c,

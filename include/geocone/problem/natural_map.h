@@ -40,8 +40,8 @@ namespace geocone::GEOCONE_DIM
                const double               rho,
                const std::vector<Mandel> &start);
 
-    /** Largest natural-map residual |R| over all points, and the reference stress
-     *  (Pa). */
+    /** Largest residual norm |R| of the natural map over all points, and the
+     *  reference stress (Pa). */
     struct Error
     {
       double largest_residual = 0.;
@@ -49,24 +49,24 @@ namespace geocone::GEOCONE_DIM
     };
 
     /**
-     * Updates the stresses s by a Newton step for the strain increments e. Then
-     * the natural map is linearised at the new (v, s).
+     * Updates the stresses by one Newton step of the natural map for given
+     * strain increments. Then the natural map is linearised at the new (v, s).
      * @param[out] mode region of s - rho Psi(z): inside C, projected onto the
      * smooth part of C, or projected onto the apex
      */
     Error
     update(const std::vector<Mandel> &strain, std::vector<Mode> &mode);
 
-    /** Stress s - A^-1 R of each point after the last update() (Pa), with the
-     *  residual R of the natural map. Before the first update() it is the
-     *  initial guess. */
+    /** Stress of each point after the last update() (Pa): s - A^-1 R, with the
+     *  residual R of the natural map and its Jacobian A. Before the first
+     *  update() it is the initial guess. */
     const std::vector<Mandel> &
     stress() const
     {
       return iterate;
     }
 
-    /** Tangent T of each point after the last update() (Pa). */
+    /** Tangent stiffness of each point after the last update() (Pa). */
     const std::vector<MandelMatrix> &
     tangent() const
     {

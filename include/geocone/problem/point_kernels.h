@@ -133,10 +133,10 @@ namespace geocone::kernels
       f(std::integral_constant<unsigned int, 2>());
   }
 
-  /** Component d of the product t g of a symmetric tensor t and a shape
-   *  function gradient g. The tensor is given by at(r), entry r of the Mandel
-   *  vector, with shear entries divided by sqrt2; the components of g are n
-   *  values apart. */
+  /** Component d of the product of a symmetric tensor t and a shape function
+   *  gradient g. The tensor is given by at(r), entry r of the Mandel vector,
+   *  with shear entries divided by sqrt2; the components of g are n values
+   *  apart. */
   template <int n, unsigned int d, typename F, std::size_t... k>
   [[gnu::always_inline]] inline auto
   along(const double *g, const F &at, std::index_sequence<k...>)
@@ -144,7 +144,8 @@ namespace geocone::kernels
     return (... + (g[n * ((d + k) % dim)] * at(place.of[d][(d + k) % dim])));
   }
 
-  /** Number of stiffness-matrix columns computed as one block. */
+  /** Number of columns of the stiffness matrix that are computed as one
+   *  block. */
   constexpr int block = 4;
 
   /** Required length of the work array of stiffness(). */
@@ -235,7 +236,7 @@ namespace geocone::kernels
       }
   }
 
-  /** Computes the difference a between the B-bar gradients and the shape function
+  /** Computes the difference between the B-bar gradients and the shape function
    *  gradients at a point. In axisymmetric problems the gradients include N/r.
    *  @param hoop N/r, or null */
   template <int n>

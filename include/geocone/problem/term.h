@@ -11,8 +11,8 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Options by which IncrementalProblem::residual() evaluates stresses and
-   *  contact forces. */
+  /** Options that determine how IncrementalProblem::residual() evaluates
+   *  stresses and contact forces. */
   struct LocalLaw
   {
     /** Weight of the lagged normal stress (at t_n) in the yield condition of
@@ -35,8 +35,8 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Term of the residual R(v) of an implicit step, which is the sum of all
-   * terms. R is the sum of all terms. Member functions not overridden
+   * Term of the residual R(v) of an implicit step; the residual is the sum of
+   * all terms. R is the sum of all terms. Member functions not overridden
    * contribute zero. Forces are per metre of thickness (N/m); at rotated dofs
    * (Unknowns::turned_nodes) they have the components along the rotated axes.
    */

@@ -38,11 +38,11 @@ namespace geocone::GEOCONE_DIM
                      const Mandel       &q);
 
   /**
-   * Computes one solution of the complementarity problem of a single cone, close to a
-   * guess. If a solution of the same kind as the guess exists (on the surface: if
-   * Newton's method for f converges from the angle of the guess), it is returned,
-   * otherwise the nearest of one_cone_solutions() to the guess. The first case is many
-   * times faster.
+   * Computes a solution of the complementarity problem of a single cone near a
+   * given guess. If a solution of the same kind as the guess exists (on the
+   * surface: if Newton's method for f converges from the angle of the guess),
+   * it is returned, otherwise the nearest of one_cone_solutions() to the guess.
+   * The first case is many times faster.
    */
   Mandel
   solve_one_cone(const FlowCone     &cone,

@@ -65,7 +65,7 @@ namespace geocone::GEOCONE_DIM
     }
 
     /** Nodal vector diag(m) G's due to stresses s, with the factors G and m of
-     *  the matrix W. */
+     *  the matrix W = S + G diag(m) G'. */
     Eigen::VectorXd
     nodal(const Eigen::VectorXd &s) const;
 
