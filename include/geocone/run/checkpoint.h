@@ -43,7 +43,7 @@ namespace geocone
           const std::function<void(Archive &)> &save);
 
     /**
-     * Reads the latest valid checkpoint of a folder. Invalid checkpoints cause
+     * Reads the latest valid checkpoint in a folder. Invalid checkpoints cause
      * warnings. Collective.
      * @param load loads a checkpoint; returns on all ranks the reason why the run cannot
      * continue from the checkpoint, or an empty string

@@ -106,14 +106,14 @@ namespace geocone::GEOCONE_DIM
     void
     load(const Archive &archive) override;
 
-    /** Largest substep size in a step of size h (s). Friction with memory limits the
-     *  substep to tau/2, for which the tangent is nearly elliptic
-     *  (doc/theory/friction_memory.md). */
+    /** Largest permitted substep size (s) in a step of size h. Friction with
+     *  memory limits the substep to tau/2, for which the tangent is nearly
+     *  elliptic (doc/theory/friction_memory.md). */
     double
     largest_substep(const double h) const;
 
-    /** Smallest substep size in a step of size h (s). If a smaller substep is
-     *  necessary, the step fails. */
+    /** Smallest permitted substep size (s) in a step of size h. If a smaller
+     *  substep is necessary, the step fails. */
     double
     smallest_substep(const double h) const;
 

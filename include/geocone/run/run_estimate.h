@@ -46,9 +46,9 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Estimates the numbers of cells, unknowns and points of a run, and its
-   * memory and files. The scene and the method must be prepared; this function
-   * prepares the seeding.
+   * Estimates the numbers of cells, unknowns and points of a run, its memory
+   * consumption and the size of its files. The scene and the method must be
+   * prepared; this function prepares the seeding.
    * @param seeding of the particles, or nullptr for FEM
    */
   RunEstimate

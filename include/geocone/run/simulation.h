@@ -118,7 +118,7 @@ namespace geocone::GEOCONE_DIM
     virtual std::string
     progress(const TimePoint &now) const = 0;
 
-    /** Called after the last step of a stage. */
+    /** Performs the operations that complete a stage, after its last step. */
     virtual void
     end(const TimePoint &)
     {}

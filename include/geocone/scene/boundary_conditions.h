@@ -62,8 +62,8 @@ namespace geocone::GEOCONE_DIM
       return where.has_value();
     }
 
-    /** Returns true if a point on a selected side satisfies the restrictions by
-     *  box and formula. */
+    /** Returns true if a point on a selected side satisfies the box and the
+     *  formula that restrict the boundary part. */
     bool
     holds_at(const dealii::Point<dim> &x) const;
 
@@ -160,7 +160,7 @@ namespace geocone::GEOCONE_DIM
       return texts[component];
     }
 
-    /** Stages in which a prescribed velocity is active. */
+    /** Names of the stages in which a prescribed velocity is active. */
     ActingStages stages;
 
     /** Method by which a prescribed velocity is imposed. */
@@ -224,8 +224,8 @@ namespace geocone::GEOCONE_DIM
                    const dealii::Tensor<1, dim> &n,
                    const double                  t) const;
 
-    /** Rejects a boundary condition that prescribes a normal velocity. Called
-     *  by methods that do not support it. @throws InputError
+    /** Rejects a boundary condition that prescribes a normal velocity
+     *  component. Called by methods that do not support it. @throws InputError
      *  @param allowed,remedy texts of the error message */
     void
     refuse_normal(const std::string &allowed, const std::string &remedy) const;

@@ -16,11 +16,11 @@
 namespace geocone
 {
   /**
-   * Frictional contact between two bodies, each of one or several materials.
-   * The bodies share no nodes: their meshes are not connected, or their
-   * particles have separate nodal velocities. The contact force on nodes of the
-   * first body and the relative velocity satisfy the Signorini and Coulomb
-   * laws.
+   * Frictional contact between two bodies, each consisting of one or more
+   * materials. The bodies share no nodes: their meshes are not connected, or
+   * their particles have separate nodal velocities. The contact force on nodes
+   * of the first body and the relative velocity satisfy the Signorini and
+   * Coulomb laws.
    */
   class BodyPair : public dealii::ParameterAcceptor
   {
@@ -81,9 +81,9 @@ namespace geocone
       return number;
     }
 
-    /** Checks that each pair of bodies has a contact. For methods in which
-     *  bodies without a contact could penetrate each other. @throws InputError
-     *  for a pair without a contact */
+    /** Checks that a contact is defined for each pair of bodies. For methods in
+     *  which bodies without a contact could penetrate each other.
+     *  @throws InputError for a pair without a contact */
     void
     check_all_pairs() const;
 

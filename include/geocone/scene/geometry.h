@@ -60,10 +60,10 @@ namespace geocone::GEOCONE_DIM
   resolved_length(const std::vector<dealii::Point<dim>> &points);
 
   /**
-   * Checks that the coordinates of points are finite and resolved in double
-   * precision. @throws InputError if a coordinate is not finite or too large,
-   * or if the extent of the points along x or y is too small relative to the
-   * coordinates
+   * Checks that the coordinates of points are finite and that their differences
+   * are resolved in double precision. @throws InputError if a coordinate is not
+   * finite or too large, or if the extent of the points along x or y is too
+   * small relative to the coordinates
    */
   void
   check_coordinates(const std::vector<dealii::Point<dim>> &points,

@@ -38,8 +38,8 @@ namespace geocone
       double of_cell, of_all;
     };
 
-    /** Index of the constraint on the velocity of a particle, with the weight
-     *  of the particle in the constraint. */
+    /** Index of a constraint (row) on particle velocities, with the weight of a
+     *  particle in the constraint. */
     struct Share
     {
       unsigned int row;

@@ -150,8 +150,8 @@ namespace geocone::GEOCONE_DIM
     double                            surcharge = 0.;
     double                            g         = 0.;
     const Water                      *water = nullptr; ///< null without water
-    /** Index of the stage that adds each material, counted from 0; -1 for
-     *  initially present materials. */
+    /** For each material, the index of the stage that adds the material,
+     *  counted from 0; -1 for initially present materials. */
     std::vector<int> stage_of;
     double           top = 0.; ///< y of the top of the body (m)
   };

@@ -36,8 +36,8 @@ namespace geocone::GEOCONE_DIM
     std::vector<double>
     step_sizes() const;
 
-    /** Estimates the number of time steps in closed form. The number of
-     *  step_sizes() differs by a few steps. */
+    /** Estimates the number of time steps without simulating the stage. The
+     *  number of step_sizes() differs by a few steps. */
     double
     expected_steps() const;
 
@@ -72,8 +72,8 @@ namespace geocone::GEOCONE_DIM
       return strength_factor > 0. && until_failure;
     }
 
-    /** Returns the reason why a time step is not in static equilibrium. The
-     *  text is empty in equilibrium.
+    /** Returns the reason why a time step is not in static equilibrium, or an
+     *  empty string in equilibrium.
      *  @param accelerating_share see accelerating_share() */
     std::string
     no_equilibrium(const double accelerating_share) const;
@@ -140,8 +140,8 @@ namespace geocone::GEOCONE_DIM
              !changed_materials.empty();
     }
 
-    /** Returns a message on the number of excavated cells or points. @param
-     *  what name of the counted entities, e.g. "points"
+    /** Returns a message that states the number of excavated cells or points.
+     *  @param what name of the counted entities, e.g. "points"
      *  @throws StepFailure if the stage removes nothing or everything */
     std::string
     removal_text(const unsigned long n_removed,
@@ -166,16 +166,16 @@ namespace geocone::GEOCONE_DIM
     double largest_unbalanced_force = 0.;
     double largest_kinetic_energy   = 0.;
 
-    /** Flags that reset the state at the beginning of the stage. Velocities are
-     *  set to zero; history variables are initialised for the current
-     *  stress. */
+    /** Flags that select the state variables to be reset at the beginning of
+     *  the stage. Velocities are set to zero; history variables are initialised
+     *  for the current stress. */
     bool reset_velocity = false;
     bool reset_history  = false;
     /** @} */
 
   private:
     /** Checks the regions of excavated and added material, and parses the
-     *  formula.
+     *  formula of the excavated region.
      *  @throws InputError */
     void
     prepare_changes();
@@ -222,7 +222,7 @@ namespace geocone::GEOCONE_DIM
     int
     stage_that_adds(const std::string &material) const;
 
-    /** Returns true if the material is initially absent and added by a
+    /** Returns true if the material is initially absent and added in a later
      *  stage. */
     bool
     adds(const std::string &material) const

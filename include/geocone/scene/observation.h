@@ -18,15 +18,18 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Returns the exact bearing capacity factor Nq (Nc) of a strip footing on a
-   * weightless half-plane. The factors of Prandtl (1920) and Reissner (1924),
-   * equation (77) of Guillet et al. (2025), are
-   *   Nq = exp(pi tan(phi)) tan^2(pi/4 + phi/2), Nc = (Nq - 1)/tan(phi),
-   * and Nc = 2 + pi for phi = 0.
+   * Returns the exact bearing capacity factor Nq of a strip footing on a
+   * weightless half-plane with surcharge. The factor of Reissner (1924),
+   * equation (77) of Guillet et al. (2025), is
+   *   Nq = exp(pi tan(phi)) tan^2(pi/4 + phi/2).
    * @param phi friction angle (degrees)
    */
   double
   bearing_capacity_factor_q(const double phi);
+  /** Returns the exact bearing capacity factor Nc of a strip footing on a
+   *  weightless half-plane with cohesion. The factor of Prandtl (1920) is Nc =
+   *  (Nq - 1)/tan(phi), and 2 + pi for phi = 0.
+   *  @param phi friction angle (degrees) */
   double
   bearing_capacity_factor_c(const double phi);
 
@@ -62,9 +65,9 @@ namespace geocone::GEOCONE_DIM
      *  z. */
     unsigned int component = 1;
 
-    /** Ratio of load to reaction, e.g. -2 for a downward load on half of a
-     *  symmetric body. In load stepping the load is |factor| times the load
-     *  factor. */
+    /** Factor that converts the reaction to the load, e.g. -2 for a downward
+     *  load on half of a symmetric body. In load stepping the load is |factor|
+     *  times the load factor. */
     double factor = -1.;
 
     /** Positions (m) at which displacements are reported. */

@@ -115,8 +115,9 @@ namespace geocone::GEOCONE_DIM
 
     /**
      * Returns the distance (m) from a point to the obstacle, and the normal,
-     * for small sliding. The distance is measured along the normal at the
-     * initial position of the point, in the frame of the obstacle.
+     * under the assumption of small sliding. The distance is measured along the
+     * normal at the initial position of the point, in the frame of the
+     * obstacle.
      * @param start initial position of the point
      * @param step largest relative displacement in a step (m)
      * @param beside neighbours at their initial positions; null: none
@@ -129,7 +130,7 @@ namespace geocone::GEOCONE_DIM
                      const Neighbours             *beside = nullptr) const;
 
     /**
-     * Returns a lower bound of the distance to another obstacle (m). The bound
+     * Returns a lower bound on the distance to another obstacle (m). The bound
      * is negative if the obstacles overlap, and infinite for two half-planes.
      * Convex shapes are separated by one of their sides or, in three
      * dimensions, by a plane along an edge of each.
@@ -159,9 +160,9 @@ namespace geocone::GEOCONE_DIM
       return std::find(free.begin(), free.end(), true) != free.end();
     }
 
-    /** Returns the mass or moment of inertia for component k of the rigid-body
-     *  motion. Units are kg/m and kg m in two dimensions, kg and kg m^2 in
-     *  three dimensions. */
+    /** Returns the mass (translation) or moment of inertia (rotation) for
+     *  component k of the rigid-body motion. Units are kg/m and kg m in two
+     *  dimensions, kg and kg m^2 in three dimensions. */
     double
     inertia(const unsigned int k) const
     {
@@ -216,7 +217,8 @@ namespace geocone::GEOCONE_DIM
     std::string
     parameter(const std::string &entry) const;
 
-    /** Throws the error for an obstacle that initially overlaps with the body.
+    /** Throws the error for an obstacle that overlaps with the body in the
+     *  initial state.
      *  @throws InputError
      *  @param how depth and position of the overlap, for the message */
     [[noreturn]] void
@@ -297,9 +299,9 @@ namespace geocone::GEOCONE_DIM
     neighbours(const std::vector<RigidMotion> &moved,
                const double                    margin) const;
 
-    /** Returns the names of two obstacles that overlap, if at least one of them
-     *  is free. The text is empty if there are none. Contact between obstacles
-     *  is not computed.
+    /** Returns the names of two overlapping obstacles, at least one of which is
+     *  free. The text is empty if there are none. Contact between obstacles is
+     *  not computed.
      *  @param moved displacements since the start
      *  @param margin tolerance for overlap (m) */
     std::string

@@ -65,13 +65,13 @@ namespace geocone::GEOCONE_DIM
     void
     check_groups(const std::map<int, std::string> &groups) const;
 
-    /** Returns the index of the material at the point x, for cells outside of
-     *  all physical surfaces. */
+    /** Returns the index of the material at the point x, for cells outside all
+     *  physical surfaces of the .msh file. */
     unsigned int
     material_at(const dealii::Point<dim> &x) const;
 
-    /** Returns the index of the material at the point x, for cells of a
-     *  physical surface.
+    /** Returns the index of the material at the point x, for cells in a
+     *  physical surface of the .msh file.
      *  @param group,name number and name of the surface; empty: unnamed */
     unsigned int
     material_at(const dealii::Point<dim> &x,

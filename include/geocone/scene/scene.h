@@ -68,9 +68,9 @@ namespace geocone::GEOCONE_DIM
       contacts.refuse(what, remedy);
     }
 
-    /** Returns a warning about time histories that end, with a non-zero value,
-     *  before the end of the loading programme. This value then remains
-     *  constant. The text is empty if there are none. */
+    /** Returns a warning about time histories that end before the loading
+     *  programme with a non-zero value. This value then remains constant. The
+     *  text is empty if there are none. */
     std::string
     warn_of_records() const;
 

@@ -17,8 +17,8 @@ namespace geocone::GEOCONE_DIM
   using VerticesOfFaces = std::vector<std::vector<dealii::Point<dim>>>;
 
   /**
-   * Returns the time (s) in which a loaded part of the boundary, at its maximum
-   * speed, moves by a thousandth of its length. The time is the minimum over
+   * Returns the time (s) in which a loaded part of the boundary moves by a
+   * thousandth of its length at its maximum speed. The time is the minimum over
    * all loaded parts, 0 without loaded parts. For a boundary condition the
    * length is the extent of the selected part, doubled if it ends in a plane of
    * symmetry; for an obstacle, the width of the obstacle or of the body.

@@ -56,8 +56,8 @@ namespace geocone::GEOCONE_DIM
       return "Structures/" + name + "/" + entry;
     }
 
-    /** Returns the names of the bars of the structure, for results. Empty for a
-     *  plate, whose results are written separately. */
+    /** Returns the names of the bars of the structure, as used in the results.
+     *  Empty for a plate, whose results are written separately. */
     std::vector<std::string>
     names_of_bars() const;
 
@@ -106,7 +106,7 @@ namespace geocone::GEOCONE_DIM
       return std::clamp(trial, -capacity, capacity);
     }
 
-    /** Returns true if one end of the structure may be a fixed point outside of
+    /** Returns true if one end of the structure may be a fixed point outside
      *  the body, as for anchors and struts. */
     bool
     may_be_fixed() const
@@ -114,8 +114,8 @@ namespace geocone::GEOCONE_DIM
       return type == Type::anchor || type == Type::strut;
     }
 
-    /** Returns true if the structure is a chain of bars, of which each couples
-     *  neighbouring cells only. */
+    /** Returns true if the structure is a chain of bars, each of which couples
+     *  only neighbouring cells. */
     bool
     is_chain() const
     {

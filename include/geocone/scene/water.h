@@ -124,8 +124,8 @@ namespace geocone::GEOCONE_DIM
     dealii::Tensor<1, dim>
     force(const dealii::Point<dim> &x, const std::size_t line = 0) const;
 
-    /** Returns the weights by which the pore pressures of all piezometric lines
-     *  and flow problems are interpolated at time t. The weights sum to 1. */
+    /** Returns the interpolation weights at time t for the pore pressures of
+     *  all piezometric lines and flow problems. The weights sum to 1. */
     std::vector<double>
     parts(const double t) const;
 

@@ -38,7 +38,8 @@ namespace geocone::GEOCONE_DIM
       const Seepage::Step         &step,
       const std::function<void()> &after_mesh = []() {});
 
-    /** Solves steady flow on the first mesh only. @throws RunError */
+    /** Solves the steady flow problem on the first mesh, without refinement.
+     *  @throws RunError */
     void
     solve_on_first_mesh(const Seepage::Levels &levels);
 
@@ -89,7 +90,7 @@ namespace geocone::GEOCONE_DIM
     std::optional<double>
     change() const;
 
-    /** Returns true if the discharge exceeds rounding errors. */
+    /** Returns true if the discharge is larger than rounding errors. */
     bool
     flows() const;
 
@@ -131,8 +132,8 @@ namespace geocone::GEOCONE_DIM
     void
     solve_on_mesh(const FlowConditions &conditions, std::vector<double> start);
 
-    /** Initial guess of Newton's method: hydrostatic pressures below the
-     *  highest level. */
+    /** Initial guess for Newton's method: hydrostatic pressures below the
+     *  highest water level. */
     std::vector<double>
     hydrostatic(const Seepage::Levels &levels) const;
 
@@ -145,8 +146,8 @@ namespace geocone::GEOCONE_DIM
     void
     advance(const Seepage::Step &step);
 
-    /** Error indicator of each cell: jumps of the normal velocity across the
-     *  edges of the cell. */
+    /** Error indicator of each cell, computed from the jumps of the normal
+     *  velocity across the edges of the cell. */
     std::vector<double>
     jumps() const;
 

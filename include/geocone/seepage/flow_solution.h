@@ -53,7 +53,7 @@ namespace geocone::GEOCONE_DIM
 
     unsigned int iterations = 0;
 
-    /** Largest relative error of the water balance over all vertices. At a
+    /** Largest relative residual of the water balance over all vertices. At a
      *  vertex, it is the imbalance divided by the flow through the edges. */
     double error = 0.;
   };

@@ -48,8 +48,8 @@ namespace geocone::GEOCONE_DIM
       /** Greville abscissae of the basis functions (m). */
       std::vector<double> places;
 
-      /** Type of each interval, by which the polynomials of the basis functions
-       *  are selected. Near the ends of the direction the polynomials differ
+      /** Type of each interval, which selects the polynomials of the basis
+       *  functions. Near the ends of the direction the polynomials differ
        *  because of the clamped knots. */
       std::vector<unsigned char> type;
 

@@ -79,7 +79,8 @@ namespace geocone::GEOCONE_DIM
             const Method         &method,
             const bool            hard_flow = false);
 
-    /** Selects and checks the element type, without setting up nodes.
+    /** Selects the element type and checks that it is available, without
+     *  setting up nodes.
      *  @throws InputError */
     void
     choose_element(const bool    simplicial,

@@ -45,7 +45,7 @@ namespace geocone::GEOCONE_DIM
     project(const SidePart &face) const;
 
     /** Returns the signed distance of a position from the plane (m), positive
-     *  outside of the body. */
+     *  outside the body. */
     double
     ahead(const dealii::Point<dim> &x) const
     {

@@ -53,8 +53,8 @@ namespace geocone::GEOCONE_DIM
                        const dealii::Point<dim> &a,
                        const dealii::Point<dim> &b);
 
-  /** Returns the range [from, to] of t in [0, 1] in which the linear functions
-   *  c + t d are non-negative. The range is empty if to < from. */
+  /** Returns the range [from, to] of t in [0, 1] in which all given linear
+   *  functions c + t d are non-negative. The range is empty if to < from. */
   std::pair<double, double>
   part_of_line(const std::vector<std::pair<double, double>> &conditions);
 } // namespace geocone::GEOCONE_DIM

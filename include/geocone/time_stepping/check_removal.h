@@ -11,7 +11,8 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Checks before the run that a stage removes some material, but not all.
+  /** Checks before the run that a stage removes some, but not all, of the
+   *  material.
    *  @throws InputError */
   inline void
   check_removal(const Stage        &stage,

@@ -91,7 +91,7 @@ namespace geocone::GEOCONE_DIM
     double load_factor = 1.;
 
     /**
-     * Relative error of the energy balance of a step, in the discrete form on
+     * Relative residual of the energy balance of a step, in discrete form on
      * the grid. The identity is
      *   dE_kin + dE_el + sum V s'(-z) + |v - vL|_M^2/2 + sum V ds'S ds/2 = work
      * The residual is divided by the largest term.
@@ -177,7 +177,7 @@ namespace geocone::GEOCONE_DIM
   double
   largest_plastic_strain(const MaterialPoints &points, const MPI_Comm comm);
 
-  /** Returns the relative error of the discrete energy balance
+  /** Returns the relative residual of the discrete energy balance
    *  (StepReport::identity_error) in the last step. Collective. */
   double
   energy_identity_error(const IncrementalProblem &problem,

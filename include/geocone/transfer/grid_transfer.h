@@ -45,12 +45,12 @@ namespace geocone::GEOCONE_DIM
     sort(std::vector<PointArrays> &groups) = 0;
 
     /** Activates the prescribed velocities of a stage, starting with the next
-     *  call of sort(). Collective. @return whether the active conditions differ
+     *  call to sort(). Collective. @return whether the active conditions differ
      *  from the previous stage */
     virtual bool
     begin_stage(const std::string &stage) = 0;
 
-    /** Returns true if the next step requires a call of sort(). Not collective.
+    /** Returns true if the next step requires a call to sort(). Not collective.
      *  @param sums contains the bounding box of the points of this rank */
     virtual bool
     must_sort(const PassSums &sums) const = 0;
@@ -85,13 +85,14 @@ namespace geocone::GEOCONE_DIM
     clear_cells();
     void
     add_to_cells(const TransferBlock &points, const double *values);
-    /** Sums cell values over the ranks, if the points of a cell can be on
-     *  several ranks. Collective. */
+    /** Sums cell values over the ranks, if the points of a cell can be
+     *  distributed over more than one rank. Collective. */
     virtual void
     exchange_cells()
     {}
-    /** Computes for each point the volume average over the points of the same
-     *  cell. The average is 0 if the volume in the cell is zero. */
+    /** Computes, for each point, the volume average of a point value over all
+     *  points of the same cell. The average is 0 if the volume in the cell is
+     *  zero. */
     void
     average(const TransferBlock &points, double *means) const;
     virtual std::size_t
@@ -121,7 +122,7 @@ namespace geocone::GEOCONE_DIM
       return false;
     }
 
-    /** Returns the number of calls of sort() that redistributed cells between
+    /** Returns the number of calls to sort() that redistributed cells between
      *  ranks and renumbered nodes. */
     virtual unsigned int
     n_repartitions() const
@@ -187,7 +188,7 @@ namespace geocone::GEOCONE_DIM
      *  with prescribed velocity. */
     std::vector<dealii::Point<dim>> centres;
 
-    /** Points that sort() found outside of the mesh, as pairs of group and
+    /** Points that sort() found outside the mesh, as pairs of point group and
      *  index in the group. */
     std::vector<std::array<unsigned int, 2>> lost;
 
@@ -198,8 +199,8 @@ namespace geocone::GEOCONE_DIM
     }
 
   protected:
-    /** Sums over the points of each cell: of the point volumes, and of the
-     *  products of point volume and point value. */
+    /** For each cell, the sum of the point volumes and the sum of the products
+     *  of point volume and point value. */
     std::vector<double> sums_of_cells;
   };
 } // namespace geocone::GEOCONE_DIM

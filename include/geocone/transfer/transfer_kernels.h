@@ -98,8 +98,8 @@ namespace geocone::GEOCONE_DIM
     const unsigned int             *cell; ///< null if points do not store cells
   };
 
-  /** Sums and extrema over the points, accumulated in a loop for the explicit
-   *  time stepper. */
+  /** Sums and extrema of point quantities, accumulated in a loop over the
+   *  points for the explicit time stepper. */
   struct PassSums
   {
     double work         = 0.; ///< stress work (J/m)
@@ -112,8 +112,8 @@ namespace geocone::GEOCONE_DIM
     double lower[3] = {1e300, 1e300, 1e300};
     double upper[3] = {-1e300, -1e300, -1e300};
 
-    /** Checksum of positions and velocities. It is not finite if the data of
-     *  any point are not finite. */
+    /** Checksum of the positions and velocities of the points. It is not finite
+     *  if the data of any point are not finite. */
     double check = 0.;
 
     /** Reads or writes the sums in a checkpoint. @tparam Row StateRow */
@@ -160,7 +160,7 @@ namespace geocone::GEOCONE_DIM
                              BlockScratch &);
 
     /**
-     * Computes the affine velocity matrix C of APIC. Column d is
+     * Computes the affine velocity matrix C of APIC at each point. Column d is
      *   C_d = sum_i v_i N_i (x_i - x)_d / sum_i N_i (x_i - x)_d^2,
      * so that C equals the usual B D^{-1} for tensor-product functions. If the
      * denominator vanishes, as at the ends of the grid, C_d is the velocity
@@ -185,8 +185,8 @@ namespace geocone::GEOCONE_DIM
                               const TransferBlock &,
                               BlockScratch &);
 
-    /** Adds the affine momentum of APIC, m N_i C (x_i - x), to the nodes. To be
-     *  called after scatter(). */
+    /** Adds the affine momentum m N_i C (x_i - x) of each point (APIC) to the
+     *  nodes i. To be called after scatter(). */
     void (*scatter_affine[4])(const GridView &,
                               const TransferBlock &,
                               BlockScratch &);
@@ -217,7 +217,7 @@ namespace geocone::GEOCONE_DIM
                                const TransferBlock &,
                                BlockScratch &);
 
-    /** Updates the volumes of the points, the stress work and the extrema in
+    /** Updates the volumes of the points, and the stress work and extrema in
      *  PassSums. The volume is V <- det(I + l) V (times 1 + l_zz in
      *  axisymmetry). */
     void (*finish)(const TransferBlock &, BlockScratch &, PassSums &);

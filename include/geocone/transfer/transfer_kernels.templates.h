@@ -137,8 +137,8 @@ namespace geocone::GEOCONE_DIM
     }
 
     /** Computes the weights of the nodal velocities in the affine velocity
-     *  (APIC). The weights are N_i (x_i - x)/sum_i N_i (x_i - x)^2, or dN_i/dx
-     *  if the denominator vanishes. */
+     *  matrix (APIC). The weights are N_i (x_i - x)/sum_i N_i (x_i - x)^2, or
+     *  dN_i/dx if the denominator vanishes. */
     template <int p>
     static void
     find_moments(const GridView    &grid,
