@@ -155,8 +155,8 @@ namespace geocone::GEOCONE_DIM
     std::vector<double>
     sum_held(const MaterialPoints &points) const;
 
-    /** Shortens the boundary segments of a condition as given by the parameter
-     *  'Segment shortening'. */
+    /** Shortens the boundary segments of a condition by the value of the
+     *  parameter 'Segment shortening'. */
     void
     shorten(const BoundaryCondition &condition,
             std::vector<SidePart>   &panels) const;

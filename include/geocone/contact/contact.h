@@ -276,7 +276,7 @@ namespace geocone::GEOCONE_DIM
     }
 
     /** Corrects the initial guess for the velocities of free obstacles, used by
-     *  the next call of replace(). */
+     *  the next call to replace(). */
     void
     change_motions(const Eigen::VectorXd &change)
     {
@@ -325,7 +325,7 @@ namespace geocone::GEOCONE_DIM
     ContactTraits
     traits(const MPI_Comm comm) const;
 
-    /** Velocities of the obstacles at the last call of replace(). */
+    /** Velocities of the obstacles at the last call to replace(). */
     const ObstacleMotions &
     motions() const
     {
@@ -409,7 +409,7 @@ namespace geocone::GEOCONE_DIM
     sums_of_nodes(const std::vector<Local> &locals, const MPI_Comm comm) const;
 
     /** Multiplies the Jacobian rows of a contact node by the matrix A of the
-     *  linearised contact law. */
+     *  linearised contact equations. */
     void
     combine_rows(const unsigned int node, SparseMatrix &matrix) const;
 

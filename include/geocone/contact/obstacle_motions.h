@@ -137,7 +137,7 @@ namespace geocone::GEOCONE_DIM
     kinetic() const;
 
     /** Corrects the initial guess for the velocities of obstacles, used by the
-     *  next call of find(). */
+     *  next call to find(). */
     void
     change(const Eigen::VectorXd &by);
 

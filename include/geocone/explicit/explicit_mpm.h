@@ -68,8 +68,8 @@ namespace geocone::GEOCONE_DIM
     }
   };
 
-  /** Statistics of the explicit steps within one step of the loading
-   *  programme. */
+  /** Statistics (number, sizes, unbalanced force) of the explicit steps within
+   *  one step of the loading programme. */
   struct ExplicitReport
   {
     unsigned int n_steps       = 0;
@@ -505,8 +505,8 @@ namespace geocone::GEOCONE_DIM
     void
     state_of_all(StateRow &row);
 
-    /** Kinetic energy of the previous step, for kinetic damping. The flag
-     *  `rising` is true while the energy increases. */
+    /** Kinetic energy at the end of the previous step (J/m), used by kinetic
+     *  damping. The flag `rising` is true while the energy increases. */
     double energy_n = 0.;
     bool   rising   = false;
 

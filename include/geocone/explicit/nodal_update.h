@@ -128,9 +128,9 @@ namespace geocone::GEOCONE_DIM
       return unbalanced;
     }
 
-    /** Returns the support impulses of each boundary condition on this rank
-     *  since the last call (N s/m). Moments are about GridTransfer::centres
-     *  (N m s/m). */
+    /** Returns the support impulse of each boundary condition on this rank
+     *  since the last call to this function (N s/m). Moments are about
+     *  GridTransfer::centres (N m s/m). */
     std::vector<Reaction>
     take_support_impulses();
 

@@ -185,12 +185,12 @@ namespace geocone::GEOCONE_DIM
       return works.of_others;
     }
 
-    /** Updates the state variables at all points to the end of the step.
+    /** Advances the state variables at all points to the end of the step.
      *  @return the dissipation (J/m) */
     virtual double
     update_points(const TimeStep &step, MaterialPoints &points) = 0;
 
-    /** Updates the nodal variables to the end of the step. @return energy
+    /** Advances the nodal variables to the end of the step. @return energy
      *  dissipated by ObstacleContact::settle() (J/m) */
     virtual double
     update_nodes(const TimeStep &step,

@@ -110,8 +110,8 @@ namespace geocone::GEOCONE_DIM
     TimeStep
     step(const double t, const double h) const;
 
-    /** Lumped mass in the incremental problem: M/beta for Newmark schemes,
-     *  otherwise the mass M. The scaled mass is stored in this object. */
+    /** Lumped mass matrix in the incremental problem: M/beta for Newmark
+     *  schemes, otherwise M. The scaled mass is stored in this object. */
     const Vector &
     mass_of_problem(const Vector &lumped_mass);
 

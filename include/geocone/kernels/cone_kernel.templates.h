@@ -28,13 +28,13 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Rotated stresses and strain increments of several points (SIMD). The stress
-   * of a point is stored as the mean stress m and the deviatoric components
-   * d_i, rotated by the spin increment. Elastically, m increases by K/d trace
-   * and d_i by 2 G part_i strain_i. The stress work per volume is m trace +
-   * sum_i d_i strain_i, and tau^2 = |s_t|^2/d = sum_i weight_i d_i^2. In two
-   * dimensions d is ((s_xx - s_yy)/2, s_xy), in three dimensions the deviator
-   * in the order of tensor_component.
+   * Rotated stresses and strain increments of a group of points (SIMD lanes).
+   * The stress of a point is stored as the mean stress m and the deviatoric
+   * components d_i, rotated by the spin increment. Elastically, m increases by
+   * K/d trace and d_i by 2 G part_i strain_i. The stress work per volume is m
+   * trace + sum_i d_i strain_i, and tau^2 = |s_t|^2/d = sum_i weight_i d_i^2.
+   * In two dimensions d is ((s_xx - s_yy)/2, s_xy), in three dimensions the
+   * deviator in the order of tensor_component.
    */
   template <typename P>
   struct TurnedStress

@@ -11,7 +11,7 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * State of several points of one material, updated in place by an explicit
+   * State of a block of points of one material, updated in place by an explicit
    * step. Structure of arrays: all quantities of a point have the same index.
    * Tensor components (no Mandel factors), tension positive, SI units.
    *

@@ -155,8 +155,8 @@ namespace geocone::GEOCONE_DIM
     }
   };
 
-  /** Rotated stresses and strain increments of several points (SIMD). The
-   *  stresses are rotated by the spin increment; the shear strains are
+  /** Rotated stresses and strain increments of a group of points (SIMD lanes).
+   *  The stresses are rotated by the spin increment; the shear strains are
    *  engineering strains, gamma_ij = 2 e_ij. */
   template <typename P>
   struct TurnedTensors

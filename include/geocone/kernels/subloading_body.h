@@ -13,7 +13,7 @@ namespace geocone
 {
   /**
    * Constitutive equations of the subloading model (doc/theory/subloading.md)
-   * for one material point or for several at once.
+   * for one material point or for a group of points (SIMD).
    * @tparam State members stress, a, beta (vectors of n components with [] as
    * in SubloadingState), pcb, Rb (scalars). Scalars are double or Pack;
    * conditions are evaluated without branches (where_greater()) to zero or one.

@@ -66,8 +66,8 @@ namespace geocone::GEOCONE_DIM
     Choice<IfExists> if_exists = if_exists_choice();
   };
 
-  /** Calls a function that reads a file, and appends a remedy to error messages.
-   *  Messages that already contain a remedy are not changed. */
+  /** Calls a function that reads a file, and appends a suggested remedy to its
+   *  error messages. Messages that already contain a remedy are not changed. */
   template <typename Read>
   auto
   read_with_remedy(const Read &read, const std::string &remedy)

@@ -13,8 +13,8 @@
 namespace geocone
 {
   /**
-   * Pair of dual conic programmes of limit analysis, for groups of points with symmetric
-   * cones. The static and the kinematic programme are
+   * Primal and dual conic programme of limit analysis, for groups of points
+   * with symmetric cones. The static and the kinematic programme are
    *   static    max lambda: sum V B's = lambda f + F0 in free dofs, X = k o - A y in K,
    *   kinematic min sum V/w k o.Z - F0.q: A'Z = (w B q, 0), Z in K, f.q = 1.
    * If f = 0, velocities are prescribed, and the load is the power of their reactions.

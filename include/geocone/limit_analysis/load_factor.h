@@ -8,7 +8,8 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Loads multiplied by the load factor of a limit analysis. */
+  /** Selection of the loads that the load factor of a limit analysis
+   *  multiplies. */
   enum class LoadFactor
   {
     automatic,

@@ -55,8 +55,9 @@ namespace geocone
     virtual void
     begin(const double mean_volume) = 0;
 
-    /** Adds the elastic stiffness matrix of each point to a matrix. It is V B'(1 +
-     *  stiffness E) B, where E is the projection onto the constrained rates. */
+    /** Adds the elastic stiffness matrix of each point to the global matrix. It
+     *  is V B'(1 + stiffness E) B, where E is the projection onto the
+     *  constrained rates. */
     virtual void
     add_elastic_blocks(BlockMatrix       &matrix,
                        const unsigned int set,
@@ -124,8 +125,8 @@ namespace geocone
      *  - x_hat o z_hat). */
     virtual void
     correct(const double target) = 0;
-    /** Adds the internal forces of the part of the search direction that does not depend
-     *  on the velocity increments dq. */
+    /** Adds the internal forces due to the part of the search direction that is
+     *  independent of the velocity increments dq. */
     virtual void
     add_given_forces(Eigen::VectorXd &F) const = 0;
     /** Completes the search direction for given velocity increments dq.

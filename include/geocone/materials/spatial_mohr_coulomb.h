@@ -51,8 +51,7 @@ namespace geocone::GEOCONE_DIM
       return sin_theta > 0.;
     }
 
-    /** Explicit stress update by a vectorised kernel, for several points at
-     *  once. */
+    /** Explicit stress update of a block of points by a vectorised kernel. */
     void
     advance(const PointBlock &block, LawCounts &counts) const override;
 

@@ -65,7 +65,7 @@ namespace geocone::GEOCONE_DIM
     std::vector<Face>
     part(const std::function<bool(unsigned int, unsigned int)> &are_apart);
 
-    /** Replaces the mesh by several disconnected copies at the same
+    /** Replaces the mesh with a given number of disconnected copies at the same
      *  position. */
     void
     repeat(const unsigned int times);

@@ -57,8 +57,9 @@ namespace geocone::GEOCONE_DIM
           const Eigen::VectorXd &defect,
           std::vector<double>   &x);
 
-    /** Solves K X = B for several right-hand sides with the factorised Jacobian
-     *  K, without the constraints H v = q. The low-rank part of K is included.
+    /** Solves K X = B for a matrix B of right-hand sides with the factorised
+     *  Jacobian K, without the constraints H v = q. The low-rank part of K is
+     *  included.
      *  @param columns B in, X out, n_owned_rows() entries per column */
     void
     solve_columns(std::vector<double> &columns, const unsigned int n_columns);

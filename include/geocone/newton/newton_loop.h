@@ -21,9 +21,9 @@ namespace geocone::GEOCONE_DIM
   struct NewtonLoop
   {
     /**
-     * Threshold for useful initial guesses: an iterate with a smaller relative
-     * residual is the initial guess of the next attempt. Iterations beyond the
-     * allowed number are then justified.
+     * Threshold of the relative residual below which an iterate is used as the
+     * initial guess of the next attempt. Iterations beyond the allowed number
+     * are then justified.
      */
     static constexpr double near = 1e-3;
 

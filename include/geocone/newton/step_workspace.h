@@ -56,8 +56,8 @@ namespace geocone::GEOCONE_DIM
     void
     report_not_a_number() const;
 
-    /** Increments of the iterate due to prescribed velocities and constraints H
-     *  v = q. */
+    /** Increments of the iterate that impose prescribed velocities and
+     *  constraints H v = q. */
     struct Jump
     {
       Vector          prescribed; ///< end values minus v

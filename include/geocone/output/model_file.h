@@ -33,7 +33,7 @@ namespace geocone::GEOCONE_DIM
      *  Scene::geometry. */
     std::vector<unsigned int> materials;
 
-    /** Two opposite corners of the bounding box of the mesh. */
+    /** Lower and upper corner of the bounding box of the mesh. */
     std::array<dealii::Point<dim>, 2> box;
 
     /** Returns the boundary faces on which a boundary condition acts. */

@@ -13,7 +13,7 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Output common to all methods that analyse a scene: columns of
+   * Output common to all methods that simulate a scene: columns of
    * statistics.csv and sections of summary.json.
    * @tparam Record a StepRecord
    */

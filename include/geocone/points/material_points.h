@@ -52,9 +52,9 @@ namespace geocone::GEOCONE_DIM
      *  point they are n_nodes values of dN/dx, then n_nodes values of dN/dy. */
     std::vector<double> gradients;
 
-    /** Shape functions divided by the radius, N/r, at each material point (1/m).
-     *  They yield the hoop strain due to v_x; n_nodes values per point. Empty in
-     *  plane strain. */
+    /** Shape functions divided by the radius, N/r, at each material point in
+     *  axisymmetry (1/m). They yield the hoop strain due to v_x; n_nodes values
+     *  per point. Empty in plane strain. */
     std::vector<double> hoop;
 
     /** Values of the n_nodes shape functions N at each material point. Empty for

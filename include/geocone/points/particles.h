@@ -104,7 +104,8 @@ namespace geocone::GEOCONE_DIM
     }
     /** @} */
 
-    /** Updates the cell search after a motion of the mesh, before sort(). */
+    /** Updates the cell search after a motion of the mesh; to be called before
+     *  sort(). */
     void
     follow_mesh()
     {

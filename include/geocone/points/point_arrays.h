@@ -46,7 +46,7 @@ namespace geocone::GEOCONE_DIM
       return volume.size();
     }
 
-    /** Copies the n_history() history variables of a point. */
+    /** Copies the history variables of a point to an array. */
     void
     copy_history(const unsigned int p, double *values) const
     {

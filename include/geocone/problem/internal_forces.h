@@ -253,9 +253,9 @@ namespace geocone::GEOCONE_DIM
       return {h, friction_lag};
     }
 
-    /** Updates the stresses of all points, and their plastic modes: elastic,
-     *  cone or apex. The second version also updates tangents, for the points
-     *  [begin, end). */
+    /** Updates the stresses and plastic modes (elastic, cone or apex) of all
+     *  points. The second version also updates tangents, for the points [begin,
+     *  end). */
     void
     update_materials(const bool with_tangent) const;
     void
@@ -333,8 +333,8 @@ namespace geocone::GEOCONE_DIM
       return !pressure.empty();
     }
 
-    /** Bulk modulus of the pore fluid divided by the porosity, K_w/n, at a point
-     *  (Pa). */
+    /** Bulk modulus K_w/n of the pore fluid, divided by the porosity, at a
+     *  point (Pa). */
     double
     fluid_modulus(const unsigned int point) const
     {

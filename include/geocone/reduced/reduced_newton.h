@@ -46,11 +46,11 @@ namespace geocone::GEOCONE_DIM
     Map          map            = Map::return_map;
 
     /**
-     * Scale rho of the natural map or the return mapping, equal for all cones
-     * (Pa if z is a strain). Guillet et al. 2025 use such a scale. If rho is 0,
-     * the return map takes K and 2G from S, if S is known; otherwise the scale
-     * of each cone is 10 / (mean eigenvalue of W_pp), the best of the factors
-     * 0.1, 1, 10, 100.
+     * Scale rho of the natural map s - P_C(s - rho y) or of the return mapping,
+     * equal for all cones (Pa if z is a strain). Guillet et al. 2025 use such a
+     * scale. If rho is 0, the return map takes K and 2G from S, if S is known;
+     * otherwise the scale of each cone is 10 / (mean eigenvalue of W_pp), the
+     * best of the factors 0.1, 1, 10, 100.
      */
     double rho = 0.;
 

@@ -12,8 +12,9 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Run of the explicit material point method. Each step of the loading programme is one
-   *  line of statistics.csv, and is subdivided into many explicit steps. */
+  /** Run that simulates a scene by the explicit material point method. Each
+   *  step of the loading programme is one line of statistics.csv, and is
+   *  subdivided into many explicit steps. */
   class ExplicitSimulation : public SceneSimulation
   {
   public:

@@ -44,8 +44,9 @@ namespace geocone::GEOCONE_DIM
     std::string folder; ///< results of the other run, or empty
   };
 
-  /** Run of the finite element method or the implicit material point method. A step of
-   *  the loading programme is subdivided into substeps (StepControl). */
+  /** Run that simulates a scene by the finite element method or the implicit
+   *  material point method. A step of the loading programme is subdivided into
+   *  substeps (StepControl). */
   class ImplicitSimulation : public SceneSimulation
   {
   public:
@@ -122,7 +123,7 @@ namespace geocone::GEOCONE_DIM
     void
     solve_step(const unsigned int step, const double t, const double h);
 
-    /** Halves the substep size after a failed substep of the given size.
+    /** Halves the substep size after a substep of the given size has failed.
      *  @throws StepFailure if the substep has been halved too often */
     void
     cut(const unsigned int  step,

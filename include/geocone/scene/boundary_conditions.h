@@ -35,7 +35,7 @@ namespace geocone::GEOCONE_DIM
     void
     prepare();
 
-    /** Replaces the names of holes by the names of the sides of each hole.
+    /** Replaces the name of each hole with the names of the sides of the hole.
      *  @throws InputError for a hole that does not exist
      *  @param groups names of the sides of each hole */
     void

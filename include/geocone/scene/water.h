@@ -152,8 +152,8 @@ namespace geocone::GEOCONE_DIM
     static void
     check(const Table &table, const std::string &parameter);
 
-    /** Returns the level Y (m) and the slope dY/dx of a piezometric line at
-     *  x. */
+    /** Returns the level Y (m) and the slope dY/dx of a piezometric line at the
+     *  coordinate x. */
     static std::array<double, 2>
     level(const Table &table, const double x);
 

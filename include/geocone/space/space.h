@@ -182,8 +182,8 @@ namespace geocone::GEOCONE_DIM
                std::vector<dealii::types::global_dof_index> &nodes) const;
 
     /**
-     * Evaluates the shape functions of a cell at a point in unit coordinates.
-     * The order is that of cell_nodes().
+     * Evaluates the shape functions of a cell at a point given in unit
+     * coordinates. The order is that of cell_nodes().
      * @param[out] N values of the shape functions
      * @param[out] gradient gradients with respect to unit coordinates; can be
      * null

@@ -54,7 +54,7 @@ namespace geocone::GEOCONE_DIM
     }
 
   private:
-    /** Facet, defined by the indices of its corners. */
+    /** Facet of a boundary segment, defined by the indices of its corners. */
     struct Part
     {
       std::array<unsigned int, dim> corners;

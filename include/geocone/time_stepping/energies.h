@@ -12,14 +12,15 @@ namespace geocone
   struct Energies
   {
     double kinetic = 0.; ///< v'Mv/2 of nodes (FEM) or particles (MPM)
-    /** Elastic strain energy sum V s'Ss/2, with stress s and elastic compliance
-     *  S. For undrained soil, the energy of the pore fluid sum V p^2/(2 K_w/n)
-     *  is included. Not available in explicit steps, in which constitutive laws
-     *  provide only the stress work. */
+    /** Elastic strain energy sum V s'Ss/2 over all points, with volume V,
+     *  stress s and elastic compliance S. For undrained soil, the energy of the
+     *  pore fluid sum V p^2/(2 K_w/n) is included. Not available in explicit
+     *  steps, in which constitutive laws provide only the stress work. */
     double elastic = 0.;
-    /** Potential energy of gravity in MPM, -sum m g.(x - x0). The reference
-     *  point x0 is the lower left corner of the mesh. In FEM the work done by
-     *  the weight is part of the external work. */
+    /** Gravitational potential energy in MPM, -sum m g.(x - x0), with a fixed
+     *  reference point x0. The reference point x0 is the lower left corner of
+     *  the mesh. In FEM the work done by the weight is part of the external
+     *  work. */
     double potential = 0.;
 
     double
@@ -53,7 +54,8 @@ namespace geocone
      *  is caused by the difference between the exact and the regularised
      *  strength: sum V |z_t| ||s_t| - a s_n - k|. */
     double of_excess = 0.;
-    /** Energy dissipated by friction and impact at contacts, -sum h r.u. */
+    /** Energy dissipated by friction and impact at contacts, -sum h r.u (step
+     *  size h, contact force r, relative velocity u). */
     double contact_dissipation = 0.;
     double of_ghosts           = 0.; ///< work of GhostStiffness
 

@@ -138,7 +138,7 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Inner loops of the explicit material point method, compiled for several
+   * Inner loops of the explicit material point method, compiled for different
    * instruction sets. All kernels process blocks of at most
    * PointBlock::capacity points, without allocations and without a function
    * call per point.
@@ -210,8 +210,8 @@ namespace geocone::GEOCONE_DIM
      *  BlockScratch::divergence. */
     void (*find_divergence)(const TransferBlock &, BlockScratch &);
 
-    /** Replaces the volumetric strain increment by the cell mean (B-bar
-     *  method). The update is
+    /** Replaces the volumetric strain increment of each point with the cell
+     *  mean (B-bar method). The update is
      *    l <- l + (dt BlockScratch::divergence - tr l)/dim I. */
     void (*replace_divergence)(const double dt,
                                const TransferBlock &,
@@ -234,7 +234,7 @@ namespace geocone::GEOCONE_DIM
                             const TransferBlock &,
                             BlockScratch &);
 
-    /** Replaces the mean stress in the point values for scatter() by the cell
+    /** Replaces the mean stress in the point values for scatter() with the cell
      *  mean (B-bar method). The update is
      *    s <- s + (BlockScratch::mean_stress - tr s/dim) I. */
     void (*replace_mean_stress)(const TransferBlock &, BlockScratch &);
