@@ -75,8 +75,8 @@ namespace geocone::GEOCONE_DIM
     double                        initial_volume = 2.; ///< 1 + e (-)
     std::unique_ptr<ElementPoint> point;
 
-    /** Accumulated strains, current loading control and statistics since the
-     *  initial state. */
+    /** Accumulated strains, current strain or stress control of the loading,
+     *  and statistics since the initial state. */
     struct Path
     {
       Tensor6        strain{}, least_strain{}, most_strain{};

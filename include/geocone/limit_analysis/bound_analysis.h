@@ -140,7 +140,8 @@ namespace geocone::GEOCONE_DIM
      *  far. */
     virtual LoadBracket
     bracket() const = 0;
-    /** Whether the factor of safety, and not a load, is bounded. */
+    /** True if the bounded quantity is the factor of safety, false if it is a
+     *  load. */
     virtual bool
     reduces_strength() const = 0;
     /** Sections of the summary that are specific to the analysis, between size

@@ -14,10 +14,11 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Variants of Davis's reduction factor (1968) in strength reduction with non-associated
-   * flow. They differ in the friction angle phi and the dilatancy angle theta that enter
-   * Davis's factor, and are equal for F = 1. A: given angles. B: both reduced, tan(phi)/F
-   * and tan(theta)/F. C: phi reduced; theta reduced only as far as it would exceed phi.
+   * Variants of Davis's reduction factor (1968) for strength reduction with
+   * non-associated flow. They differ in the friction angle phi and the
+   * dilatancy angle theta that enter Davis's factor, and are equal for F = 1.
+   * A: given angles. B: both reduced, tan(phi)/F and tan(theta)/F. C: phi
+   * reduced; theta reduced only as far as it would exceed phi.
    */
   enum class DavisVariant
   {

@@ -170,8 +170,8 @@ namespace geocone::cone_algebra
     /** @} */
 
   private:
-    /** Returns the product of W/eta (for the argument w_t) or its inverse (for
-     *  -w_t) and a vector v, with the Nesterov-Todd scaling W. */
+    /** Returns the product of the normalised Nesterov-Todd scaling W/eta (for
+     *  the argument w_t), or of its inverse (for -w_t), and a vector v. */
     ConeVector<N>
     turned(const ConeVector<N - 1> &w_t, const ConeVector<N> &v) const
     {

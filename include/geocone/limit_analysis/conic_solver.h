@@ -63,12 +63,13 @@ namespace geocone
   };
 
   /**
-   * Solves a conic problem by a primal-dual interior-point method. The method uses
-   * Nesterov-Todd scaling and Mehrotra's corrector, for any symmetric cones. Cone
-   * variables are eliminated at each point, so that an iteration requires only one sparse
-   * Cholesky factorisation with the sparsity pattern of the elastic stiffness.
-   * Constrained rates (e.g. the volumetric strain rate for phi = 0) are found by the
-   * method of multipliers. The stresses of the solution are stored in the groups.
+   * Solves a conic problem of limit analysis by a primal-dual interior-point
+   * method. The method uses Nesterov-Todd scaling and Mehrotra's corrector, for
+   * any symmetric cones. Cone variables are eliminated at each point, so that
+   * an iteration requires only one sparse Cholesky factorisation with the
+   * sparsity pattern of the elastic stiffness. Constrained rates (e.g. the
+   * volumetric strain rate for phi = 0) are found by the method of multipliers.
+   * The stresses of the solution are stored in the groups.
    */
   ConicSolution
   solve(ConicProblem &problem, const ConicOptions &options);

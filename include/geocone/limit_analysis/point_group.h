@@ -133,8 +133,8 @@ namespace geocone
      *  @return the largest steps of X and Z */
     virtual std::array<double, 2>
     complete(const Eigen::VectorXd &dq) = 0;
-    /** Returns the complementarity product X.Z after a step, i.e. the sum of (X + a_x
-     *  dX).(Z + a_z dZ) over the points. */
+    /** Returns the complementarity product after a step of lengths a_x and a_z,
+     *  i.e. the sum of (X + a_x dX).(Z + a_z dZ) over the points. */
     virtual double
     product_after(const double a_x, const double a_z) const = 0;
     virtual void

@@ -41,7 +41,7 @@ namespace geocone
       unsigned int factorisations = 0;
       std::string  rejection; ///< reason for rejection, if not certified
 
-      /** Whether the bound is certified and positive. */
+      /** True if the bound is certified and positive. */
       bool
       is_usable() const;
     };

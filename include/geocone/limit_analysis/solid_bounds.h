@@ -34,8 +34,8 @@ namespace geocone::GEOCONE_DIM
       return order == 1 ? 3 : 6;
     }
 
-    /** Returns the node of the edge between the vertices i and j of a cell. For i = j it
-     *  is the node of the vertex. */
+    /** Returns the local index of the node on the edge between the vertices i
+     *  and j of a cell. For i = j it is the node of the vertex. */
     unsigned int
     node(const unsigned int i, const unsigned int j);
   } // namespace simplex_nodes

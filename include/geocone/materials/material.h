@@ -415,8 +415,8 @@ namespace geocone::GEOCONE_DIM
     virtual double
     elastic_energy(const Mandel &stress, const double *history) const;
 
-    /** Elastic moduli of a point at a given stress. @param history of the
-     *  point */
+    /** Elastic moduli of a material point at a given stress. @param history of
+     *  the point */
     virtual Elasticity
     elasticity_at(const Mandel & /*stress*/, const double * /*history*/) const
     {

@@ -44,7 +44,7 @@ namespace geocone
     double
     least_slope() const;
 
-    /** Plastic strains at the points of a piecewise linear curve, or at
+    /** Plastic strains at the vertices of a piecewise linear curve, or at
      *  sampling points of an exponential curve. */
     std::vector<double>
     places() const;

@@ -22,8 +22,8 @@ namespace geocone::GEOCONE_DIM
       start = work.v;
     }
 
-    /** Moves the iterate to v + x d and evaluates the residual at the new
-     *  iterate. */
+    /** Moves the iterate to v + x d (step length x, Newton direction d) and
+     *  evaluates the residual at the new iterate. */
     void
     move(const double x);
 

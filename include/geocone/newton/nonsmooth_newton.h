@@ -159,8 +159,8 @@ namespace geocone::GEOCONE_DIM
     const FirstIterate *
     first_iterate_of_stresses() const;
 
-    /** Performs the Newton iterations for one attempt of the plan (sequence of
-     *  attempts at solving the step), from the current iterate.
+    /** Performs the Newton iterations of one of the planned attempts at solving
+     *  the step, from the current iterate.
      *  @param start_of_s initial stresses s of the natural map (Pa) */
     void
     iterate(const Try                 &next,
@@ -168,8 +168,8 @@ namespace geocone::GEOCONE_DIM
             const std::vector<Mandel> &start_of_s,
             const StepWorkspace       &work) const;
 
-    /** Performs a numerical continuation from lagged friction to the exact law,
-     *  for one attempt of the plan (sequence of attempts).
+    /** Performs a numerical continuation from lagged friction to the exact
+     *  friction law in one of the planned attempts at solving the step.
      *  @param accepted_excess see Hints */
     void
     continue_from_lag(const Try           &next,

@@ -44,7 +44,8 @@ namespace geocone
              const Works    &of_step);
 
     /** Sets the current terms of the energy balance: energies of the body, work
-     *  since the start, and energy of removed parts (total and potential). */
+     *  since the start of the run, and total and potential energy of removed
+     *  parts. */
     void
     set(const Energies &now,
         const Works    &since_start,

@@ -85,7 +85,8 @@ namespace geocone::GEOCONE_DIM
       return n_nodes / nodes_per_cell();
     }
 
-    /** Evaluates a column or the nodal positions at all nodes. */
+    /** Evaluates a column of nodal values, or the nodal positions, at all
+     *  nodes. */
     std::vector<double>
     values(const Fill &fill, const unsigned int n_components) const;
   };

@@ -181,10 +181,10 @@ namespace geocone::GEOCONE_DIM
     Json
     safety() const;
 
-    /** Acceleration of displacements in strength reduction: ratio of the last to the
-     *  first displacement rate (-). The rate is the displacement per increment of the
-     *  strength factor in one reduction, at the observed point that moves most. Empty
-     *  without observed points. */
+    /** Ratio of the last to the first displacement rate during strength
+     *  reduction, a measure of acceleration (-). The rate is the displacement
+     *  per increment of the strength factor in one reduction, at the observed
+     *  point that moves most. Empty without observed points. */
     std::optional<double>
     growth_of_displacement() const;
 

@@ -24,8 +24,8 @@ namespace geocone::GEOCONE_DIM
     /** @name Functions implemented by a method. All collective. */
     /** @{ */
 
-    /** Prepares the numerical method after the scene has been prepared. Called by
-     *  prepare(). @return warnings */
+    /** Prepares the numerical method (e.g. its mesh) after the scene has been
+     *  prepared. Called by prepare(). @return warnings */
     virtual std::vector<std::string>
     prepare_method(const RunOptions &options) = 0;
 

@@ -42,8 +42,8 @@ namespace geocone::GEOCONE_DIM
     replace_groups(
       const std::map<std::string, std::vector<std::string>> &groups);
 
-    /** Returns true if the condition applies to the side of the given name, or
-     *  to all sides. */
+    /** Returns true if the condition applies to the side with the given name,
+     *  or to all sides. */
     bool
     is_on_side(const std::string &side) const;
 

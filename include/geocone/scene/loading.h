@@ -222,7 +222,7 @@ namespace geocone::GEOCONE_DIM
     int
     stage_that_adds(const std::string &material) const;
 
-    /** Returns true if the material is initially absent and added in a later
+    /** Returns true if a material is initially absent and added in a later
      *  stage. */
     bool
     adds(const std::string &material) const

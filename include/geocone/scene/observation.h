@@ -87,8 +87,8 @@ namespace geocone::GEOCONE_DIM
     std::optional<double> reference;
     std::string           reference_name;
 
-    /** Tolerance for a plateau of the load-displacement curve: relative change
-     *  of the load over the plateau (-). */
+    /** Largest relative change of the load over a plateau of the
+     *  load-displacement curve (-). */
     double plateau_tolerance = 0.01;
 
   private:

@@ -85,8 +85,8 @@ namespace geocone::GEOCONE_DIM
     double
     discharge() const;
 
-    /** Relative change of the discharge from the previous mesh. Empty on the
-     *  first mesh and for transient flow. */
+    /** Relative change of the discharge from the previous to the current mesh
+     *  (-). Empty on the first mesh and for transient flow. */
     std::optional<double>
     change() const;
 

@@ -64,8 +64,8 @@ namespace geocone::GEOCONE_DIM
       return v;
     }
 
-    /** Rotates a vector with the rigid body. If @p back, the rotation is
-     *  inverse. */
+    /** Rotates a vector by the rotation of the rigid body. If @p back, the
+     *  rotation is inverse. */
     dealii::Tensor<1, dim>
     turned(const dealii::Tensor<1, dim> &x, const bool back = false) const
     {

@@ -100,7 +100,7 @@ namespace geocone::GEOCONE_DIM
                       const Method &method,
                       const bool    hard_flow);
 
-    /** Returns warnings about material laws for which the element type is
+    /** Returns warnings about constitutive laws for which the element type is
      *  unsuitable. */
     std::vector<std::string>
     warnings(const LawTraits &law, const Method &method) const;

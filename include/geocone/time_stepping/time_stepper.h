@@ -76,7 +76,7 @@ namespace geocone::GEOCONE_DIM
     unsigned int multipliers = 0; ///< independent rows of H
     unsigned int rows        = 0; ///< all rows of H
 
-    /** Diagnostics of the material points in the step. */
+    /** Diagnostics of the material points in a step (StepReport). */
     Motion motion;
 
     /** Report on contact with obstacles in the step. */
