@@ -184,8 +184,8 @@ namespace geocone::GEOCONE_DIM
     void
     begin_step(ContactStep step);
 
-    /** Groups of nodes that contact between bodies couples in the Jacobian.
-     *  Each group is a contact node, followed by its partners. */
+    /** Groups of nodes that are coupled in the Jacobian by contact between
+     *  bodies. Each group is a contact node, followed by its partners. */
     std::vector<std::vector<unsigned int>>
     links() const;
 

@@ -121,7 +121,8 @@ namespace geocone
      *  scaled iterate lambda. */
     virtual void
     predict() = 0;
-    /** Sets the right-hand side d of the corrector step: d = -lambda + lambda \ (target e
+    /** Sets the right-hand side d of the interior-point corrector step: d =
+     *  -lambda + lambda \ (target e
      *  - x_hat o z_hat). */
     virtual void
     correct(const double target) = 0;

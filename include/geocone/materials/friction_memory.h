@@ -60,8 +60,8 @@ namespace geocone::GEOCONE_DIM
       return tau;
     }
 
-    /** Weight lambda of the delayed normal stress at the beginning of the step
-     *  in its value at the end, for a step of size h (s). */
+    /** Weight lambda of the old delayed normal stress (at t_n) in the new
+     *  delayed normal stress, for a step of size h (s). */
     double
     remembered(const double h) const
     {

@@ -17,8 +17,8 @@ namespace geocone::GEOCONE_DIM
   {
     double relative_tolerance = 1e-10; ///< on |R_free|
     double absolute_tolerance = 1e-12; ///< for |R_free| (N/m)
-    /** Maximum number of iterations or sweeps; 0 for the default of the
-     *  formulation. */
+    /** Maximum number of iterations (or Gauss-Seidel sweeps); 0 for the default
+     *  of the formulation. */
     unsigned int max_iterations = 0;
   };
 

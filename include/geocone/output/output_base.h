@@ -103,7 +103,7 @@ namespace geocone::GEOCONE_DIM
 
     /**
      * Writes summary.json with the sections "run" and "warnings" and the
-     * sections specific to the method (e.g. FEM, MPM).
+     * sections specific to the method (FEM or MPM).
      * @param status running | finished | failed: why
      * @param topics of the method, in order of output
      * @throws StepFailure if the status is "finished" but a number is not finite; the

@@ -32,10 +32,10 @@ namespace geocone
   cpu_time_of_rank();
 
   /**
-   * Replaces the status "running" in the summary.json of a folder by @p status. Has
-   * an effect only if the summary belongs to process @p pid on this host. If the
-   * disk is full or memory is exhausted, overwrites the summary in place. Never
-   * throws.
+   * Replaces the status "running" in the summary.json of a folder with
+   * @p status. Has an effect only if the summary belongs to process @p pid on
+   * this host. If the disk is full or memory is exhausted, overwrites the
+   * summary in place. Never throws.
    */
   void
   end_status(const std::string &folder,

@@ -13,8 +13,8 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Transfer rule for velocities from the nodes to the particles (e.g. FLIP,
-   * APIC). With the FLIP weight alpha, the velocity v_p of a particle becomes
+   * Transfer rule for velocities from the nodes to the particles, such as FLIP
+   * or APIC. With the FLIP weight alpha, the velocity v_p of a particle becomes
    *   v_p := alpha (v_p + sum_i N_i (v_i - vL_i)) + (1 - alpha) sum_i N_i v_i.
    * Affine rules also update the gradient C of the velocity field v_p + C (x -
    * x_p), by which the particles transfer momentum to the nodes

@@ -92,7 +92,7 @@ namespace geocone::GEOCONE_DIM
     void
     save(Archive &archive, const MaterialPoints &points);
 
-    /** Replaces the current particles by those of a checkpoint. */
+    /** Replaces the current particles with the particles of a checkpoint. */
     void
     load(const Archive &archive, MaterialPoints &points);
 

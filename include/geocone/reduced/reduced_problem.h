@@ -99,8 +99,8 @@ namespace geocone::GEOCONE_DIM
     projected() const;
 
     /**
-     * Relative natural-map error of stresses s, independent of the solver. It is
-     * (Guillet et al. 2025, eq 59)
+     * Relative residual of the natural map for stresses s, evaluated
+     * independently of the solver. It is (Guillet et al. 2025, eq 59)
      *   max_p |s_p - P_C(s_p - rho_p Psi(z_p))| / (max_p |s_p| + max_p k_p),
      * with rho_p = 3/trace(W_pp) and lambda = multipliers(s). Dimensionless; infinite for
      * s = 0 without cohesion, unless s = 0 is the solution.

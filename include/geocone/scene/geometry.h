@@ -87,8 +87,9 @@ namespace geocone::GEOCONE_DIM
                       const dealii::Point<dim> &b);
 
   /**
-   * Checks that a polygon is simple. @throws InputError if it has fewer than
-   * three vertices, repeated vertices, no area, or sides that cross or touch
+   * Checks that a polygon is simple, i.e. does not intersect itself.
+   * @throws InputError if it has fewer than three vertices, repeated vertices,
+   * no area, or sides that cross or touch
    */
   void
   check_polygon(const Polygon &polygon, const std::string &parameter);

@@ -57,7 +57,8 @@ namespace geocone
     bool through_flip = false;
   };
 
-  /** Returns all imposition methods. The first one is the default. */
+  /** Returns all methods of imposing prescribed velocities. The first one is
+   *  the default. */
   const std::vector<Imposition> &
   impositions();
 

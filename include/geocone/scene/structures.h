@@ -173,7 +173,7 @@ namespace geocone::GEOCONE_DIM
     std::vector<const Structure *>
     plates() const;
 
-    /** Replaces the blanks in the name of a structure by underscores, for use
+    /** Replaces the blanks in the name of a structure with underscores, for use
      *  as a key of summary.json. */
     static std::string
     key_of(std::string name);
