@@ -35,8 +35,8 @@ namespace geocone
      *  types, parse() skips the parameter. */
     using OfOthers = std::map<std::string, std::map<std::string, std::string>>;
 
-    /** A parameter set in the parameter file. If the parameter is set
-     *  repeatedly, the last value applies. */
+    /** A parameter whose value is set in the parameter file. If the parameter
+     *  is set repeatedly, the last value applies. */
     struct Setting
     {
       std::string path;  ///< "Section/Subsection/Name"

@@ -121,9 +121,8 @@ namespace geocone
      *  scaled iterate lambda. */
     virtual void
     predict() = 0;
-    /** Sets the right-hand side d of the interior-point corrector step: d =
-     *  -lambda + lambda \ (target e
-     *  - x_hat o z_hat). */
+    /** Sets the right-hand side d of the interior-point corrector step:
+     *  d = -lambda + lambda \ (target e - x_hat o z_hat). */
     virtual void
     correct(const double target) = 0;
     /** Adds the internal forces due to the part of the search direction that is

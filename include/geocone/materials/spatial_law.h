@@ -172,8 +172,8 @@ namespace geocone::GEOCONE_DIM
 
     using Frictional::Frictional;
 
-    /** Sets the strength parameters to the input values, reduced by the factor
-     *  F. */
+    /** Sets the strength parameters to the input values after strength
+     *  reduction by the factor F. */
     virtual void
     set_strength(const double F) = 0;
 

@@ -65,7 +65,7 @@ namespace geocone::GEOCONE_DIM
       /** Index in #group_lists of the list of physical groups to which the
        *  element belongs. */
       unsigned int groups;
-      /** Node tags of the element, followed by zeros. */
+      /** Node tags of the element, padded with zeros. */
       std::array<std::uint64_t, 8> nodes;
 
       template <class Archive>

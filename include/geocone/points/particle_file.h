@@ -68,7 +68,7 @@ namespace geocone::GEOCONE_DIM
     static double
     expected_number(const std::string &file_name);
 
-    /** Reader of one file format, .csv or .h5. */
+    /** Reader of particle files in one format (.csv or .h5). */
     class Reader;
 
   private:

@@ -180,7 +180,7 @@ namespace geocone::GEOCONE_DIM
     std::vector<PlateState>
     states_of_plates() const;
 
-    /** Saves or restores the state variables of all bars, for checkpoints. */
+    /** Saves or restores the state variables of all bars in a checkpoint. */
     void
     state(StateRow &row);
 

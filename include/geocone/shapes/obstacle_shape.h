@@ -265,9 +265,9 @@ namespace geocone::GEOCONE_DIM
       Point
       nearest(const Point &x, const double tolerance, bool &is_end) const;
 
-      /** Point of the side that is close to @p p and at least the distance
-       *  @p by away from the boundary of the side. If the side is too narrow,
-       *  it is the midpoint. */
+      /** Point of the side near @p p whose distance from the boundary of the
+       *  side is at least @p by (m). If the side is too narrow, it is the
+       *  midpoint. */
       Point
       inset(const Point &p, const double by) const;
 
