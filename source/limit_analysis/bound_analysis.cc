@@ -25,13 +25,13 @@ namespace geocone::GEOCONE_DIM
        {"limit load", "strength reduction"}},
       {"Analysis/Maximum cells",
        "Analysis/Kind",
-       {"limit load", "strength reduction"}},
+       {"limit load", "strength reduction", "reliability"}},
       {"Analysis/Maximum levels",
        "Analysis/Kind",
-       {"limit load", "strength reduction"}},
+       {"limit load", "strength reduction", "reliability"}},
       {"Analysis/Solver tolerance",
        "Analysis/Kind",
-       {"limit load", "strength reduction"}}};
+       {"limit load", "strength reduction", "reliability"}}};
 
     constexpr bool    is_plane      = dim == 2;
     const std::string name_of_cells = is_plane ? "triangles" : "tetrahedra";
@@ -81,7 +81,7 @@ namespace geocone::GEOCONE_DIM
   void
   BoundAnalysis::check_parameters() const
   {
-    if (dealii::Utilities::MPI::n_mpi_processes(comm) > 1)
+    if (!runs_on_ranks() && dealii::Utilities::MPI::n_mpi_processes(comm) > 1)
       throw InputError(
         "Analysis/Kind",
         kind_word(),

@@ -138,10 +138,12 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
-  BoundedLoad::prepare_reduction(const Scene &scene, const Triangles &triangles)
+  BoundedLoad::prepare_reduction(const Scene       &scene,
+                                 const Triangles   &triangles,
+                                 const std::string &kind)
   {
     take_cones(scene);
-    choose_all(prescribed_velocity(scene, triangles).has_value());
+    choose_all(prescribed_velocity(scene, triangles).has_value(), kind);
     if (std::all_of(flow_cones.begin(),
                     flow_cones.end(),
                     [](const FlowCone &cone) { return cone.k == 0.; }) &&

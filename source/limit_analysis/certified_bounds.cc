@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace geocone::GEOCONE_DIM
@@ -13,56 +14,72 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    CertifiedBounds::Side
-    solve_upper(const BoundScene   &bound,
-                const BoundProblem &above,
-                const double        tolerance)
-    {
-      InteriorPoint::Options options;
-      options.tolerance             = tolerance;
-      options.equilibrium_tolerance = tolerance;
-      // Remaining violations of the flow rule are repaired, which widens the
-      // gap; for phi = 0 a projection removes them.
-      options.flow_tolerance = above.has_incompressible() ? 1e-6 : 1e-8;
-      const double margin    = 10. * options.flow_tolerance;
-      const auto   solve     = [&]() {
-        CertifiedBounds::Side side;
-        side.solution   = InteriorPoint::solve(above, options);
-        side.n_unknowns = above.n_unknowns();
-        side.bound      = certify_upper(bound, above, side.solution);
-        return side;
-      };
-      // No field is known that repairs what is missed beside obstacles.
-      if (above.n_interfaces() > 0)
-        options.flow_margin = margin;
-      CertifiedBounds::Side side = solve();
-      if (side.bound.certified || side.bound.violation == 0. ||
-          !side.solution.converged || options.flow_margin > 0.)
-        return side;
-      // Prescribed velocities allow none of the fields that repair: once more, with a
-      // margin, which costs the margin's part of the load.
-      options.flow_margin          = margin;
-      CertifiedBounds::Side second = solve();
-      second.solution.factorisations += side.solution.factorisations;
-      return second.bound.certified ? second : side;
-    }
+    /** No question: the optimum is wanted. */
+    constexpr double no_question = std::numeric_limits<double>::quiet_NaN();
   } // namespace
+
+  CertifiedBounds::Side
+  certified_upper(const BoundScene   &bound,
+                  const BoundProblem &above,
+                  const double        tolerance,
+                  const double        question)
+  {
+    InteriorPoint::Options options;
+    options.tolerance             = tolerance;
+    options.equilibrium_tolerance = tolerance;
+    options.question              = question;
+    // Remaining violations of the flow rule are repaired, which widens the
+    // gap; for phi = 0 a projection removes them.
+    options.flow_tolerance = above.has_incompressible() ? 1e-6 : 1e-8;
+    const double margin    = 10. * options.flow_tolerance;
+    const auto   solve     = [&]() {
+      CertifiedBounds::Side side;
+      side.solution   = InteriorPoint::solve(above, options);
+      side.n_unknowns = above.n_unknowns();
+      side.bound      = certify_upper(bound, above, side.solution);
+      return side;
+    };
+    // No field is known that repairs what is missed beside obstacles.
+    if (above.n_interfaces() > 0)
+      options.flow_margin = margin;
+    CertifiedBounds::Side side = solve();
+    if (side.bound.certified || side.bound.violation == 0. ||
+        !side.solution.converged || options.flow_margin > 0.)
+      return side;
+    // Prescribed velocities allow none of the fields that repair: once more, with a
+    // margin, which costs the margin's part of the load.
+    options.flow_margin          = margin;
+    CertifiedBounds::Side second = solve();
+    second.solution.factorisations += side.solution.factorisations;
+    return second.bound.certified ? second : side;
+  }
 
   CertifiedBounds::Side
   certified_upper(const BoundScene &bound, const double tolerance)
   {
-    return solve_upper(bound, upper_problem(bound), tolerance);
+    return certified_upper(
+      bound, upper_problem(bound), tolerance, no_question);
   }
 
   CertifiedBounds::Side
   certified_lower(const BoundScene &bound, const double tolerance)
   {
-    const BoundProblem     below = lower_problem(bound);
+    return certified_lower(
+      bound, lower_problem(bound), tolerance, no_question);
+  }
+
+  CertifiedBounds::Side
+  certified_lower(const BoundScene   &bound,
+                  const BoundProblem &below,
+                  const double        tolerance,
+                  const double        question)
+  {
     InteriorPoint::Options options;
     options.tolerance             = tolerance;
     options.flow_tolerance        = tolerance;
     options.equilibrium_tolerance = 1e-7; // the repair may violate the cone
     options.stresses              = true;
+    options.question              = question;
     if (!below.can_be_scaled())
       options.strength_margin = 1e-5;
     CertifiedBounds::Side side;
@@ -87,7 +104,7 @@ namespace geocone::GEOCONE_DIM
   {
     CertifiedBounds    bounds;
     const BoundProblem above = upper_problem(bound);
-    bounds.upper             = solve_upper(bound, above, tolerance);
+    bounds.upper             = certified_upper(bound, above, tolerance, no_question);
     bounds.lower             = certified_lower(bound, tolerance);
 
     bounds.gap    = gap_of_cells(above, bounds.upper.bound, bounds.lower.bound);

@@ -29,7 +29,9 @@ namespace geocone::GEOCONE_DIM
       "with associated flow, on adaptively refined triangular meshes, "
       "independent of steps, elasticity and inertia. Strength reduction: "
       "strict bounds of the factor of safety, by which c and tan(phi) are "
-      "divided at collapse.");
+      "divided at collapse. Reliability: probability that the body fails, with "
+      "strengths and weights from 'Random fields'; whether a sample fails is "
+      "certified by the bounds.");
     declare_parameters(bounded_load);
   }
 
@@ -89,7 +91,7 @@ namespace geocone::GEOCONE_DIM
     if (scene.water.acts() && !scene.water.varies_in_cells())
       check_water();
     if (reduces_strength())
-      bounded_load.prepare_reduction(scene, *triangles);
+      bounded_load.prepare_reduction(scene, *triangles, kind_word());
     else
       bounded_load.prepare(scene, *triangles);
     const dealii::BoundingBox<dim> body(triangles->vertices);

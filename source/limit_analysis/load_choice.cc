@@ -43,11 +43,11 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
-  LoadChoice::choose_all(const bool has_velocity)
+  LoadChoice::choose_all(const bool has_velocity, const std::string &kind)
   {
     if (has_velocity)
       throw InputError("Analysis/Kind",
-                       "strength reduction",
+                       kind,
                        "limit load where a velocity is prescribed that is not "
                        "zero",
                        "reduce the strength of a body that carries its weight "

@@ -344,7 +344,7 @@ namespace geocone::GEOCONE_DIM
                            "c and tan(phi) are those of Mohr-Coulomb");
         }
     const std::vector<HeldFacet> held = held_facets(scene, tetrahedra);
-    choose_all(prescribed_velocity(held).has_value());
+    choose_all(prescribed_velocity(held).has_value(), "strength reduction");
     check_loads(scene, tetrahedra, held);
   }
 

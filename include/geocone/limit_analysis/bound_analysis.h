@@ -136,6 +136,12 @@ namespace geocone::GEOCONE_DIM
     /** Returns true if finer meshes than the first mesh can be generated. */
     virtual bool
     refines() const = 0;
+    /** Returns true if several ranks may share the analysis. */
+    virtual bool
+    runs_on_ranks() const
+    {
+      return false;
+    }
     /** Returns the lower and upper bound of the load that are certified so
      *  far. */
     virtual LoadBracket

@@ -46,11 +46,14 @@ namespace geocone::GEOCONE_DIM
     /**
      * Prepares strength reduction. The load factor multiplies all loads, i.e. self-weight
      * and tractions.
+     * @param kind of analysis, for messages
      * @throws InputError also for cohesionless soil, whose load factor is zero or
      * infinite
      */
     void
-    prepare_reduction(const Scene &scene, const Triangles &triangles);
+    prepare_reduction(const Scene       &scene,
+                      const Triangles   &triangles,
+                      const std::string &kind);
 
     /** Returns the input of the upper-bound and lower-bound problems on a given
      *  mesh. */

@@ -55,6 +55,22 @@ namespace geocone::GEOCONE_DIM
   certified_lower(const BoundScene &bound, const double tolerance);
   /** @} */
 
+  /** As above, for problems of the body at hand, and only until the bound is known to be
+   *  below (lower bound: above) a load, or not to be (InteriorPoint::Options::question).
+   *  @param question the load */
+  /** @{ */
+  CertifiedBounds::Side
+  certified_upper(const BoundScene   &bound,
+                  const BoundProblem &above,
+                  const double        tolerance,
+                  const double        question);
+  CertifiedBounds::Side
+  certified_lower(const BoundScene   &bound,
+                  const BoundProblem &below,
+                  const double        tolerance,
+                  const double        question);
+  /** @} */
+
   /** Solves the upper-bound and lower-bound problems on a mesh and certifies the results.
    *  @param tolerance of the interior-point method, relative to the load */
   CertifiedBounds

@@ -6,6 +6,7 @@
 
 #include <geocone/limit_analysis/bound_problem.h>
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -62,6 +63,11 @@ namespace geocone::GEOCONE_DIM
       double strength_margin = 0.;
 
       unsigned int correctors = 2; ///< maximum number per iteration
+
+      /** Load that the bound is only compared with: iterations end as soon as the bound is
+       *  on the conclusive side of it (above it for stresses, below it for velocities), or
+       *  cannot be. NaN: the optimum is wanted. */
+      double question = std::numeric_limits<double>::quiet_NaN();
     };
 
     static BoundSolution

@@ -26,6 +26,7 @@ namespace geocone::GEOCONE_DIM
     steps,              ///< incremental analysis
     limit_load,         ///< strict bounds of the limit load
     strength_reduction, ///< strict bounds of the factor of safety
+    reliability,        ///< probability of failure
     seepage             ///< steady seepage alone
   };
 
@@ -159,6 +160,7 @@ namespace geocone::GEOCONE_DIM
       {{"steps", AnalysisKind::steps},
        {"limit load", AnalysisKind::limit_load},
        {"strength reduction", AnalysisKind::strength_reduction},
+       {"reliability", AnalysisKind::reliability},
        {"seepage", AnalysisKind::seepage}}};
 
     std::optional<CellSizes> sizes; ///< cell sizes of the next mesh

@@ -79,7 +79,7 @@ namespace geocone::GEOCONE_DIM
     /** Selects weight and tractions as the loads for strength reduction.
      *  @throws InputError if a velocity is prescribed that is not zero */
     void
-    choose_all(const bool has_velocity);
+    choose_all(const bool has_velocity, const std::string &kind);
 
     /** Reports that the selected loads are zero. @throws InputError */
     [[noreturn]] void
