@@ -4,6 +4,7 @@
 #include <geocone/element/element_test.h>
 #include <geocone/limit_analysis/limit_analysis.h>
 #include <geocone/limit_analysis/mesh_from_bounds.h>
+#include <geocone/limit_analysis/reliability.h>
 #include <geocone/methods.h>
 #include <geocone/run/explicit_simulation.h>
 #include <geocone/run/implicit_simulation.h>
@@ -18,6 +19,7 @@ namespace geocone::GEOCONE_DIM
       , implicit(MPI_COMM_WORLD, file, log, sizes_from_bounds)
       , explicit_mpm(MPI_COMM_WORLD, file, log)
       , limit_analysis(MPI_COMM_WORLD, file, log)
+      , reliability(MPI_COMM_WORLD, file, log)
       , seepage(MPI_COMM_WORLD, file, log)
     {}
 
@@ -25,6 +27,7 @@ namespace geocone::GEOCONE_DIM
     ImplicitSimulation implicit;
     ExplicitSimulation explicit_mpm;
     LimitAnalysis      limit_analysis;
+    Reliability        reliability;
     SeepageSimulation  seepage;
   };
 
@@ -39,6 +42,8 @@ namespace geocone::GEOCONE_DIM
   {
     if (runs->limit_analysis.kind() == AnalysisKind::seepage)
       return runs->seepage;
+    if (runs->limit_analysis.kind() == AnalysisKind::reliability)
+      return runs->reliability;
     if (runs->limit_analysis.kind() != AnalysisKind::steps)
       return runs->limit_analysis;
     const std::string name = ParameterFile::value("Discretisation/Method");

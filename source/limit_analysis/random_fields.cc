@@ -54,8 +54,8 @@ namespace geocone::GEOCONE_DIM
               const unsigned int row = order[i];
               const double       value =
                 i == rank
-                  ? root
-                  : (covariance(row, pivot) -
+                        ? root
+                        : (covariance(row, pivot) -
                      rows.col(row).head(rank).dot(rows.col(pivot).head(rank))) /
                       root;
               rows(rank, row) = value;
@@ -75,9 +75,8 @@ namespace geocone::GEOCONE_DIM
     : dealii::ParameterAcceptor("/Random fields/" + name)
     , name(name)
   {
-    add_parameter("Material",
-                  material_name,
-                  "Name of the material whose property varies.");
+    add_parameter(
+      "Material", material_name, "Name of the material whose property varies.");
     chosen.declare(*this,
                    "Property",
                    ". Property that the field multiplies; its mean is that of "
@@ -194,11 +193,11 @@ namespace geocone::GEOCONE_DIM
       if (triangles.material[c] == material)
         cells.push_back(c);
     if (cells.size() > most)
-      throw InputError("Mesh/Cell size",
-                       format("a mesh of %zu triangles", cells.size()),
-                       format("at most %u in a material with a random field",
-                              most),
-                       "take larger cells: undecided samples are refined");
+      throw InputError(
+        "Mesh/Cell size",
+        format("a mesh of %zu triangles", cells.size()),
+        format("at most %u in a material with a random field", most),
+        "take larger cells: undecided samples are refined");
     root = pivoted_root(cells.size(),
                         [&](const unsigned int i, const unsigned int j) {
                           return covariance(triangles.centre(cells[i]) -
@@ -254,6 +253,15 @@ namespace geocone::GEOCONE_DIM
     n_cells = triangles.cells.size();
     for (const auto &field : list)
       field->prepare_on(triangles);
+  }
+
+  unsigned int
+  RandomFields::most_numbers() const
+  {
+    unsigned int most = 0;
+    for (const auto &field : list)
+      most = std::max(most, field->rank());
+    return most;
   }
 
   RandomFactors

@@ -50,9 +50,8 @@ namespace geocone
     // The tail near 0 is not subject to cancellation.
     if (p > 0.5)
       return -normal_quantile(1. - p);
-    return root_between(-40., 0.5, [p](const double z) {
-      return normal_distribution(z) - p;
-    });
+    return root_between(
+      -40., 0.5, [p](const double z) { return normal_distribution(z) - p; });
   }
 
   std::array<double, 2>
@@ -60,17 +59,15 @@ namespace geocone
                   const unsigned int trials,
                   const double       confidence)
   {
-    const double tail  = (1. - confidence) / 2.;
-    const double lower = events == 0
-                           ? 0.
-                           : root_between(0., 1., [&](const double p) {
-                               return 1. - at_most(events - 1, trials, p) - tail;
-                             });
-    const double upper = events == trials
-                           ? 1.
-                           : root_between(0., 1., [&](const double p) {
-                               return tail - at_most(events, trials, p);
-                             });
+    const double tail = (1. - confidence) / 2.;
+    const double lower =
+      events == 0 ? 0. : root_between(0., 1., [&](const double p) {
+        return 1. - at_most(events - 1, trials, p) - tail;
+      });
+    const double upper =
+      events == trials ? 1. : root_between(0., 1., [&](const double p) {
+        return tail - at_most(events, trials, p);
+      });
     return {{lower, upper}};
   }
 
@@ -81,7 +78,9 @@ namespace geocone
     std::mt19937_64     generator(seed);
     std::vector<double> numbers(n);
     // std::normal_distribution differs between libraries: Box and Muller (1958).
-    const auto uniform = [&]() { return ((generator() >> 11) + 0.5) * 0x1p-53; };
+    const auto uniform = [&]() {
+      return ((generator() >> 11) + 0.5) * 0x1p-53;
+    };
     for (unsigned int i = 0; i < n; i += 2)
       {
         const double radius = std::sqrt(-2. * std::log(uniform())),

@@ -149,6 +149,10 @@ namespace geocone::GEOCONE_DIM
     RandomFactors
     sample(const unsigned int number) const;
 
+    /** Largest number of random numbers of a field in a sample. */
+    unsigned int
+    most_numbers() const;
+
     unsigned int seed = 1;
 
   private:

@@ -1,0 +1,190 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_limit_analysis_reliability_h
+#define geocone_limit_analysis_reliability_h
+
+#include <geocone/limit_analysis/bound_analysis.h>
+#include <geocone/limit_analysis/sampled_body.h>
+#include <geocone/mesh/triangles.h>
+#include <geocone/output/field_files.h>
+
+#include <array>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace geocone::GEOCONE_DIM
+{
+  /** Result of one sample. */
+  struct SampleRecord
+  {
+    unsigned int number  = 0; ///< from 1
+    int          verdict = 0; ///< SampleVerdict::Kind
+
+    /** Bounds of the load factor; NaN: not certified, or not needed. */
+    double lower = std::numeric_limits<double>::quiet_NaN(), upper = lower;
+
+    unsigned int cells = 0, factorisations = 0;
+    double       cpu_seconds = 0.;
+
+    void
+    state(StateRow &row)
+    {
+      row(number, verdict, lower, upper, cells, factorisations, cpu_seconds);
+    }
+  };
+
+  /** Probability of failure by counts of samples. */
+  struct FailureProbability
+  {
+    unsigned int          n_samples = 0, n_failed = 0, n_undecided = 0;
+    double                lower = 0., upper = 1.; ///< of these samples
+    std::array<double, 2> limits = {{0., 1.}};    ///< of all samples
+
+    /** @param confidence that the limits include the probability at least with */
+    FailureProbability(const std::vector<SampleRecord> &samples,
+                       const double                     confidence);
+  };
+
+  /** Output of a reliability analysis: samples.csv with a line per sample, the fields of
+   *  one sample, and the summary. */
+  class ReliabilityOutput : public TableOutput<SampleRecord>
+  {
+  public:
+    using TableOutput::TableOutput;
+
+    void
+    prepare(const RunOptions &options);
+
+    /** Writes the fields of a sample, if they are wanted. Collective. */
+    void
+    write_fields(const double number, const FieldTable &table);
+
+  private:
+    void
+    report_results(std::ostream &out) const override;
+
+    std::unique_ptr<FieldFiles> fields;
+  };
+
+  /**
+   * Probability that a body fails under its loads, by samples of random fields. A sample
+   * counts as failed (standing) only if an upper (lower) bound certifies it on the first
+   * mesh or on finer ones, which divide each triangle into four and keep the sample's
+   * strengths; the others are undecided. Samples are shared by the ranks; a step of the
+   * run is a batch of them.
+   */
+  class Reliability : public BoundAnalysis
+  {
+  public:
+    Reliability(const MPI_Comm comm, const ParameterFile &file, Log &log);
+
+    OutputBase &
+    output() override
+    {
+      return reliability_output;
+    }
+
+  private:
+    std::vector<std::string>
+    prepare(const RunOptions &options) override;
+    std::vector<unsigned int>
+    programme() const override;
+    void
+    prepare_output(const RunOptions &options) override
+    {
+      reliability_output.prepare(options);
+    }
+    std::string
+    headline(const std::string &name) const override;
+    Json
+    model() override;
+    StepOutcome
+    advance(TimePoint &now) override;
+    void
+    record(const TimePoint &) override
+    {}
+    std::string
+    progress(const TimePoint &) const override;
+    Json
+    topics() override;
+    void
+    finish(const double t) override;
+
+    std::string
+    kind_word() const override
+    {
+      return "reliability";
+    }
+    const LoadChoice &
+    load_choice() const override
+    {
+      return bounded_load;
+    }
+    void
+    prepare_water(const RunOptions &options) override;
+    bool
+    refines() const override
+    {
+      return most_levels > 1;
+    }
+    bool
+    runs_on_ranks() const override
+    {
+      return true;
+    }
+    LoadBracket
+    bracket() const override
+    {
+      return {}; // samples have no common load
+    }
+
+    /** Mesh of a level with the body on it. */
+    struct Level
+    {
+      Level(const Scene                     &scene,
+            const BoundedLoad               &load,
+            const Triangles                 &mesh,
+            const std::vector<unsigned int> &parent)
+        : triangles(mesh)
+        , body(load.on(scene, triangles), parent)
+      {}
+
+      const Triangles triangles;
+      SampledBody     body;
+    };
+
+    /** Returns a level, created if it is new; null beyond the last one. */
+    Level *
+    level(const unsigned int number);
+
+    /** Solves a sample on as many levels as it needs. */
+    SampleRecord
+    solve(const unsigned int number);
+
+    /** Writes the factors and the mechanism of a sample on the first mesh.
+     *  Collective. */
+    void
+    write_sample(const unsigned int number);
+
+    FailureProbability
+    probability() const
+    {
+      return {reliability_output.all_records(), confidence};
+    }
+
+    ReliabilityOutput reliability_output;
+    RandomFields      fields;
+    BoundedLoad       bounded_load;
+
+    unsigned int n_samples  = 1000;
+    double       confidence = 0.95;
+
+    CoarseMesh                          finest; ///< of the levels so far
+    std::vector<std::unique_ptr<Level>> levels;
+  };
+} // namespace geocone::GEOCONE_DIM
+
+#endif

@@ -1,0 +1,417 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/exceptions.h>
+#include <geocone/base/stop_request.h>
+#include <geocone/base/unused_parameters.h>
+#include <geocone/limit_analysis/reliability.h>
+#include <geocone/limit_analysis/statistics.h>
+#include <geocone/mesh/fitted_mesh.h>
+#include <geocone/output/model_of_triangles.h>
+#include <geocone/output/triangle_table.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace geocone::GEOCONE_DIM
+{
+  namespace
+  {
+    const UsedWhere used_reliability[] = {
+      {"Analysis/Samples", "Analysis/Kind", {"reliability"}},
+      {"Analysis/Confidence", "Analysis/Kind", {"reliability"}}};
+
+    /** Samples of a step, on any number of ranks. */
+    constexpr unsigned int batch = 16;
+
+    /** Mesh with each triangle divided into four, numbered 4 c to 4 c + 3. */
+    CoarseMesh
+    divided(const CoarseMesh &mesh)
+    {
+      CoarseMesh next;
+      next.points = mesh.points;
+      next.sides  = mesh.sides;
+      std::map<std::array<unsigned int, 2>, unsigned int> middles;
+      const auto middle = [&](const unsigned int a, const unsigned int b) {
+        const auto [entry, is_new] = middles.emplace(
+          std::array<unsigned int, 2>{{std::min(a, b), std::max(a, b)}},
+          next.points.size());
+        if (is_new)
+          next.points.push_back(
+            dealii::Point<dim>((mesh.points[a] + mesh.points[b]) / 2.));
+        return entry->second;
+      };
+      for (const auto &cell : mesh.cells)
+        {
+          const unsigned int a = cell.vertices[0], b = cell.vertices[1],
+                             c = cell.vertices[2], ab = middle(a, b),
+                             bc = middle(b, c), ca = middle(c, a);
+          for (const auto &child : {std::array<unsigned int, 3>{{a, ab, ca}},
+                                    {{ab, b, bc}},
+                                    {{ca, bc, c}},
+                                    {{ab, bc, ca}}})
+            {
+              dealii::CellData<dim> part(3);
+              part.vertices.assign(child.begin(), child.end());
+              part.material_id = cell.material_id;
+              next.cells.push_back(part);
+            }
+        }
+      for (const auto &line : mesh.boundary.boundary_lines)
+        {
+          const unsigned int m = middle(line.vertices[0], line.vertices[1]);
+          for (const unsigned int end : line.vertices)
+            next.add_boundary({{std::min(end, m), std::max(end, m)}},
+                              line.boundary_id);
+        }
+      return next;
+    }
+  } // namespace
+
+  FailureProbability::FailureProbability(
+    const std::vector<SampleRecord> &samples, const double confidence)
+    : n_samples(samples.size())
+  {
+    for (const SampleRecord &sample : samples)
+      {
+        n_failed += sample.verdict < 0;
+        n_undecided += sample.verdict == 0;
+      }
+    if (n_samples == 0)
+      return;
+    const unsigned int most = n_failed + n_undecided;
+    lower                   = double(n_failed) / n_samples;
+    upper                   = double(most) / n_samples;
+    limits = {{clopper_pearson(n_failed, n_samples, confidence)[0],
+               clopper_pearson(most, n_samples, confidence)[1]}};
+  }
+
+  void
+  ReliabilityOutput::prepare(const RunOptions &options)
+  {
+    make_folder(options);
+    fields =
+      std::make_unique<FieldFiles>("sample", FieldsFormat(fields_format));
+    const auto add = [&](const std::string &column, const auto member) {
+      table.add(column, [member](const SampleRecord &s) { return s.*member; });
+    };
+    add("sample (-)", &SampleRecord::number);
+    add("verdict (-)", &SampleRecord::verdict);
+    for (const auto &[column, member] :
+         {std::pair<const char *, double SampleRecord::*>(
+            "lower bound of the load factor (-)", &SampleRecord::lower),
+          {"upper bound of the load factor (-)", &SampleRecord::upper}})
+      table.add(
+        column,
+        [member = member](const SampleRecord &s) { return s.*member; },
+        Finite::may_be);
+    add("triangles (-)", &SampleRecord::cells);
+    add("factorisations (-)", &SampleRecord::factorisations);
+    add("CPU time (s)", &SampleRecord::cpu_seconds);
+    open_table("samples.csv");
+  }
+
+  void
+  ReliabilityOutput::write_fields(const double number, const FieldTable &table)
+  {
+    if (with_fields)
+      fields->write(table, path, number, comm);
+  }
+
+  void
+  ReliabilityOutput::report_results(std::ostream &out) const
+  {
+    const Json &found = summary["reliability"];
+    out << format("%u %u %u\n",
+                  found["samples"].get<unsigned int>(),
+                  found["failed"].get<unsigned int>(),
+                  found["undecided"].get<unsigned int>());
+  }
+
+  Reliability::Reliability(const MPI_Comm       comm,
+                           const ParameterFile &file,
+                           Log                 &log)
+    : BoundAnalysis(comm, file, log)
+    , reliability_output(comm, log)
+    , fields(file)
+  {
+    declare_parameters(bounded_load);
+    add_parameter(
+      "Samples", n_samples, "Number of samples of the random fields [-].");
+    add_parameter("Confidence",
+                  confidence,
+                  "Probability [-] with which the binomial limits of the "
+                  "probability of failure include it, at least.");
+  }
+
+  void
+  Reliability::prepare_water(const RunOptions &)
+  {
+    if (scene.water.seepage.acts())
+      throw InputError("Seepage/Names",
+                       "set",
+                       "none with " + where(),
+                       "bodies of random soil have no water; leave it out");
+  }
+
+  std::vector<std::string>
+  Reliability::prepare(const RunOptions &options)
+  {
+    check_parameters();
+    if (n_samples == 0 || n_samples > 10000000)
+      throw InputError("Analysis/Samples",
+                       n_samples,
+                       "1 to 10000000",
+                       "100 over the probability of failure give it to 20 %");
+    if (!(confidence > 0. && confidence < 1.))
+      throw InputError(
+        "Analysis/Confidence", confidence, "> 0, < 1", "0.95 is usual");
+    prepare_scene(options);
+    if (scene.water.acts())
+      throw InputError("Water/Level",
+                       "set",
+                       "none with " + where(),
+                       "give undrained strengths and total unit weights");
+    mesh_parameters.prepare(scene.geometry, method);
+    if (mesh_parameters.cells == MeshParameters::Cells::quadrilaterals &&
+        scene.geometry.shape != Geometry::Shape::file)
+      throw InputError("Mesh/Cells",
+                       "quadrilaterals",
+                       "triangles with " + where(),
+                       "set Mesh/Cells = triangles");
+    finest = fitted_mesh(mesh_parameters, scene, comm);
+    const Triangles triangles(finest);
+    bounded_load.prepare_reduction(scene, triangles, kind_word());
+    fields.prepare(scene);
+    fields.prepare_on(triangles);
+    print_start(options,
+                triangles.cells.size(),
+                format("; %u samples", n_samples),
+                dealii::BoundingBox<dim>(triangles.vertices));
+    if (!level(0))
+      throw InputError("Analysis/Maximum cells",
+                       most_cells,
+                       format("%zu at least, the triangles of the mesh",
+                              triangles.cells.size()),
+                       "raise it, or take larger cells");
+    std::vector<std::string> warnings;
+    if (bounded_load.non_associated())
+      warnings.push_back("flow is taken as associated: with less dilatancy a "
+                         "body may fail under smaller loads");
+    return warnings;
+  }
+
+  std::vector<unsigned int>
+  Reliability::programme() const
+  {
+    return {(n_samples + batch - 1) / batch};
+  }
+
+  std::string
+  Reliability::headline(const std::string &name) const
+  {
+    return name + format(": probability of failure by %u samples on %zu "
+                         "triangles, with up to %u random numbers each",
+                         n_samples,
+                         levels.front()->triangles.cells.size(),
+                         fields.most_numbers());
+  }
+
+  Json
+  Reliability::model()
+  {
+    return model_of(scene, model_mesh_of(levels.front()->triangles));
+  }
+
+  Reliability::Level *
+  Reliability::level(const unsigned int number)
+  {
+    if (number < levels.size())
+      return levels[number].get();
+    const std::size_t n_cells = (number == 0 ? 1 : 4) * finest.cells.size();
+    if (number >= most_levels || n_cells > most_cells)
+      return nullptr;
+    if (number > 0)
+      finest = divided(finest);
+    std::vector<unsigned int> parent(n_cells);
+    for (unsigned int c = 0; c < n_cells; ++c)
+      parent[c] = c >> (2 * number);
+    levels.push_back(
+      std::make_unique<Level>(scene, bounded_load, Triangles(finest), parent));
+    return levels.back().get();
+  }
+
+  SampleRecord
+  Reliability::solve(const unsigned int number)
+  {
+    dealii::Timer       time;
+    const RandomFactors factors = fields.sample(number);
+    SampleRecord        record;
+    record.number = number;
+    for (unsigned int l = 0; Level *const on = level(l); ++l)
+      {
+        const SampleVerdict verdict =
+          on->body.judge(factors, inner_tolerance());
+        record.factorisations += verdict.factorisations;
+        record.cells = on->triangles.cells.size();
+        // Bounds of all meshes are valid.
+        record.lower   = std::fmax(record.lower, verdict.lower);
+        record.upper   = std::fmin(record.upper, verdict.upper);
+        record.verdict = static_cast<int>(verdict.kind);
+        if (record.verdict != 0)
+          break;
+      }
+    record.cpu_seconds = time.cpu_time();
+    return record;
+  }
+
+  Simulation::StepOutcome
+  Reliability::advance(TimePoint &now)
+  {
+    namespace mpi              = dealii::Utilities::MPI;
+    const unsigned int first   = now.in_stage * batch + 1,
+                       last    = std::min(first + batch - 1, n_samples),
+                       n_ranks = mpi::n_mpi_processes(comm);
+    StateRow of_rank;
+    try
+      {
+        for (unsigned int s = first + mpi::this_mpi_process(comm); s <= last;
+             s += n_ranks)
+          {
+            SampleRecord record = solve(s);
+            of_rank(record);
+          }
+      }
+    catch (const Stopped &)
+      {} // all ranks are together here
+    stop_if_asked(comm);
+    std::vector<SampleRecord> records;
+    for (const auto &values : mpi::all_gather(comm, of_rank.values()))
+      for (StateRow row(values); !row.at_end();)
+        {
+          records.emplace_back();
+          row(records.back());
+        }
+    std::sort(records.begin(), records.end(), [](const auto &a, const auto &b) {
+      return a.number < b.number;
+    });
+    for (const SampleRecord &record : records)
+      reliability_output.add_record(record);
+    now.time = last;
+    return last == n_samples ? StepOutcome::stage : StepOutcome::well;
+  }
+
+  std::string
+  Reliability::progress(const TimePoint &) const
+  {
+    const FailureProbability found = probability();
+    return format("%u samples  %u failed  %u undecided  %.4g <= P_f <= %.4g",
+                  found.n_samples,
+                  found.n_failed,
+                  found.n_undecided,
+                  found.limits[0],
+                  found.limits[1]);
+  }
+
+  Json
+  Reliability::topics()
+  {
+    const auto              &records = reliability_output.all_records();
+    const FailureProbability found   = probability();
+    unsigned int             finest = 0, refined = 0;
+    double                   cpu = 0.;
+    for (const SampleRecord &record : records)
+      {
+        finest = std::max(finest, record.cells);
+        refined += record.cells > levels.front()->triangles.cells.size();
+        cpu += record.cpu_seconds;
+      }
+    Json json;
+    json["size"]        = {{"method", kind_word()},
+                           {"cells", levels.front()->triangles.cells.size()},
+                           {"cells_finest", finest}};
+    json["reliability"] = {
+      {"samples", found.n_samples},
+      {"failed", found.n_failed},
+      {"undecided", found.n_undecided},
+      {"refined", refined},
+      {"lower", found.lower},
+      {"upper", found.upper},
+      {"confidence", confidence},
+      {"limit_lower", found.limits[0]},
+      {"limit_upper", found.limits[1]},
+      {"cpu_s_per_sample", records.empty() ? 0. : cpu / records.size()}};
+    json["cost"] = {{"total_s", total.wall_time()},
+                    {"cpu_s", total.cpu_time()}};
+    return json;
+  }
+
+  void
+  Reliability::finish(const double)
+  {
+    const FailureProbability found = probability();
+    log.print(format("%u of %u samples fail, %u are undecided: the probability "
+                     "of failure of these samples is %.4g to %.4g; with "
+                     "confidence %g it is %.4g to %.4g",
+                     found.n_failed,
+                     found.n_samples,
+                     found.n_undecided,
+                     found.lower,
+                     found.upper,
+                     confidence,
+                     found.limits[0],
+                     found.limits[1]));
+    if (found.n_undecided > 0.1 * std::max(1U, found.n_failed))
+      log.warn(format("%u samples are undecided; raise 'Analysis/Maximum "
+                      "cells' or 'Maximum levels', or take smaller cells",
+                      found.n_undecided));
+    // The first sample that fails, with its mechanism.
+    const auto &records = reliability_output.all_records();
+    const auto  failed =
+      std::find_if(records.begin(), records.end(), [](const auto &record) {
+        return record.verdict < 0;
+      });
+    if (failed == records.end())
+      return;
+    write_sample(failed->number);
+  }
+
+  void
+  Reliability::write_sample(const unsigned int number)
+  {
+    const Level        &on      = *levels.front();
+    const RandomFactors factors = fields.sample(number);
+    const bool is_first = dealii::Utilities::MPI::this_mpi_process(comm) == 0;
+    Eigen::VectorXd q;
+    try
+      {
+        if (is_first)
+          q = on.body.velocities(factors, inner_tolerance());
+      }
+    catch (const Stopped &)
+      {} // all ranks are together here
+    stop_if_asked(comm);
+    TriangleTable table(on.triangles, is_first);
+    using Index = unsigned int;
+    table.add("velocity", dim, [&](const Index, const Index v, const Index d) {
+      return q[dim * v + d];
+    });
+    for (const auto &[name, factor] :
+         {std::pair<const char *, const std::vector<double> &>(
+            "cohesion_factor", factors.cohesion),
+          {"tan_phi_factor", factors.tan_phi},
+          {"unit_weight_factor", factors.unit_weight}})
+      if (!factor.empty())
+        table.add(
+          name, 1, [&of = factor](const Index p, const Index, const Index) {
+            return of[p / 3];
+          });
+    table.add("material", 1, [&](const Index p, const Index, const Index) {
+      return static_cast<double>(on.triangles.material[p / 3]);
+    });
+    reliability_output.write_fields(number, table);
+  }
+} // namespace geocone::GEOCONE_DIM

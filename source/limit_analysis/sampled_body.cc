@@ -1,0 +1,178 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/limit_analysis/sampled_body.h>
+
+#include <cmath>
+#include <utility>
+
+namespace geocone::GEOCONE_DIM
+{
+  using Eigen::VectorXd;
+
+  namespace
+  {
+    constexpr std::size_t most_mechanisms = 100;
+
+    double
+    factor_at(const std::vector<double> &factors, const unsigned int cell)
+    {
+      return factors.empty() ? 1. : factors[cell];
+    }
+
+    /** Multiplies cohesion and tan(phi) of a cone. */
+    PointCone
+    multiplied(PointCone cone, const double cohesion, const double tan_phi)
+    {
+      const double before = std::sqrt(1. - cone.a * cone.a),
+                   slope  = tan_phi * cone.a / before,
+                   after  = 1. / std::sqrt(1. + slope * slope);
+      cone.a              = slope * after;
+      cone.k *= cohesion * after / before;
+      return cone;
+    }
+  } // namespace
+
+  SampledBody::SampledBody(BoundScene mean_, std::vector<unsigned int> parent_)
+    : mean(std::move(mean_))
+    , parent(std::move(parent_))
+  {
+    for (const auto &[side, kind] :
+         {std::pair<Side &, BoundSide>(above, BoundSide::upper),
+          {below, BoundSide::lower}})
+      {
+        side.problem =
+          kind == BoundSide::upper ? upper_problem(mean) : lower_problem(mean);
+        side.other_loads = side.problem.live;
+        for (unsigned int c = 0; c < parent.size(); ++c)
+          add_force_of_cell(
+            mean, kind, c, -weight_of_cell(mean, c), side.other_loads);
+      }
+  }
+
+  BoundProblem
+  SampledBody::of_sample(const Side          &side,
+                         const BoundSide      kind,
+                         const RandomFactors &factors) const
+  {
+    BoundProblem problem = side.problem;
+    for (unsigned int p = 0; p < 3 * problem.n_triangles; ++p)
+      if (!problem.B.is_removed(p))
+        problem.cone[p] = multiplied(problem.cone[p],
+                                     factor_at(factors.cohesion, parent[p / 3]),
+                                     factor_at(factors.tan_phi, parent[p / 3]));
+    if (factors.unit_weight.empty())
+      return problem;
+    problem.live = side.other_loads;
+    for (unsigned int c = 0; c < parent.size(); ++c)
+      add_force_of_cell(mean,
+                        kind,
+                        c,
+                        factors.unit_weight[parent[c]] *
+                          weight_of_cell(mean, c),
+                        problem.live);
+    return problem;
+  }
+
+  SampledBody::Mechanism
+  SampledBody::mechanism_of(const VectorXd &q, const std::size_t n) const
+  {
+    const BoundProblem &problem = above.problem;
+    Mechanism           mechanism;
+    mechanism.dissipation.assign(n, 0.);
+    mechanism.weight.assign(n, 0.);
+    const auto rates = problem.B.rates(q);
+    for (unsigned int p = 0; p < problem.n_points(); ++p)
+      {
+        const double power =
+          problem.volume[p] * dissipation(problem.cone[p], rates[p]);
+        const unsigned int c = p / 3;
+        (c < parent.size() ? mechanism.dissipation[parent[c]]
+                           : mechanism.other_dissipation) += power;
+      }
+    mechanism.other_loads = above.other_loads.dot(q);
+    // A unit force in one cell changes few entries.
+    const Triangles   &triangles = mean.triangles;
+    const unsigned int first     = dim * triangles.vertices.size();
+    for (unsigned int c = 0; c < parent.size(); ++c)
+      {
+        const dealii::Tensor<1, dim> weight = weight_of_cell(mean, c);
+        const double                 area =
+          triangles.area(c) / (mean.units.length * mean.units.length);
+        for (const unsigned int edge : triangles.edges_of_cell[c])
+          for (unsigned int d = 0; d < dim; ++d)
+            mechanism.weight[parent[c]] +=
+              weight[d] * area / 3. * q[first + dim * edge + d];
+      }
+    return mechanism;
+  }
+
+  double
+  SampledBody::bound_by(const Mechanism     &mechanism,
+                        const RandomFactors &factors)
+  {
+    double dissipated = mechanism.other_dissipation,
+           work       = mechanism.other_loads;
+    for (unsigned int c = 0; c < mechanism.weight.size(); ++c)
+      {
+        dissipated += factor_at(factors.cohesion, c) * mechanism.dissipation[c];
+        work += factor_at(factors.unit_weight, c) * mechanism.weight[c];
+      }
+    return work > 0. ? dissipated / work
+                     : std::numeric_limits<double>::infinity();
+  }
+
+  SampleVerdict
+  SampledBody::judge(const RandomFactors &factors, const double tolerance)
+  {
+    SampleVerdict verdict;
+    const bool    keeps_flow = factors.tan_phi.empty();
+    if (keeps_flow)
+      for (const Mechanism &mechanism : mechanisms)
+        if (const double load = bound_by(mechanism, factors); load < 1.)
+          {
+            verdict.kind  = SampleVerdict::Kind::fails;
+            verdict.upper = load;
+            return verdict;
+          }
+    const CertifiedBounds::Side lower = certified_lower(
+      mean, of_sample(below, BoundSide::lower, factors), tolerance, 1.);
+    verdict.factorisations = lower.solution.factorisations;
+    if (lower.bound.certified)
+      verdict.lower = lower.bound.load;
+    if (verdict.lower >= 1.)
+      {
+        verdict.kind = SampleVerdict::Kind::stands;
+        return verdict;
+      }
+    const CertifiedBounds::Side upper = certified_upper(
+      mean, of_sample(above, BoundSide::upper, factors), tolerance, 1.);
+    verdict.factorisations += upper.solution.factorisations;
+    if (!upper.bound.certified)
+      return verdict;
+    verdict.upper = upper.bound.load;
+    if (verdict.upper < 1.)
+      verdict.kind = SampleVerdict::Kind::fails;
+    if (keeps_flow)
+      {
+        const std::size_t n = parent.back() + 1;
+        if (mechanisms.size() < most_mechanisms)
+          mechanisms.push_back(mechanism_of(upper.bound.q, n));
+        else
+          mechanisms[oldest++ % most_mechanisms] =
+            mechanism_of(upper.bound.q, n);
+      }
+    return verdict;
+  }
+
+  VectorXd
+  SampledBody::velocities(const RandomFactors &factors,
+                          const double         tolerance) const
+  {
+    return certified_upper(mean,
+                           of_sample(above, BoundSide::upper, factors),
+                           tolerance,
+                           std::numeric_limits<double>::quiet_NaN())
+      .bound.q;
+  }
+} // namespace geocone::GEOCONE_DIM
