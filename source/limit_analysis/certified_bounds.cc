@@ -99,6 +99,29 @@ namespace geocone::GEOCONE_DIM
     return side;
   }
 
+  std::vector<double>
+  uneven_gap(const BoundScene            &bound,
+             const std::vector<double>   &gap,
+             const CertifiedBounds::Side &lower)
+  {
+    std::vector<double> uneven = gap;
+    // Marks stresses at yield away from the upper bound's mechanism.
+    std::vector<double> power      = lower.power;
+    double              sum_of_gap = 0., sum_of_power = 0.;
+    for (unsigned int c = 0; c < power.size(); ++c)
+      {
+        power[c] *= std::sqrt(bound.triangles.area(c));
+        sum_of_gap += std::max(gap[c], 0.);
+        sum_of_power += power[c];
+      }
+    constexpr double part = 0.3;
+    if (std::isfinite(sum_of_power) && sum_of_power > 0.)
+      for (unsigned int c = 0; c < power.size(); ++c)
+        uneven[c] = std::max(gap[c], 0.) +
+                    part * sum_of_gap / sum_of_power * power[c];
+    return uneven;
+  }
+
   CertifiedBounds
   certified_bounds(const BoundScene &bound, const double tolerance)
   {
@@ -108,21 +131,7 @@ namespace geocone::GEOCONE_DIM
     bounds.lower             = certified_lower(bound, tolerance);
 
     bounds.gap    = gap_of_cells(above, bounds.upper.bound, bounds.lower.bound);
-    bounds.uneven = bounds.gap;
-    // Marks stresses at yield away from the upper bound's mechanism.
-    std::vector<double> power      = bounds.lower.power;
-    double              sum_of_gap = 0., sum_of_power = 0.;
-    for (unsigned int c = 0; c < power.size(); ++c)
-      {
-        power[c] *= std::sqrt(bound.triangles.area(c));
-        sum_of_gap += std::max(bounds.gap[c], 0.);
-        sum_of_power += power[c];
-      }
-    constexpr double part = 0.3;
-    if (std::isfinite(sum_of_power) && sum_of_power > 0.)
-      for (unsigned int c = 0; c < power.size(); ++c)
-        bounds.uneven[c] = std::max(bounds.gap[c], 0.) +
-                           part * sum_of_gap / sum_of_power * power[c];
+    bounds.uneven = uneven_gap(bound, bounds.gap, bounds.lower);
     const double work =
       above.has_factor() ? above.live.dot(bounds.upper.bound.q) : 1.;
     bounds.gap_share =

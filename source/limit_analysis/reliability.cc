@@ -14,7 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <numeric>
 
 namespace geocone::GEOCONE_DIM
 {
@@ -27,47 +27,28 @@ namespace geocone::GEOCONE_DIM
     /** Samples of a step, on any number of ranks. */
     constexpr unsigned int batch = 16;
 
-    /** Mesh with each triangle divided into four, numbered 4 c to 4 c + 3. */
-    CoarseMesh
-    divided(const CoarseMesh &mesh)
+    constexpr std::size_t most_mechanisms = 100;
+
+    /** Marks the triangles with most of a refinement indicator, a third at most. */
+    std::vector<bool>
+    largest(const std::vector<double> &indicator)
     {
-      CoarseMesh next;
-      next.points = mesh.points;
-      next.sides  = mesh.sides;
-      std::map<std::array<unsigned int, 2>, unsigned int> middles;
-      const auto middle = [&](const unsigned int a, const unsigned int b) {
-        const auto [entry, is_new] = middles.emplace(
-          std::array<unsigned int, 2>{{std::min(a, b), std::max(a, b)}},
-          next.points.size());
-        if (is_new)
-          next.points.push_back(
-            dealii::Point<dim>((mesh.points[a] + mesh.points[b]) / 2.));
-        return entry->second;
-      };
-      for (const auto &cell : mesh.cells)
+      constexpr double          part = 0.8;
+      std::vector<unsigned int> order(indicator.size());
+      std::iota(order.begin(), order.end(), 0U);
+      std::sort(order.begin(), order.end(), [&](const auto a, const auto b) {
+        return indicator[a] > indicator[b];
+      });
+      const double total =
+        std::accumulate(indicator.begin(), indicator.end(), 0.);
+      std::vector<bool> marked(indicator.size(), false);
+      double            sum = 0.;
+      for (std::size_t i = 0; i <= order.size() / 3 && sum <= part * total; ++i)
         {
-          const unsigned int a = cell.vertices[0], b = cell.vertices[1],
-                             c = cell.vertices[2], ab = middle(a, b),
-                             bc = middle(b, c), ca = middle(c, a);
-          for (const auto &child : {std::array<unsigned int, 3>{{a, ab, ca}},
-                                    {{ab, b, bc}},
-                                    {{ca, bc, c}},
-                                    {{ab, bc, ca}}})
-            {
-              dealii::CellData<dim> part(3);
-              part.vertices.assign(child.begin(), child.end());
-              part.material_id = cell.material_id;
-              next.cells.push_back(part);
-            }
+          marked[order[i]] = true;
+          sum += indicator[order[i]];
         }
-      for (const auto &line : mesh.boundary.boundary_lines)
-        {
-          const unsigned int m = middle(line.vertices[0], line.vertices[1]);
-          for (const unsigned int end : line.vertices)
-            next.add_boundary({{std::min(end, m), std::max(end, m)}},
-                              line.boundary_id);
-        }
-      return next;
+      return marked;
     }
   } // namespace
 
@@ -182,8 +163,8 @@ namespace geocone::GEOCONE_DIM
                        "quadrilaterals",
                        "triangles with " + where(),
                        "set Mesh/Cells = triangles");
-    finest = fitted_mesh(mesh_parameters, scene, comm);
-    const Triangles triangles(finest);
+    first_mesh.emplace(fitted_mesh(mesh_parameters, scene, comm));
+    const Triangles triangles(first_mesh->mesh);
     bounded_load.prepare_reduction(scene, triangles, kind_word());
     fields.prepare(scene);
     fields.prepare_on(triangles);
@@ -191,12 +172,14 @@ namespace geocone::GEOCONE_DIM
                 triangles.cells.size(),
                 format("; %u samples", n_samples),
                 dealii::BoundingBox<dim>(triangles.vertices));
-    if (!level(0))
+    if (triangles.cells.size() > most_cells)
       throw InputError("Analysis/Maximum cells",
                        most_cells,
                        format("%zu at least, the triangles of the mesh",
                               triangles.cells.size()),
                        "raise it, or take larger cells");
+    first = std::make_unique<Body>(
+      scene, bounded_load, *first_mesh, triangles.cells.size());
     std::vector<std::string> warnings;
     if (bounded_load.non_associated())
       warnings.push_back("flow is taken as associated: with less dilatancy a "
@@ -216,32 +199,54 @@ namespace geocone::GEOCONE_DIM
     return name + format(": probability of failure by %u samples on %zu "
                          "triangles, with up to %u random numbers each",
                          n_samples,
-                         levels.front()->triangles.cells.size(),
+                         first->triangles.cells.size(),
                          fields.most_numbers());
   }
 
   Json
   Reliability::model()
   {
-    return model_of(scene, model_mesh_of(levels.front()->triangles));
+    return model_of(scene, model_mesh_of(first->triangles));
   }
 
-  Reliability::Level *
-  Reliability::level(const unsigned int number)
+  bool
+  Reliability::fails_by_earlier(const RandomFactors &factors,
+                                SampleRecord        &record) const
   {
-    if (number < levels.size())
-      return levels[number].get();
-    const std::size_t n_cells = (number == 0 ? 1 : 4) * finest.cells.size();
-    if (number >= most_levels || n_cells > most_cells)
-      return nullptr;
-    if (number > 0)
-      finest = divided(finest);
-    std::vector<unsigned int> parent(n_cells);
-    for (unsigned int c = 0; c < n_cells; ++c)
-      parent[c] = c >> (2 * number);
-    levels.push_back(
-      std::make_unique<Level>(scene, bounded_load, Triangles(finest), parent));
-    return levels.back().get();
+    for (const Mechanism &mechanism : mechanisms)
+      if (const double load = mechanism.bound(factors); load < 1.)
+        {
+          record.verdict = static_cast<int>(SampleVerdict::Kind::fails);
+          record.upper   = load;
+          return true;
+        }
+    return false;
+  }
+
+  std::optional<NestedMesh>
+  Reliability::solve_on(const Body          &body,
+                        const NestedMesh    &nested,
+                        const RandomFactors &factors,
+                        SampleRecord        &record)
+  {
+    SampleVerdict verdict = body.sampled.judge(factors, inner_tolerance());
+    record.factorisations += verdict.factorisations;
+    record.cells = body.triangles.cells.size();
+    // Bounds of all meshes are valid.
+    record.lower   = std::fmax(record.lower, verdict.lower);
+    record.upper   = std::fmin(record.upper, verdict.upper);
+    record.verdict = static_cast<int>(verdict.kind);
+    if (verdict.kind == SampleVerdict::Kind::fails && verdict.mechanism)
+      {
+        if (mechanisms.size() < most_mechanisms)
+          mechanisms.push_back(std::move(*verdict.mechanism));
+        else
+          mechanisms[oldest++ % most_mechanisms] =
+            std::move(*verdict.mechanism);
+      }
+    if (verdict.uneven.empty())
+      return std::nullopt;
+    return bisected(nested, largest(verdict.uneven));
   }
 
   SampleRecord
@@ -251,18 +256,18 @@ namespace geocone::GEOCONE_DIM
     const RandomFactors factors = fields.sample(number);
     SampleRecord        record;
     record.number = number;
-    for (unsigned int l = 0; Level *const on = level(l); ++l)
+    record.cells  = first->triangles.cells.size();
+    if (!fails_by_earlier(factors, record))
       {
-        const SampleVerdict verdict =
-          on->body.judge(factors, inner_tolerance());
-        record.factorisations += verdict.factorisations;
-        record.cells = on->triangles.cells.size();
-        // Bounds of all meshes are valid.
-        record.lower   = std::fmax(record.lower, verdict.lower);
-        record.upper   = std::fmin(record.upper, verdict.upper);
-        record.verdict = static_cast<int>(verdict.kind);
-        if (record.verdict != 0)
-          break;
+        auto nested = solve_on(*first, *first_mesh, factors, record);
+        for (unsigned int l = 1; l < most_levels && nested &&
+                                 nested->mesh.cells.size() <= most_cells;
+             ++l)
+          nested = solve_on(
+            Body(scene, bounded_load, *nested, first->triangles.cells.size()),
+            *nested,
+            factors,
+            record);
       }
     record.cpu_seconds = time.cpu_time();
     return record;
@@ -326,12 +331,12 @@ namespace geocone::GEOCONE_DIM
     for (const SampleRecord &record : records)
       {
         finest = std::max(finest, record.cells);
-        refined += record.cells > levels.front()->triangles.cells.size();
+        refined += record.cells > first->triangles.cells.size();
         cpu += record.cpu_seconds;
       }
     Json json;
     json["size"]        = {{"method", kind_word()},
-                           {"cells", levels.front()->triangles.cells.size()},
+                           {"cells", first->triangles.cells.size()},
                            {"cells_finest", finest}};
     json["reliability"] = {
       {"samples", found.n_samples},
@@ -382,14 +387,14 @@ namespace geocone::GEOCONE_DIM
   void
   Reliability::write_sample(const unsigned int number)
   {
-    const Level        &on      = *levels.front();
+    const Body         &on      = *first;
     const RandomFactors factors = fields.sample(number);
     const bool is_first = dealii::Utilities::MPI::this_mpi_process(comm) == 0;
     Eigen::VectorXd q;
     try
       {
         if (is_first)
-          q = on.body.velocities(factors, inner_tolerance());
+          q = on.sampled.velocities(factors, inner_tolerance());
       }
     catch (const Stopped &)
       {} // all ranks are together here

@@ -12,8 +12,6 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    constexpr std::size_t most_mechanisms = 100;
-
     double
     factor_at(const std::vector<double> &factors, const unsigned int cell)
     {
@@ -33,9 +31,12 @@ namespace geocone::GEOCONE_DIM
     }
   } // namespace
 
-  SampledBody::SampledBody(BoundScene mean_, std::vector<unsigned int> parent_)
+  SampledBody::SampledBody(BoundScene                mean_,
+                           std::vector<unsigned int> parent_,
+                           const unsigned int        n_first)
     : mean(std::move(mean_))
     , parent(std::move(parent_))
+    , n_first(n_first)
   {
     for (const auto &[side, kind] :
          {std::pair<Side &, BoundSide>(above, BoundSide::upper),
@@ -74,13 +75,13 @@ namespace geocone::GEOCONE_DIM
     return problem;
   }
 
-  SampledBody::Mechanism
-  SampledBody::mechanism_of(const VectorXd &q, const std::size_t n) const
+  Mechanism
+  SampledBody::mechanism_of(const VectorXd &q) const
   {
     const BoundProblem &problem = above.problem;
     Mechanism           mechanism;
-    mechanism.dissipation.assign(n, 0.);
-    mechanism.weight.assign(n, 0.);
+    mechanism.dissipation.assign(n_first, 0.);
+    mechanism.weight.assign(n_first, 0.);
     const auto rates = problem.B.rates(q);
     for (unsigned int p = 0; p < problem.n_points(); ++p)
       {
@@ -108,33 +109,23 @@ namespace geocone::GEOCONE_DIM
   }
 
   double
-  SampledBody::bound_by(const Mechanism     &mechanism,
-                        const RandomFactors &factors)
+  Mechanism::bound(const RandomFactors &factors) const
   {
-    double dissipated = mechanism.other_dissipation,
-           work       = mechanism.other_loads;
-    for (unsigned int c = 0; c < mechanism.weight.size(); ++c)
+    double dissipated = other_dissipation, work = other_loads;
+    for (unsigned int c = 0; c < weight.size(); ++c)
       {
-        dissipated += factor_at(factors.cohesion, c) * mechanism.dissipation[c];
-        work += factor_at(factors.unit_weight, c) * mechanism.weight[c];
+        dissipated += factor_at(factors.cohesion, c) * dissipation[c];
+        work += factor_at(factors.unit_weight, c) * weight[c];
       }
     return work > 0. ? dissipated / work
                      : std::numeric_limits<double>::infinity();
   }
 
   SampleVerdict
-  SampledBody::judge(const RandomFactors &factors, const double tolerance)
+  SampledBody::judge(const RandomFactors &factors, const double tolerance) const
   {
-    SampleVerdict verdict;
-    const bool    keeps_flow = factors.tan_phi.empty();
-    if (keeps_flow)
-      for (const Mechanism &mechanism : mechanisms)
-        if (const double load = bound_by(mechanism, factors); load < 1.)
-          {
-            verdict.kind  = SampleVerdict::Kind::fails;
-            verdict.upper = load;
-            return verdict;
-          }
+    using Kind = SampleVerdict::Kind;
+    SampleVerdict               verdict;
     const CertifiedBounds::Side lower = certified_lower(
       mean, of_sample(below, BoundSide::lower, factors), tolerance, 1.);
     verdict.factorisations = lower.solution.factorisations;
@@ -142,26 +133,24 @@ namespace geocone::GEOCONE_DIM
       verdict.lower = lower.bound.load;
     if (verdict.lower >= 1.)
       {
-        verdict.kind = SampleVerdict::Kind::stands;
+        verdict.kind = Kind::stands;
         return verdict;
       }
-    const CertifiedBounds::Side upper = certified_upper(
-      mean, of_sample(above, BoundSide::upper, factors), tolerance, 1.);
+    const BoundProblem problem = of_sample(above, BoundSide::upper, factors);
+    const CertifiedBounds::Side upper =
+      certified_upper(mean, problem, tolerance, 1.);
     verdict.factorisations += upper.solution.factorisations;
-    if (!upper.bound.certified)
-      return verdict;
-    verdict.upper = upper.bound.load;
-    if (verdict.upper < 1.)
-      verdict.kind = SampleVerdict::Kind::fails;
-    if (keeps_flow)
+    if (upper.bound.certified)
       {
-        const std::size_t n = parent.back() + 1;
-        if (mechanisms.size() < most_mechanisms)
-          mechanisms.push_back(mechanism_of(upper.bound.q, n));
-        else
-          mechanisms[oldest++ % most_mechanisms] =
-            mechanism_of(upper.bound.q, n);
+        verdict.upper = upper.bound.load;
+        if (factors.tan_phi.empty())
+          verdict.mechanism = mechanism_of(upper.bound.q);
       }
+    if (verdict.upper < 1.)
+      verdict.kind = Kind::fails;
+    else
+      verdict.uneven = uneven_gap(
+        mean, gap_of_cells(problem, upper.bound, lower.bound), lower);
     return verdict;
   }
 

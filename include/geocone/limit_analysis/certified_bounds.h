@@ -76,6 +76,14 @@ namespace geocone::GEOCONE_DIM
   CertifiedBounds
   certified_bounds(const BoundScene &bound, const double tolerance);
 
+  /** Returns CertifiedBounds::uneven, the refinement indicator of each triangle.
+   *  @param gap contribution of each triangle to the gap
+   *  @param lower solution of the lower bound */
+  std::vector<double>
+  uneven_gap(const BoundScene            &bound,
+             const std::vector<double>   &gap,
+             const CertifiedBounds::Side &lower);
+
   /** Computes Davis's estimate of the load for non-associated flow, in the unit of the
    *  load. It consists of both bounds for Davis's equivalent material on a mesh
    *  (doc/theory/limit_analysis.md). */

@@ -77,6 +77,7 @@ namespace geocone::GEOCONE_DIM
            const bool                                   has_weight);
 
     /** Selects weight and tractions as the loads for strength reduction.
+     *  @param kind of analysis, for messages
      *  @throws InputError if a velocity is prescribed that is not zero */
     void
     choose_all(const bool has_velocity, const std::string &kind);

@@ -6,12 +6,14 @@
 
 #include <geocone/limit_analysis/bound_analysis.h>
 #include <geocone/limit_analysis/sampled_body.h>
+#include <geocone/mesh/bisected.h>
 #include <geocone/mesh/triangles.h>
 #include <geocone/output/field_files.h>
 
 #include <array>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -72,8 +74,8 @@ namespace geocone::GEOCONE_DIM
   /**
    * Probability that a body fails under its loads, by samples of random fields. A sample
    * counts as failed (standing) only if an upper (lower) bound certifies it on the first
-   * mesh or on finer ones, which divide each triangle into four and keep the sample's
-   * strengths; the others are undecided. Samples are shared by the ranks; a step of the
+   * mesh or on finer ones, which divide triangles where the bounds differ and keep the
+   * sample's strengths; the others are undecided. Samples are shared by the ranks; a step of the
    * run is a batch of them.
    */
   class Reliability : public BoundAnalysis
@@ -141,24 +143,32 @@ namespace geocone::GEOCONE_DIM
       return {}; // samples have no common load
     }
 
-    /** Mesh of a level with the body on it. */
-    struct Level
+    /** A mesh with the body on it. */
+    struct Body
     {
-      Level(const Scene                     &scene,
-            const BoundedLoad               &load,
-            const Triangles                 &mesh,
-            const std::vector<unsigned int> &parent)
-        : triangles(mesh)
-        , body(load.on(scene, triangles), parent)
+      Body(const Scene       &scene,
+           const BoundedLoad &load,
+           const NestedMesh  &nested,
+           const unsigned int n_first)
+        : triangles(nested.mesh)
+        , sampled(load.on(scene, triangles), nested.parent, n_first)
       {}
 
-      const Triangles triangles;
-      SampledBody     body;
+      const Triangles   triangles;
+      const SampledBody sampled;
     };
 
-    /** Returns a level, created if it is new; null beyond the last one. */
-    Level *
-    level(const unsigned int number);
+    /** Whether a mechanism of an earlier sample decides this one. */
+    bool
+    fails_by_earlier(const RandomFactors &factors, SampleRecord &record) const;
+
+    /** Solves a sample on the mesh. @return the next mesh, if the sample is undecided and
+     *  may be refined */
+    std::optional<NestedMesh>
+    solve_on(const Body          &body,
+             const NestedMesh    &nested,
+             const RandomFactors &factors,
+             SampleRecord        &record);
 
     /** Solves a sample on as many levels as it needs. */
     SampleRecord
@@ -182,8 +192,11 @@ namespace geocone::GEOCONE_DIM
     unsigned int n_samples  = 1000;
     double       confidence = 0.95;
 
-    CoarseMesh                          finest; ///< of the levels so far
-    std::vector<std::unique_ptr<Level>> levels;
+    std::optional<NestedMesh> first_mesh;
+    std::unique_ptr<Body>     first;
+
+    std::vector<Mechanism> mechanisms; ///< latest ones of this rank
+    std::size_t            oldest = 0; ///< of them, to be replaced next
   };
 } // namespace geocone::GEOCONE_DIM
 

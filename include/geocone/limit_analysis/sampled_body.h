@@ -8,10 +8,23 @@
 #include <geocone/limit_analysis/random_fields.h>
 
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace geocone::GEOCONE_DIM
 {
+  /** Power of a mechanism for unit factors, by triangle of the first mesh. Unless friction
+   *  varies, it is admissible in all samples, and its bound needs no solution. */
+  struct Mechanism
+  {
+    std::vector<double> dissipation, weight;
+    double              other_dissipation = 0., other_loads = 0.;
+
+    /** Upper bound of a sample's load factor; infinite if its loads do no work. */
+    double
+    bound(const RandomFactors &factors) const;
+  };
+
   /** Certified answer to whether a sample of a body carries its loads. */
   struct SampleVerdict
   {
@@ -27,45 +40,41 @@ namespace geocone::GEOCONE_DIM
     double lower = std::numeric_limits<double>::quiet_NaN(), upper = lower;
 
     unsigned int factorisations = 0;
+
+    /** Mechanism of the upper bound, if it is certified. */
+    std::optional<Mechanism> mechanism;
+
+    /** Refinement indicator of an undecided sample (CertifiedBounds::uneven). */
+    std::vector<double> uneven;
   };
 
   /**
    * A body with constant multiples of the strengths and unit weights in each triangle.
-   * The problems are those of the mean but for cones and weights. A mechanism of one
-   * sample is admissible in all others unless friction varies, and its bound, a ratio of
-   * sums over the triangles, needs no solution: such mechanisms are tried first.
+   * The problems are those of the mean but for cones and weights.
    */
   class SampledBody
   {
   public:
     /** @param mean the body with its mean strengths; its mesh must outlive this
-     *  @param parent triangle of the first mesh that contains each triangle */
-    SampledBody(BoundScene mean, std::vector<unsigned int> parent);
+     *  @param parent triangle of the first mesh that contains each triangle
+     *  @param n_first number of triangles of the first mesh */
+    SampledBody(BoundScene                mean,
+                std::vector<unsigned int> parent,
+                const unsigned int        n_first);
 
     /** Compares both bounds of the load factor with 1.
      *  @param factors of the triangles of the first mesh
      *  @param tolerance of the interior-point method */
     SampleVerdict
-    judge(const RandomFactors &factors, const double tolerance);
+    judge(const RandomFactors &factors, const double tolerance) const;
 
     /** Velocities of the best upper bound of a sample, in all dofs. */
     Eigen::VectorXd
     velocities(const RandomFactors &factors, const double tolerance) const;
 
   private:
-    /** Power of a mechanism for unit factors, by triangle of the first mesh. */
-    struct Mechanism
-    {
-      std::vector<double> dissipation, weight;
-      double              other_dissipation = 0., other_loads = 0.;
-    };
-
     Mechanism
-    mechanism_of(const Eigen::VectorXd &q, const std::size_t n) const;
-
-    /** Upper bound of a sample by a mechanism; infinite if its loads do no work. */
-    static double
-    bound_by(const Mechanism &mechanism, const RandomFactors &factors);
+    mechanism_of(const Eigen::VectorXd &q) const;
 
     /** A problem of the mean, and its loads other than weight. */
     struct Side
@@ -82,9 +91,8 @@ namespace geocone::GEOCONE_DIM
 
     BoundScene                mean;
     std::vector<unsigned int> parent;
+    const unsigned int        n_first;
     Side                      above, below;
-    std::vector<Mechanism>    mechanisms; ///< latest ones
-    std::size_t               oldest = 0; ///< to be replaced next
   };
 } // namespace geocone::GEOCONE_DIM
 
