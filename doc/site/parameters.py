@@ -12,7 +12,9 @@ from pathlib import Path
 
 # Pages with the theory and with examples of a section, below doc/.
 SEE = {
-    "Analysis": ["theory/limit_analysis", "cookbook/limit_load", "cookbook/safety"],
+    "Analysis": ["theory/limit_analysis", "cookbook/limit_load", "cookbook/safety",
+                 "cookbook/reliability"],
+    "Random fields": ["theory/limit_analysis", "cookbook/reliability"],
     "Discretisation": ["theory/finite_elements", "theory/locking", "theory/material_points",
                        "comparison"],
     "Geometry": ["your_own_scene", "cookbook/round_bodies", "cookbook/three_dimensions"],
