@@ -15,7 +15,7 @@ import numpy as np
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "python"))
 import geocone  # noqa: E402
-from geocone import reader, style  # noqa: E402
+from geocone import style  # noqa: E402
 from matplotlib.figure import Figure  # noqa: E402
 from matplotlib.tri import Triangulation  # noqa: E402
 
@@ -54,7 +54,7 @@ def draw_sample(axes, run):
 
 def main(folder):
     run = geocone.read(folder)
-    table = reader.read_table(pathlib.Path(folder) / "samples.csv")
+    table = run.table("samples")
     figure = Figure(figsize=(11., 3.6), layout="constrained")
     left, right = figure.subplots(1, 2, width_ratios=(1., 1.6))
     draw_interval(left, run, table)

@@ -152,7 +152,7 @@ namespace geocone::GEOCONE_DIM
         "Analysis/Confidence", confidence, "> 0, < 1", "0.95 is usual");
     prepare_scene(options);
     if (scene.water.acts())
-      throw InputError("Water/Level",
+      throw InputError("Water/Table",
                        "set",
                        "none with " + where(),
                        "give undrained strengths and total unit weights");
