@@ -15,7 +15,7 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** A property of a material that a random field multiplies. */
+  /** Material property that is multiplied by a random field. */
   enum class RandomProperty
   {
     cohesion,
@@ -23,7 +23,8 @@ namespace geocone::GEOCONE_DIM
     unit_weight
   };
 
-  /** Multiples of the properties of each triangle of a mesh; empty: 1. */
+  /** Factors by which the material properties of each triangle of a mesh are
+   *  multiplied. An empty array means that all factors are 1. */
   struct RandomFactors
   {
     std::vector<double> cohesion, tan_phi, unit_weight;
@@ -38,35 +39,40 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Random field that multiplies a property of a material: a function of a standard
-   * normal field, which is sampled at the centres of the triangles of a mesh (midpoint
-   * method, Der Kiureghian and Ke 1988) and constant in each.
+   * Random field by which a property of a material is multiplied. It is a
+   * function of a standard normal field. The field is sampled at the centres of
+   * the triangles of a mesh and is constant in each triangle (midpoint method,
+   * Der Kiureghian and Ke 1988).
    */
   class RandomField : public dealii::ParameterAcceptor
   {
   public:
     explicit RandomField(const std::string &name);
 
-    /** Checks the parameters. @throws InputError */
+    /** Checks the parameters of the random field. @throws InputError */
     void
     prepare(const Scene &scene);
 
-    /** Factorises the covariance at the centres of the triangles of its material.
-     *  @throws InputError for more triangles than a dense matrix may have */
+    /** Factorises the covariance matrix of the field values at the centres of the
+     *  material's triangles.
+     *  @throws InputError if there are too many triangles for a dense matrix */
     void
     prepare_on(const Triangles &triangles);
 
-    /** Sets the factors of the triangles of the material in a sample.
+    /** Generates a sample of the random field: sets the factor of each triangle
+     *  of the material.
      *  @param key identifies the sample */
     void
     sample(const std::vector<std::uint32_t> &key,
            std::vector<double>              &factors) const;
 
-    /** Covariance of the standard normal field at a distance. */
+    /** Covariance of the standard normal field at two points a given distance
+     *  apart. */
     double
     covariance(const dealii::Tensor<1, dim> &distance) const;
 
-    /** Factor for a value of the standard normal field. */
+    /** Factor of the material property for a value z of the standard normal
+     *  field. */
     double
     factor(const double z) const;
 
@@ -86,14 +92,14 @@ namespace geocone::GEOCONE_DIM
       return chosen;
     }
 
-    /** Number of independent normal numbers of a sample. */
+    /** Number of independent standard normal numbers required for a sample. */
     unsigned int
     rank() const
     {
       return root.cols();
     }
 
-    /** Property as a word of the parameter. */
+    /** Name of the material property in the parameter file. */
     std::string
     property_word() const
     {
@@ -132,24 +138,26 @@ namespace geocone::GEOCONE_DIM
     Eigen::MatrixXd           root;  ///< covariance = root root'
   };
 
-  /** The random fields of a reliability analysis. */
+  /** All random fields of a reliability analysis. */
   class RandomFields : public NamedList<RandomField>
   {
   public:
     explicit RandomFields(const ParameterFile &file);
 
-    /** Checks all parameters. @throws InputError */
+    /** Checks the parameters of all random fields. @throws InputError */
     void
     prepare(const Scene &scene);
 
     void
     prepare_on(const Triangles &triangles);
 
-    /** Factors of a sample. @param number of the sample, from 1 */
+    /** Factors of the material properties in a sample. @param number of the
+     *  sample, from 1 */
     RandomFactors
     sample(const unsigned int number) const;
 
-    /** Largest number of random numbers of a field in a sample. */
+    /** Largest number of random numbers that any field requires for a
+     *  sample. */
     unsigned int
     most_numbers() const;
 

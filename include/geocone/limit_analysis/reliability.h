@@ -25,7 +25,8 @@ namespace geocone::GEOCONE_DIM
     unsigned int number  = 0; ///< from 1
     int          verdict = 0; ///< SampleVerdict::Kind
 
-    /** Bounds of the load factor; NaN: not certified, or not needed. */
+    /** Bounds on the load factor; NaN if a bound is not certified or was not
+     *  needed. */
     double lower = std::numeric_limits<double>::quiet_NaN(), upper = lower;
 
     unsigned int cells = 0, factorisations = 0;
@@ -38,20 +39,22 @@ namespace geocone::GEOCONE_DIM
     }
   };
 
-  /** Probability of failure by counts of samples. */
+  /** Probability of failure, estimated from the numbers of failed and undecided
+   *  samples. */
   struct FailureProbability
   {
     unsigned int          n_samples = 0, n_failed = 0, n_undecided = 0;
     double                lower = 0., upper = 1.; ///< of these samples
     std::array<double, 2> limits = {{0., 1.}};    ///< of all samples
 
-    /** @param confidence that the limits include the probability at least with */
+    /** @param confidence least probability with which the limits include the
+     *  probability of failure */
     FailureProbability(const std::vector<SampleRecord> &samples,
                        const double                     confidence);
   };
 
-  /** Output of a reliability analysis: samples.csv with a line per sample, the fields of
-   *  one sample, and the summary. */
+  /** Output of a reliability analysis: samples.csv with one line per sample,
+   *  the field files of a selected sample, and the summary. */
   class ReliabilityOutput : public TableOutput<SampleRecord>
   {
   public:
@@ -60,7 +63,8 @@ namespace geocone::GEOCONE_DIM
     void
     prepare(const RunOptions &options);
 
-    /** Writes the fields of a sample, if they are wanted. Collective. */
+    /** Writes the field file of a sample if field output is enabled.
+     *  Collective. */
     void
     write_fields(const double number, const FieldTable &table);
 
@@ -72,11 +76,13 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Probability that a body fails under its loads, by samples of random fields. A sample
-   * counts as failed (standing) only if an upper (lower) bound certifies it on the first
-   * mesh or on finer ones, which divide triangles where the bounds differ and keep the
-   * sample's strengths; the others are undecided. Samples are shared by the ranks; a step of the
-   * run is a batch of them.
+   * Reliability analysis: probability that a body fails under its loads,
+   * estimated from samples of random fields. A sample is classified as failed
+   * (stable) only if this is certified by an upper (lower) bound; otherwise it
+   * is undecided. The bounds are computed on the first mesh and on finer meshes
+   * with the same strengths. Triangles are refined where the bounds differ. The
+   * samples are distributed over the ranks; each step of the run is a batch of
+   * samples.
    */
   class Reliability : public BoundAnalysis
   {
@@ -143,7 +149,8 @@ namespace geocone::GEOCONE_DIM
       return {}; // samples have no common load
     }
 
-    /** A mesh with the body on it. */
+    /** Mesh of the body, with the limit analysis problems of the samples on
+     *  this mesh. */
     struct Body
     {
       Body(const Scene       &scene,
@@ -158,24 +165,26 @@ namespace geocone::GEOCONE_DIM
       const SampledBody sampled;
     };
 
-    /** Whether a mechanism of an earlier sample decides this one. */
+    /** Returns true if a failure mechanism of an earlier sample proves that the
+     *  present sample fails. */
     bool
     fails_by_earlier(const RandomFactors &factors, SampleRecord &record) const;
 
-    /** Solves a sample on the mesh. @return the next mesh, if the sample is undecided and
-     *  may be refined */
+    /** Computes the bounds for a sample on a given mesh. @return the next mesh,
+     *  if the sample is undecided and may be refined */
     std::optional<NestedMesh>
     solve_on(const Body          &body,
              const NestedMesh    &nested,
              const RandomFactors &factors,
              SampleRecord        &record);
 
-    /** Solves a sample on as many levels as it needs. */
+    /** Computes the bounds for a sample on successively refined meshes until
+     *  the sample is decided or the refinement limit is reached. */
     SampleRecord
     solve(const unsigned int number);
 
-    /** Writes the factors and the mechanism of a sample on the first mesh.
-     *  Collective. */
+    /** Writes the random factors and the failure mechanism of a sample on the
+     *  first mesh to a field file. Collective. */
     void
     write_sample(const unsigned int number);
 

@@ -13,35 +13,41 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Power of a mechanism for unit factors, by triangle of the first mesh. Unless friction
-   *  varies, it is admissible in all samples, and its bound needs no solution. */
+  /** Power of a failure mechanism in each triangle of the first mesh, for unit
+   *  factors (RandomFactors). If the friction angle is not random, the
+   *  mechanism is admissible in all samples and gives an upper bound without
+   *  solving another problem. */
   struct Mechanism
   {
     std::vector<double> dissipation, weight;
     double              other_dissipation = 0., other_loads = 0.;
 
-    /** Upper bound of a sample's load factor; infinite if its loads do no work. */
+    /** Upper bound on the load factor of a sample from this mechanism; infinite
+     *  if the loads do no positive work. */
     double
     bound(const RandomFactors &factors) const;
   };
 
-  /** Certified answer to whether a sample of a body carries its loads. */
+  /** Certified result for a sample of a body: it fails under its loads, is
+   *  stable, or is undecided. */
   struct SampleVerdict
   {
     enum class Kind
     {
-      fails     = -1, ///< its upper bound of the load factor is below 1
+      fails     = -1, ///< its upper bound on the load factor is below 1
       undecided = 0,
-      stands    = 1 ///< its lower bound of the load factor is at least 1
+      stands    = 1 ///< its lower bound on the load factor is at least 1
     };
     Kind kind = Kind::undecided;
 
-    /** Certified bounds of the load factor as far as they were needed, or NaN. */
+    /** Certified bounds on the load factor; NaN if a bound is not certified or
+     *  was not needed. */
     double lower = std::numeric_limits<double>::quiet_NaN(), upper = lower;
 
     unsigned int factorisations = 0;
 
-    /** Mechanism of the upper bound, if it is certified. */
+    /** Failure mechanism of the upper bound; empty if the bound is not
+     *  certified. */
     std::optional<Mechanism> mechanism;
 
     /** Refinement indicator of an undecided sample (CertifiedBounds::uneven). */
@@ -49,8 +55,9 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * A body with constant multiples of the strengths and unit weights in each triangle.
-   * The problems are those of the mean but for cones and weights.
+   * Body whose strength and unit weight are multiplied by a constant factor in
+   * each triangle. The upper-bound and lower-bound problems differ from those
+   * of the mean body only in the cones and the weight.
    */
   class SampledBody
   {
@@ -62,13 +69,13 @@ namespace geocone::GEOCONE_DIM
                 std::vector<unsigned int> parent,
                 const unsigned int        n_first);
 
-    /** Compares both bounds of the load factor with 1.
+    /** Compares both bounds on the load factor with 1.
      *  @param factors of the triangles of the first mesh
      *  @param tolerance of the interior-point method */
     SampleVerdict
     judge(const RandomFactors &factors, const double tolerance) const;
 
-    /** Velocities of the best upper bound of a sample, in all dofs. */
+    /** Velocities of the upper-bound solution of a sample, at all dofs. */
     Eigen::VectorXd
     velocities(const RandomFactors &factors, const double tolerance) const;
 
@@ -76,14 +83,15 @@ namespace geocone::GEOCONE_DIM
     Mechanism
     mechanism_of(const Eigen::VectorXd &q) const;
 
-    /** A problem of the mean, and its loads other than weight. */
+    /** Upper-bound or lower-bound problem of the mean body, with its loads
+     *  other than weight. */
     struct Side
     {
       BoundProblem    problem;
       Eigen::VectorXd other_loads;
     };
 
-    /** Problem of a sample. */
+    /** Upper-bound or lower-bound problem of a sample. */
     BoundProblem
     of_sample(const Side          &side,
               const BoundSide      kind,

@@ -10,26 +10,29 @@
 
 namespace geocone
 {
-  /** Standard normal distribution function. */
+  /** Cumulative distribution function of the standard normal distribution. */
   double
   normal_distribution(const double z);
 
-  /** Inverse of normal_distribution(), for 0 < p < 1. */
+  /** Quantile of the standard normal distribution for the
+   *  probability p, 0 < p < 1. */
   double
   normal_quantile(const double p);
 
   /**
-   * Limits of the probability of an event that occurred in @p events of @p trials, each
-   * exceeded with the probability (1 - confidence)/2 (Clopper and Pearson 1934): the p for
-   * which as many events or more (fewer) have this probability.
+   * Clopper-Pearson confidence limits of the probability of an event that
+   * occurred in @p events of @p trials. If the probability of the event equals
+   * the lower (upper) limit, the probability of @p events or more (fewer) is
+   * (1 - confidence)/2 (Clopper and Pearson 1934).
    */
   std::array<double, 2>
   clopper_pearson(const unsigned int events,
                   const unsigned int trials,
                   const double       confidence);
 
-  /** Standard normal numbers of a stream, the same on every machine and number of
-   *  ranks. @param key identifies the stream */
+  /** Independent standard normal numbers from a random stream. They are the
+   *  same on every machine and for any number of ranks. @param key identifies
+   *  the stream */
   std::vector<double>
   normal_numbers(const std::vector<std::uint32_t> &key, const unsigned int n);
 } // namespace geocone
