@@ -12,13 +12,16 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Fans at the vertices of the outline where prescribed tractions jump. Principal
-   * stresses turn there by a finite angle, and stresses that are linear in triangles turn
-   * from triangle to triangle only, however small they are: the number of triangles at
-   * such a vertex limits the lower bound (doc/theory/limit_analysis.md). The rays are
-   * those of the sector of the turn, at which the limit is closest to the exact load.
-   * Where less than 0.4 of what a continuous turn carries acts, there is no fan.
-   * @param load of the problem, about
+   * Returns fans of triangles (Fan) at the vertices of the outline where
+   * prescribed tractions are discontinuous. At such a vertex, the principal
+   * stresses rotate by a finite angle. Stresses that are linear in each
+   * triangle rotate only from triangle to triangle, however small the triangles
+   * are. The number of triangles at the vertex therefore limits the lower bound
+   * (doc/theory/limit_analysis.md). The rays divide the sector in which the
+   * stresses rotate, for which the limit is closest to the exact load. There is
+   * no fan if the pressure is less than 0.4 of the pressure that a continuous
+   * rotation can carry.
+   * @param load approximate load of the problem
    * @param tolerance relative error of the load that the number of rays may cause
    */
   std::vector<Fan>
@@ -27,9 +30,11 @@ namespace geocone::GEOCONE_DIM
                 const double      tolerance);
 
   /**
-   * Ratio of the pressure that n stress discontinuities carry beside a free surface to that
-   * of a continuous turn. Across each, principal stresses turn by turn/n; with
-   * sin(rho) = sin(phi) cos(turn/n), mean stresses, to which c cot(phi) is added, grow by
+   * Fraction of the exact limit pressure beside a free surface that n stress
+   * discontinuities can carry. The exact limit requires a continuous rotation
+   * of the principal stresses by the angle @p turn. Across each discontinuity,
+   * the principal stresses rotate by turn/n. With sin(rho) = sin(phi)
+   * cos(turn/n), the mean stress plus c cot(phi) increases by the factor
    * cos(turn/n - rho)/cos(turn/n + rho).
    * @param sin_phi of the soil, or 0
    */

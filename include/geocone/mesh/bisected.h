@@ -10,7 +10,8 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Mesh of triangles, each inside of a triangle of a first mesh. */
+  /** Triangular mesh in which each triangle lies inside a triangle of the first
+   *  mesh. */
   struct NestedMesh
   {
     explicit NestedMesh(const CoarseMesh &first);
@@ -19,8 +20,9 @@ namespace geocone::GEOCONE_DIM
     std::vector<unsigned int> parent; ///< triangle of the first mesh
   };
 
-  /** Bisects marked triangles at their longest edges, and others until the mesh conforms
-   *  (Rivara 1984): angles stay above half of the smallest one.
+  /** Refines a mesh by bisecting the marked triangles at their longest edges.
+   *  Further triangles are bisected until the mesh is conforming (Rivara 1984).
+   *  All angles are at least half of the smallest angle of the first mesh.
    *  @param marked whether each triangle is to be divided */
   NestedMesh
   bisected(const NestedMesh &nested, const std::vector<bool> &marked);

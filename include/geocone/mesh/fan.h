@@ -14,8 +14,9 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Rings of triangles around a vertex of the outline, in plane meshes: the innermost
-   *  ones meet there, the others halve the radius about. */
+  /** Concentric rings of triangles around a vertex of the outline, in plane
+   *  meshes. The triangles of the innermost ring meet at the vertex. The radius
+   *  decreases from ring to ring by a factor of about 2. */
   struct Fan
   {
     dealii::Point<dim> apex;
@@ -23,7 +24,7 @@ namespace geocone::GEOCONE_DIM
     std::vector<double>
       rays; ///< angles to x, counterclockwise, from side to side
 
-    /** Radii of the rings from the innermost one. */
+    /** Outer radii of all rings (m), in increasing order. */
     std::vector<double>
     radii() const
     {
@@ -35,7 +36,7 @@ namespace geocone::GEOCONE_DIM
       return all;
     }
 
-    /** The point of a ray at a distance from the apex. */
+    /** Point on a ray at a given distance from the apex. */
     dealii::Point<dim>
     at(const unsigned int ray, const double distance) const
     {
@@ -45,7 +46,7 @@ namespace geocone::GEOCONE_DIM
       return x;
     }
 
-    /** The shortest outer edge. */
+    /** Length of the shortest edge on the outer boundary of the fan (m). */
     double
     chord() const
     {
@@ -62,7 +63,8 @@ namespace geocone::GEOCONE_DIM
     }
   };
 
-  /** Unstructured mesh with prescribed cell sizes and fans. Collective. */
+  /** Creates an unstructured mesh with prescribed cell sizes and fans.
+   *  Collective. */
   CoarseMesh
   mesh_with_fans(const MeshDomain       &domain,
                  const Regions          &regions,
@@ -71,8 +73,8 @@ namespace geocone::GEOCONE_DIM
                  const std::vector<Fan> &fans,
                  const MPI_Comm          comm);
 
-  /** Mesh of a scene of a polygon or box with prescribed cell sizes and fans, as
-   *  fitted_mesh(). Collective. */
+  /** Creates a mesh of a polygon or box with prescribed cell sizes and fans;
+   *  see fitted_mesh(). Collective. */
   CoarseMesh
   fitted_mesh_with_fans(const MeshParameters   &parameters,
                         const Scene            &scene,

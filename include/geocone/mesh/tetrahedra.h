@@ -44,8 +44,8 @@ namespace geocone::GEOCONE_DIM
     std::map<std::string, dealii::types::boundary_id> sides;
 
     /** Boundary facets on which a boundary condition acts.
-     *  @throws InputError if there is none, or if one is partly in the box of
-     *  the condition */
+     *  @throws InputError if there is no facet, or if one of them is partly
+     *  in the box of the condition */
     std::vector<unsigned int>
     held_facets(const BoundaryPart &condition) const;
 
@@ -70,8 +70,8 @@ namespace geocone::GEOCONE_DIM
     unsigned int
     index_in_cell(const unsigned int cell, const unsigned int vertex) const;
 
-    /** Saves or restores the mesh in a checkpoint, without the names of its
-     *  sides. */
+    /** Saves the mesh to a checkpoint, or restores it from one. The names of
+     *  the sides are excluded. */
     void
     state(StateRow &row);
 

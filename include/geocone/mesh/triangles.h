@@ -35,8 +35,8 @@ namespace geocone::GEOCONE_DIM
     std::map<std::string, dealii::types::boundary_id> sides;
 
     /** Boundary edges on which a boundary condition acts.
-     *  @throws InputError if there is none, or if one is partly in the box of
-     *  the condition */
+     *  @throws InputError if there is no edge, or if one of them is partly
+     *  in the box of the condition */
     struct HeldEdge
     {
       unsigned int edge, cell, opposite_vertex;
