@@ -45,7 +45,7 @@ namespace geocone::GEOCONE_DIM
     check_parameters() const;
 
     /** Prepares the scene and checks that strict bounds can be computed.
-     *  @throws InputError if it does not */
+     *  @throws InputError if they cannot */
     void
     prepare_scene(const RunOptions &options);
 
@@ -74,11 +74,11 @@ namespace geocone::GEOCONE_DIM
       return "'Analysis/Kind' = " + kind_word();
     }
 
-    /** Upper or lower bound on a mesh, with its certificate and the computational
-     *  cost. */
+    /** Upper or lower bound computed on a mesh, with its certificate and the
+     *  computational cost. */
     struct Side
     {
-      double             load; ///< bound of the load, in scaled units
+      double             load; ///< bound on the load, in scaled units
       bool               certified;
       const std::string &rejection; ///< reason for rejection, if not certified
       bool               converged;
@@ -91,8 +91,8 @@ namespace geocone::GEOCONE_DIM
     void
     print_reasons(const Side &upper, const Side &lower) const;
 
-    /** Returns both bounds on a mesh, scaled to loads, as the results of a
-     *  refinement level.
+    /** Returns both bounds computed on a mesh, converted to loads, as the
+     *  results of a refinement level.
      *  @param unit load that corresponds to the load factor 1 of a problem */
     static BoundLevel
     level_of(const Side        &upper,
@@ -101,7 +101,7 @@ namespace geocone::GEOCONE_DIM
              const double       unit);
 
     /** Checks that the sum of both bounds is finite.
-     *  @param bounds sum of both bounds of the load @throws StepFailure if the sum is not
+     *  @param bounds sum of both bounds on the load @throws StepFailure if the sum is not
      *  finite */
     static void
     check_finite(const double bounds);
@@ -115,8 +115,8 @@ namespace geocone::GEOCONE_DIM
     bool
     is_complete(const std::optional<double> &gap) const;
 
-    /** Prints the lower and upper bound of the load, and warns if the bounds
-     *  are not certified or too far apart. */
+    /** Prints the lower and upper bounds on the load, and warns if they are not
+     *  certified or too far apart. */
     void
     conclude(const LoadBracket &best,
              const std::string &rejection_upper,
@@ -128,8 +128,8 @@ namespace geocone::GEOCONE_DIM
     kind_word() const = 0;
     virtual const LoadChoice &
     load_choice() const = 0;
-    /** Computes the pore water pressures by a seepage analysis, or rejects pore
-     *  water where bounds do not support it. Called after the materials and
+    /** Computes the pore water pressures by a seepage analysis. Pore water is
+     *  rejected if the bounds do not support it. Called after the materials and
      *  before the loads are prepared. */
     virtual void
     prepare_water(const RunOptions &options) = 0;
@@ -142,8 +142,7 @@ namespace geocone::GEOCONE_DIM
     {
       return false;
     }
-    /** Returns the lower and upper bound of the load that are certified so
-     *  far. */
+    /** Returns the lower and upper bounds on the load certified so far. */
     virtual LoadBracket
     bracket() const = 0;
     /** True if the bounded quantity is the factor of safety, false if it is a

@@ -16,7 +16,7 @@ namespace geocone::GEOCONE_DIM
    *  back. */
   constexpr double rounding_strength = 1e-8;
 
-  /** Upper or lower bound of the load with its certificate, in scaled units. All values
+  /** Upper or lower bound on the load with its certificate, in scaled units. All values
    *  are recomputed from the stress or velocity field, independently of the solver. */
   struct Bound
   {

@@ -13,7 +13,8 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Certified lower and upper bounds of the load on a mesh, in scaled units. */
+  /** Certified lower and upper bounds on the load, computed on one mesh, in
+   *  scaled units. */
   struct CertifiedBounds
   {
     struct Side
@@ -55,8 +56,9 @@ namespace geocone::GEOCONE_DIM
   certified_lower(const BoundScene &bound, const double tolerance);
   /** @} */
 
-  /** As above, for problems of the body at hand, and only until the bound is known to be
-   *  below (lower bound: above) a load, or not to be (InteriorPoint::Options::question).
+  /** Solves a given upper-bound (lower-bound) problem only until the bound is
+   *  known to be below (above) a given load, or not to be
+   *  (InteriorPoint::Options::question).
    *  @param question the load */
   /** @{ */
   CertifiedBounds::Side

@@ -51,8 +51,8 @@ namespace geocone::cone_algebra
     return y;
   }
 
-  /** Returns the largest step length, at most 1/0.99, for which l + step d is
-   *  in the cone. */
+  /** Returns the largest step length for which l + step d is in the cone,
+   *  capped at 1/0.99 (the solver takes 0.99 of it, at most 1). */
   template <int N>
   double
   step_in_cone(const ConeVector<N> &l, const ConeVector<N> &d)

@@ -38,7 +38,7 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Computes the gradients of both bounds of a load with respect to all parameters. No
+   * Computes the gradients of both bounds on a load with respect to all parameters. No
    * further solution is required, only the fields of the bounds. At the optimum the
    * derivative of the load is the derivative of the Lagrangian,
    *   lambda + q.(F0 + lambda f - sum V B's) + sum V y (a s_n + k - |s_t|),
@@ -61,7 +61,7 @@ namespace geocone::GEOCONE_DIM
                     const double       load_unit);
 
   /**
-   * Computes the gradients of both bounds of the factor of safety F. They follow from the
+   * Computes the gradients of both bounds on the factor of safety F. They follow from the
    * gradients of the factor lambda of all loads for strength divided by F: dF/dp = -(d
    * lambda/dp)/(d lambda/dF).
    * @param lower,upper solved near the roots lambda(F) = 1

@@ -37,10 +37,10 @@ namespace geocone::GEOCONE_DIM
     };
     std::vector<Face> faces;
 
-    /** Returns true if both faces of the interface's yield surface bound the
-     *  normal traction r_N. The interface then opens at a rate w associated
-     *  with the second face, and the rate (u_N - w, u_T) is associated with the
-     *  first. */
+    /** Returns true if the yield surface of the interface has two faces and
+     *  both of them limit the normal traction r_N. The interface then opens at
+     *  a rate w associated with the second face, and the rate (u_N - w, u_T) is
+     *  associated with the first. */
     bool
     opens() const
     {

@@ -24,16 +24,17 @@ namespace geocone::GEOCONE_DIM
   enum class AnalysisKind
   {
     steps,              ///< incremental analysis
-    limit_load,         ///< strict bounds of the limit load
-    strength_reduction, ///< strict bounds of the factor of safety
+    limit_load,         ///< strict bounds on the limit load
+    strength_reduction, ///< strict bounds on the factor of safety
     reliability,        ///< probability of failure
     seepage             ///< steady seepage alone
   };
 
   /**
-   * Plane limit analysis of a rigid-plastic scene with associated flow. Strict bounds of
-   * the limit load, or of the factor of safety, are computed on meshes that are
-   * adaptively refined where the bounds differ. Each level is a step of the run.
+   * Plane limit analysis of a rigid-plastic scene with associated flow. Strict
+   * bounds on the limit load or the factor of safety are computed on meshes
+   * that are adaptively refined where the bounds differ. Each level is a step
+   * of the run.
    */
   class LimitAnalysis : public BoundAnalysis
   {
@@ -72,12 +73,12 @@ namespace geocone::GEOCONE_DIM
     BoundLevel
     level_of(const double unit) const;
 
-    /** Computes both bounds of the load on the current mesh.
+    /** Computes both bounds on the load for the current mesh.
      *  @throws StepFailure if there is no bound */
     BoundLevel
     bound_load();
 
-    /** Computes both bounds of the factor of safety on the current mesh.
+    /** Computes both bounds on the factor of safety for the current mesh.
      *  @throws StepFailure if there is no bound */
     BoundLevel
     bound_factor();
@@ -103,14 +104,14 @@ namespace geocone::GEOCONE_DIM
     next_cells(const BoundLevel &level);
 
     /** Computes Davis's estimates for non-associated flow on the finest mesh. They are
-     *  both bounds of the load or factor of safety for each variant
+     *  both bounds on the load or factor of safety for each variant
      *  (LoadBracket::davis). */
     std::vector<std::array<double, 2>>
     estimates_by_davis() const;
 
-    /** Returns the tightest lower and upper bound of the load certified on all
-     *  meshes. If water pressures differ between meshes, it is the bracket of
-     *  the last mesh with both bounds. */
+    /** Returns the largest lower bound and the smallest upper bound on the load
+     *  that have been certified on any mesh. If water pressures differ between
+     *  meshes, the bracket of the last mesh with both bounds is returned. */
     LoadBracket
     certified_by(const std::vector<BoundLevel> &levels) const;
 
@@ -118,7 +119,7 @@ namespace geocone::GEOCONE_DIM
     std::vector<Gradient>
     gradients_of_last() const;
 
-    /** Returns the lower and upper bound of the load certified so far, with
+    /** Returns the lower and upper bounds on the load certified so far, with
      *  Davis's estimate. */
     LoadBracket
     bracket() const override;

@@ -67,7 +67,8 @@ namespace geocone::GEOCONE_DIM
 
   protected:
     /**
-     * Selects the loads multiplied by the load factor, and the unit of velocity.
+     * Selects the loads that are multiplied by the load factor, and sets the
+     * unit of velocity.
      * @param velocity prescribed non-zero velocity (m/s), if any
      * @param has_weight whether gravity acts
      * @throws InputError if the loads asked for do not suit the prescribed velocity
@@ -82,7 +83,8 @@ namespace geocone::GEOCONE_DIM
     void
     choose_all(const bool has_velocity, const std::string &kind);
 
-    /** Reports that the selected loads are zero. @throws InputError */
+    /** Throws an exception that reports that the selected loads are zero.
+     *  @throws InputError */
     [[noreturn]] void
     refuse_zero_load() const;
 

@@ -20,7 +20,7 @@ namespace geocone::GEOCONE_DIM
    * meshes of this number refine singularities further. Flow is assumed to be associated.
    * Collective; the first rank computes and also returns the bracket of the load, with
    * Davis's estimate for non-associated flow.
-   * @throws InputError for scenes without finite bounds of the load
+   * @throws InputError for scenes without finite bounds on the load
    */
   std::pair<CellSizes, LoadBracket>
   sizes_from_bounds(const MeshParameters &parameters,

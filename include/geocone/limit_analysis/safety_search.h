@@ -13,12 +13,13 @@
 namespace geocone
 {
   /**
-   * Strict bounds of the factor of safety F of a body, by which c and tan(phi) of all
-   * materials must be divided to reach the limit state. Let lambda^-(F) and lambda^+(F)
-   * be the bounds of the factor of all loads. F is safe if lambda^- >= 1: the zero stress
-   * and the stresses in equilibrium with lambda^- times the loads are both admissible,
-   * and so are their convex combinations, one of which carries the loads. The body fails
-   * for F if lambda^+ <= 1. Both are certificates that need no convergence.
+   * Strict bounds on the factor of safety F of a body. The limit state is
+   * reached if c and tan(phi) of all materials are divided by F. Let
+   * lambda^-(F) and lambda^+(F) be the bounds on the factor of all loads. F is
+   * safe if lambda^- >= 1: the zero stress and the stresses in equilibrium with
+   * lambda^- times the loads are both admissible, and so are their convex
+   * combinations, one of which carries the loads. The body fails for F if
+   * lambda^+ <= 1. Both are certificates that need no convergence.
    *
    * On each mesh the roots of both bounds are found by secants of log lambda over log
    * F, and each is confirmed by one more solution a thousandth on the safe side.
@@ -32,7 +33,7 @@ namespace geocone
       upper
     };
 
-    /** A bound of the load factor for a given strength reduction factor F. */
+    /** A bound on the load factor for a given strength reduction factor F. */
     struct Attempt
     {
       double       load           = 0.;
@@ -46,33 +47,36 @@ namespace geocone
       is_usable() const;
     };
 
-    /** Limit analyses on a mesh with the strength divided by a factor F. */
+    /** Base class of solvers for limit analyses on a mesh, with the strength
+     *  divided by a factor F. */
     class Solver
     {
     public:
       virtual ~Solver() = default;
 
-      /** Computes both bounds of the load factor for a given F. @return by
-       *  Side */
+      /** Computes both bounds on the load factor for a given strength reduction
+       *  factor F. @return by Side */
       virtual std::array<Attempt, 2>
       both(const double F) = 0;
 
-      /** Computes one bound of the load factor for a given F. */
+      /** Computes the lower or upper bound on the load factor for a given
+       *  strength reduction factor F. */
       virtual Attempt
       one(const double F, const Side side) = 0;
 
-      /** Stores the last solution of a side (lower or upper bound), which
-       *  certifies a bound of F. */
+      /** Stores the last lower-bound or upper-bound solution, which certifies a
+       *  bound on the factor of safety. */
       virtual void
       keep(const Side side) = 0;
     };
 
-    /** Bounds of the factor of safety and computational cost on a mesh. */
+    /** Bounds on the factor of safety computed on one mesh, with the
+     *  computational cost. */
     struct Level
     {
       double factor = 1.; ///< last F for which both bounds were computed
 
-      /** Certified bounds of the factor of safety on this mesh; empty if not
+      /** Certified bounds on the factor of safety on this mesh; empty if not
        *  certified. */
       std::optional<double> lower, upper;
 
@@ -81,8 +85,9 @@ namespace geocone
       std::array<unsigned int, 2> iterations = {{0, 0}};
     };
 
-    /** Computes both bounds of the factor of safety on a mesh.
-     *  @throws StepFailure if the body fails for no factor F, or for all factors */
+    /** Computes both bounds on the factor of safety for a mesh.
+     *  @throws StepFailure if the body fails for no factor F, or for all
+     *  factors */
     Level
     on_mesh(Solver &solver);
 
@@ -93,8 +98,8 @@ namespace geocone
     }
 
   private:
-    /** A strength reduction factor F certified by one bound, near the root of
-     *  lambda(F) = 1 of the load factor lambda.
+    /** Strength reduction factor F certified by one bound. It is near the root
+     *  of lambda(F) = 1, with the load factor lambda.
      *  @param load the bound for `factor` */
     std::optional<double>
     prove(Solver       &solver,

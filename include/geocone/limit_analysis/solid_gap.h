@@ -14,9 +14,10 @@ namespace geocone::GEOCONE_DIM
    * Returns the contribution of each cell to the gap between the bounds: the
    * dissipation of the upper bound minus the internal power of the lower
    * bound's stresses. By virtual work, it is D - s.e in the cell and D - t.u on
-   * its facets, half of which belongs to each adjacent cell. None is negative
-   * where the strength is constant, since the stress is admissible and its
-   * power at most the dissipation. The sum is the gap times SolidBound::work.
+   * its facets, half of which belongs to each adjacent cell. No contribution is
+   * negative if the strength of the cell is constant, since the stress is
+   * admissible and its power at most the dissipation. The sum is the gap times
+   * SolidBound::work.
    * @param order_upper, order_lower of the velocities and the stresses
    */
   std::vector<double>

@@ -16,7 +16,7 @@ namespace geocone::GEOCONE_DIM
 {
   /**
    * Limit analysis of a three-dimensional rigid-plastic scene with associated
-   * flow. Strict bounds of the limit load or the factor of safety are computed
+   * flow. Strict bounds on the limit load or the factor of safety are computed
    * on tetrahedra, which are bisected where the bounds differ. Each mesh is a
    * step of the run.
    */
@@ -40,7 +40,7 @@ namespace geocone::GEOCONE_DIM
 
     class Reduced;
 
-    /** Bounds of the load, or of the factor of safety, on the current mesh.
+    /** Bounds on the load or the factor of safety for the current mesh.
      *  @throws StepFailure if there is no bound */
     /** @{ */
     BoundLevel

@@ -11,7 +11,7 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Strict bounds of the factor of safety of a plane body (SafetySearch). */
+  /** Strict bounds on the factor of safety of a plane body (SafetySearch). */
   class StrengthReduction
   {
   public:
@@ -21,17 +21,18 @@ namespace geocone::GEOCONE_DIM
 
     struct Level : SafetySearch::Level
     {
-      /** Both bounds of the load factor for the strength divided by
+      /** Both bounds on the load factor for the strength divided by
        *  `factor`. */
       CertifiedBounds bounds;
 
-      /** Solutions that certify the bounds of the factor of safety. */
+      /** Solutions that certify the bounds on the factor of safety. */
       CertifiedBounds::Side lower_proof, upper_proof;
     };
 
-    /** Computes both bounds of the factor of safety on a mesh.
+    /** Computes both bounds on the factor of safety for a mesh.
      *  @param tolerance of the interior-point method, relative to the load
-     *  @throws StepFailure if the body fails for no factor F, or for all factors */
+     *  @throws StepFailure if the body fails for no factor F, or for all
+     *  factors */
     Level
     on_mesh(const Reduced &reduced, const double tolerance);
 
