@@ -162,12 +162,13 @@ namespace geocone::GEOCONE_DIM
     LowRank
     low_rank(const double elastic_blend) const;
 
-    /** Power of the bar forces acting on the body at the last residual()
-     *  (W/m). */
+    /** Power of the bar forces acting on the body at the state of the last call
+     *  to residual() (W/m). */
     double
     power() const;
 
-    /** Accepts the bar forces of the last residual() as the state at t_n. */
+    /** Accepts the bar forces of the last call to residual() as the state at
+     *  t_n. */
     void
     commit();
 
@@ -180,7 +181,8 @@ namespace geocone::GEOCONE_DIM
     std::vector<PlateState>
     states_of_plates() const;
 
-    /** Saves or restores the state variables of all bars in a checkpoint. */
+    /** Saves the state variables of all bars to a checkpoint, or restores them
+     *  from one. */
     void
     state(StateRow &row);
 
@@ -220,8 +222,8 @@ namespace geocone::GEOCONE_DIM
 
       bool     acts = false;
       BarState n;            ///< state at t_n
-      double   force   = 0.; ///< axial force at the last residual() (N/m)
-      double   rate    = 0.; ///< b.v at the last residual() (m/s)
+      double   force   = 0.; ///< axial force in the last residual() call (N/m)
+      double   rate    = 0.; ///< b.v in the last residual() call (m/s)
       bool     elastic = true;
 
       double
@@ -264,7 +266,7 @@ namespace geocone::GEOCONE_DIM
       std::vector<std::optional<unsigned int>> bending; ///< bar of each point
 
       /** Displacements of the plate points at t_n (m), and velocities of these
-       *  points at the last residual() (m/s). */
+       *  points at the state of the last call to residual() (m/s). */
       std::vector<dealii::Tensor<1, dim>> displacement, velocity;
 
       /** Displacement components of each plate point, as linear functionals of the

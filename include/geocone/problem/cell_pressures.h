@@ -137,7 +137,8 @@ namespace geocone::GEOCONE_DIM
              Condensed                      &result) const;
 
   private:
-    /** Excess pore pressure of a point at t_n (Pa); 0 without undrained soil. */
+    /** Excess pore pressure of a point at t_n (Pa); 0 if no material is
+     *  undrained. */
     double
     pore_pressure(const unsigned int point) const;
 

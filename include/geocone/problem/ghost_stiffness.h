@@ -102,8 +102,8 @@ namespace geocone::GEOCONE_DIM
   public:
     GhostPlaces(const BackgroundMesh &mesh, const Space &space);
 
-    /** Material fraction of the support, see fill(), below which a basis
-     *  function is low-mass and receives ghost stiffness. */
+    /** Fraction of the support filled with material (see fill()) below which a
+     *  basis function is low-mass and receives ghost stiffness. */
     static constexpr double least_fill = 0.2;
 
     /** Fraction of the support of a basis function that contains material, sum_p V_p

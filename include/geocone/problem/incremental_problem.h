@@ -97,7 +97,8 @@ namespace geocone::GEOCONE_DIM
       return bars != nullptr;
     }
 
-    /** Deleted copy constructor, since the terms refer to data of the problem. */
+    /** Not copyable, because the terms hold references to data of the
+     *  problem. */
     IncrementalProblem(const IncrementalProblem &) = delete;
 
     /**
@@ -171,15 +172,15 @@ namespace geocone::GEOCONE_DIM
 
     /**
      * Assembles the generalised Jacobian dR/dv = M/h + h sum V B' C B at the
-     * last residual(), with the tangents C of the points. The tangent C is
-     * replaced by (1 - w) C + w D, w the elastic blend.
+     * state of the last call to residual(), with the tangents C of the points.
+     * The tangent C is replaced by (1 - w) C + w D, w the elastic blend.
      * @return low-rank contribution of free obstacles or of bars
      */
     LowRank
     linearise(SparseMatrix &matrix, const double elastic_blend = 0.) const;
 
-    /** Computes the Jacobian-vector product dst = (dR/dv) dv in all rows, at the
-     *  last residual(). */
+    /** Computes the Jacobian-vector product dst = (dR/dv) dv in all rows, at
+     *  the state of the last call to residual(). */
     void
     apply_tangent(Vector &dst, const Vector &dv) const;
 
@@ -194,8 +195,8 @@ namespace geocone::GEOCONE_DIM
       return unknowns;
     }
 
-    /** Lagrange multipliers lambda of the constraints H v = q at the last
-     *  residual() (N/m). */
+    /** Lagrange multipliers lambda of the constraints H v = q at the state of
+     *  the last call to residual() (N/m). */
     const Eigen::VectorXd &
     multipliers() const
     {

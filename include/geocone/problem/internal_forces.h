@@ -83,7 +83,7 @@ namespace geocone::GEOCONE_DIM
    * Equilibrium uses the total stress s_p - p_p I; the law, its modes and its
    * checks use the effective stress s_p. With dilatant soil, B-bar includes
    * CellPressures. The state at t_n is const; the trial states stored here are
-   * those of the last residual().
+   * those of the last call to residual().
    */
   class InternalForces : public Term
   {
@@ -243,7 +243,7 @@ namespace geocone::GEOCONE_DIM
     std::vector<Run> runs;
 
     /** Strain increments and states at t_n for a range of points. They are the
-     *  input of the material at the last residual(). */
+     *  input to the material in the last call to residual(). */
     Increment
     increment_of(const Run &run) const;
 
@@ -263,7 +263,8 @@ namespace geocone::GEOCONE_DIM
     void
     update_material(const Run &run, const bool with_tangent) const;
 
-    /** Computes the tangents of all points at the last residual() if necessary. */
+    /** Computes the tangents of all points at the state of the last call to
+     *  residual(), if necessary. */
     void
     update_tangents() const
     {
@@ -357,7 +358,7 @@ namespace geocone::GEOCONE_DIM
     double            h = 0.;
     NaturalMap::Error map_error;
 
-    /** @name Local law of the last residual() */
+    /** @name Local law of the last call to residual() */
     /** @{ */
     double friction_lag   = 0.;
     bool   by_natural_map = false;
@@ -370,7 +371,7 @@ namespace geocone::GEOCONE_DIM
     mutable std::vector<MandelMatrix> tangent;
 
     /** Polynomial mean stresses of the cells, for B-bar with dilatant soil.
-     *  They keep the tangents of the last residual() up to date. */
+     *  They keep the tangents of the last call to residual() up to date. */
     mutable std::optional<CellPressures> cell_pressures;
 
     /** @name Excess pore pressure and total stress: empty without undrained

@@ -65,7 +65,8 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * Adds the term's Jacobian dR/dv at the last residual() to the matrix.
+     * Adds the term's Jacobian dR/dv at the state of the last call to
+     * residual() to the matrix.
      * @param elastic_blend w in (1 - w) C + w D, for a tangent C
      */
     virtual void
@@ -74,8 +75,8 @@ namespace geocone::GEOCONE_DIM
               [[maybe_unused]] SparseMatrix          &matrix) const
     {}
 
-    /** Adds the term's Jacobian-vector product (dR/dv) dv at the last residual() to
-     *  dst, in all owned rows.
+    /** Adds the term's Jacobian-vector product (dR/dv) dv at the state of the
+     *  last call to residual() to dst, in all owned rows.
      *  @param dv with its ghosts */
     virtual void
     apply_tangent([[maybe_unused]] Vector       &dst,
