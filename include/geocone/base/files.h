@@ -81,9 +81,9 @@ namespace geocone
          const std::vector<std::string> &columns,
          const bool                      goes_on = false);
 
-    /** Saves or restores the length of the CSV file in a checkpoint. Before
-     *  writing, the table is synchronised to disk; after reading, it is
-     *  truncated to the stored length. @throws RunError if the table is
+    /** Saves the length of the CSV file to a checkpoint, or restores it from
+     *  one. Before writing, the table is synchronised to disk; after reading, it
+     *  is truncated to the stored length. @throws RunError if the table is
      *  shorter */
     void
     state(StateRow &row);

@@ -77,8 +77,8 @@ namespace geocone
   std::string
   format(const char *pattern, ...) __attribute__((format(printf, 1, 2)));
 
-  /** Returns the first non-empty string, in rank order, on all ranks. Empty
-   *  if the strings of all ranks are empty. Collective. */
+  /** Returns, on every rank, the first non-empty string in rank order. Empty if
+   *  the strings of all ranks are empty. Collective. */
   std::string
   text_of_any_rank(const MPI_Comm comm, const std::string &text);
 } // namespace geocone

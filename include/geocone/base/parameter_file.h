@@ -171,7 +171,8 @@ namespace geocone
     std::size_t
     equals_sign(const std::string &override_text) const;
 
-    /** Appends the command-line overrides as lines of the parameter file. */
+    /** Appends the command-line overrides to the lines of the parameter file
+     *  (in memory). */
     void
     append(const std::vector<std::string> &overrides);
 

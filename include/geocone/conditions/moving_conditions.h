@@ -128,8 +128,8 @@ namespace geocone::GEOCONE_DIM
     unsigned int
     n_behind(const MaterialPoints &points) const;
 
-    /** Saves or restores the positions of the boundary segments in a
-     *  checkpoint. */
+    /** Saves the positions of the boundary segments to a checkpoint, or
+     *  restores them from one. */
     void
     state(StateRow &row);
 

@@ -44,8 +44,9 @@ namespace geocone::GEOCONE_DIM
     void
     restart();
 
-    /** Begins a loading stage with given strain or stress control of each
-     *  component. The fraction f of the stage is 0.
+    /** Begins a loading stage in which each component is either strain- or
+     *  stress-controlled, as specified by @p control. The fraction f of the
+     *  stage is 0.
      *  @param goes_on whether strains of the previous control are the initial
      *  guess */
     void

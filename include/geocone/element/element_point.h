@@ -65,7 +65,7 @@ namespace geocone::GEOCONE_DIM
     virtual std::vector<YieldCurve>
     yield_curves(const SectionPlane &plane) const = 0;
 
-    /** Saves or restores the accepted state in a checkpoint. */
+    /** Saves the accepted state to a checkpoint, or restores it from one. */
     virtual void
     state(StateRow &row) = 0;
 

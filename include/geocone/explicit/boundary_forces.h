@@ -73,8 +73,8 @@ namespace geocone::GEOCONE_DIM
     void
     move(const GridTransfer &nodes, const double dt);
 
-    /** Saves or restores the positions of the loaded boundary segments in a
-     *  checkpoint. */
+    /** Saves the positions of the loaded boundary segments to a checkpoint, or
+     *  restores them from one. */
     void
     state(StateRow &row)
     {

@@ -37,8 +37,8 @@ namespace geocone::GEOCONE_DIM
     /** Angular momentum about the coordinate axes (N m s/m). */
     dealii::Tensor<1, n_rotations> angular_momentum;
     dealii::Point<dim> lower, upper; ///< bounding box of positions (m)
-    /** Positions of the left and the right front (m): coordinates x with 1 %
-     *  and with 99 % of the mass on their left. */
+    /** Positions of the left and the right front (m): the coordinates x to the
+     *  left of which 1 % and 99 % of the mass lie. */
     double left_front = 0., right_front = 0.;
     double largest_speed = 0.; ///< (m/s)
 
@@ -83,8 +83,8 @@ namespace geocone::GEOCONE_DIM
      *  body. */
     std::vector<Reaction> reactions;
 
-    /** Saves or restores the statistics of an interrupted step in a checkpoint,
-     *  except the reactions. */
+    /** Saves the statistics of an interrupted step to a checkpoint, or restores
+     *  them from one. The reactions are excluded. */
     void
     state(StateRow &row)
     {
@@ -498,8 +498,9 @@ namespace geocone::GEOCONE_DIM
                    const std::string &name,
                    const std::size_t  size) const;
 
-    /** Saves or restores the data of each rank in a checkpoint, except the
-     *  points. Data common to all ranks are handled by state_of_all(). */
+    /** Saves the data of each rank to a checkpoint, or restores them from one.
+     *  The points are excluded. Data common to all ranks are handled by
+     *  state_of_all(). */
     void
     state_of_ranks(StateRow &row);
     void

@@ -128,14 +128,14 @@ namespace geocone::GEOCONE_DIM
       return unbalanced;
     }
 
-    /** Returns the support impulse of each boundary condition on this rank
-     *  since the last call to this function (N s/m). Moments are about
-     *  GridTransfer::centres (N m s/m). */
+    /** Returns the contribution of this rank to the support impulse of each
+     *  boundary condition, accumulated since the last call (N s/m). Moments are
+     *  about GridTransfer::centres (N m s/m). */
     std::vector<Reaction>
     take_support_impulses();
 
-    /** Saves or restores the support impulses and the unbalanced force of
-     *  this rank in a checkpoint. */
+    /** Saves the support impulses and the unbalanced force of this rank to a
+     *  checkpoint, or restores them from one. */
     void
     state(StateRow &row)
     {

@@ -126,7 +126,8 @@ namespace geocone::GEOCONE_DIM
           const double       time,
           const MPI_Comm     comm);
 
-    /** Saves or restores the list of field files written so far, for checkpoints. */
+    /** Saves the list of field files written so far to a checkpoint, or
+     *  restores it from one. */
     void
     state(StateRow &row)
     {

@@ -60,8 +60,8 @@ namespace geocone::GEOCONE_DIM
                     const Obstacles                &obstacles,
                     const std::vector<RigidMotion> &moved);
 
-    /** Saves or restores the list of field files written so far in a
-     *  checkpoint. */
+    /** Saves the list of field files written so far to a checkpoint, or
+     *  restores it from one. */
     void
     state(StateRow &row)
     {

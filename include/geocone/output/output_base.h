@@ -123,8 +123,8 @@ namespace geocone::GEOCONE_DIM
     report() const;
 
     /**
-     * Saves or restores the state of the tables and the summary in a
-     * checkpoint.
+     * Saves the state of the tables and the summary to a checkpoint, or
+     * restores it from one.
      */
     virtual void
     state_of_run(StateRow &row);

@@ -136,7 +136,7 @@ namespace geocone::GEOCONE_DIM
       field_errors = errors;
     }
 
-    /** Sets the strict bounds of the limit load, for summary.json. */
+    /** Sets the strict bounds on the limit load, for summary.json. */
     void
     set_bracket(const LoadBracket &of_load)
     {

@@ -90,7 +90,7 @@ namespace geocone::GEOCONE_DIM
           [](const Record &r) { return r.last.largest_plastic_strain; });
     }
 
-    /** Appends the columns of energies to statistics.csv. @param knows_elastic whether
+    /** Adds the energy columns to statistics.csv. @param knows_elastic whether
      *  the method computes Energies::elastic */
     void
     add_energy_columns(const bool knows_elastic)
