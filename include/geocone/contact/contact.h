@@ -205,15 +205,15 @@ namespace geocone::GEOCONE_DIM
             const bool    holds);
 
     /** Replaces the Jacobian rows of contact nodes with the linearised contact
-     *  equations. The matrices A and B are from the last replace(). Collective
-     *  if obstacles are free.
+     *  equations. The matrices A and B are those of the last call to replace().
+     *  Collective if obstacles are free.
      *  @return low-rank contribution of free obstacles */
     LowRank
     linearise(const JacobianPattern &pattern, SparseMatrix &matrix) const;
 
     /** Applies the linearised contact equations to a Jacobian-vector product:
-     *  dst = A dst + B dv in owned rows. The matrices A and B are from the last
-     *  replace(). Collective. @param dv with its ghosts */
+     *  dst = A dst + B dv in owned rows. The matrices A and B are those of the
+     *  last call to replace(). Collective. @param dv with its ghosts */
     void
     apply_tangent(Vector &dst, const Vector &dv) const;
 
@@ -244,7 +244,8 @@ namespace geocone::GEOCONE_DIM
       slip
     };
 
-    /** Contact force and state of an owned node at the last replace(). */
+    /** Contact force and state of an owned node in the last call to
+     *  replace(). */
     struct Touch
     {
       dealii::Tensor<1, dim> force; ///< r, obstacle on body (N/m)
@@ -257,9 +258,9 @@ namespace geocone::GEOCONE_DIM
 
     /** @name Functions for ContactDirection */
     /** @{ */
-    /** Selects the owned nodes that are in contact or close to contact. A node is
-     *  close to contact if the largest contact force could close its gap. Contact
-     *  states are those of the last replace(). Collective. */
+    /** Selects the owned nodes that are in contact or close to contact. A node
+     *  is close to contact if the largest contact force could close its gap.
+     *  Contact states are those of the last call to replace(). Collective. */
     std::vector<unsigned int>
     choose(const MPI_Comm comm) const;
 
@@ -341,7 +342,7 @@ namespace geocone::GEOCONE_DIM
     using Matrix = dealii::Tensor<2, dim>;
 
     /** Contact force r, velocity v and augmentation parameter rho of an owned
-     *  node, as input of replace(). Free directions only. */
+     *  node: the input to replace(). Free directions only. */
     struct Local
     {
       Force  r, v;

@@ -38,10 +38,10 @@ namespace geocone::GEOCONE_DIM
       return n_components > 0;
     }
 
-    /** Computes the Newton direction with exact contact laws from the
-     *  factorised Jacobian. The arguments are those of StepWorkspace::solve().
-     *  Nodes not selected that would penetrate an obstacle are added to the
-     *  contact set. */
+    /** Computes the Josephy-Newton direction, using the factorised Jacobian;
+     *  the contact laws are not linearised. The arguments are those of
+     *  StepWorkspace::solve(). Nodes not selected that would penetrate an
+     *  obstacle are added to the contact set. */
     void
     solve(const Vector          *prescribed,
           const Eigen::VectorXd &defect,

@@ -9,13 +9,13 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Search line v + x d from an iterate v along a Newton direction d. */
+  /** Line search along v + x d, from an iterate v in the Newton direction d. */
   class NewtonLine
   {
   public:
     NewtonLine(const StepWorkspace &work, const LocalLaw &law);
 
-    /** Sets the starting point v of the search line to the current iterate. */
+    /** Sets the starting point v of the line search to the current iterate. */
     void
     begin()
     {
@@ -75,7 +75,8 @@ namespace geocone::GEOCONE_DIM
     virtual double
     blend(const double residual) const;
 
-    /** Moves the iterate along the search line. @return the step length x */
+    /** Moves the iterate along the search direction. @return the step length
+     *  x */
     virtual double
     move(NewtonLine &line);
 

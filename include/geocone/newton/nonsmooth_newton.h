@@ -54,8 +54,9 @@ namespace geocone::GEOCONE_DIM
     {
       bool elastic_first = false; ///< elastic tangent in iteration 1
 
-      /** Largest share of plastic work due to lagged friction that is accepted
-       *  in a converged step (SolverReport::excess_share). */
+      /** Largest accepted fraction of the plastic work that is due to lagged
+       *  friction (SolverReport::excess_share). It applies to converged
+       *  steps. */
       double accepted_excess = std::numeric_limits<double>::infinity();
     };
 

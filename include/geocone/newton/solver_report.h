@@ -36,7 +36,7 @@ namespace geocone::GEOCONE_DIM
     double       residual       = 0.; ///< relative, of the last iterate
     double       friction_lag   = 0.; ///< lag of the solved law; 0: exact
 
-    /** Share of plastic work that is due to lagged friction (-), see
+    /** Fraction of the plastic work that is due to lagged friction (-), see
      *  InternalForces::excess_share(). */
     double excess_share = 0.;
 

@@ -26,9 +26,10 @@ namespace geocone::GEOCONE_DIM
     static constexpr unsigned int most_projected = 3000;
 
     /**
-     * Checks that an incremental problem can be reduced to stresses. Not supported are
-     * several ranks, problems without inertia, a consistent mass matrix, and materials
-     * without a cone. Collective.
+     * Checks that an incremental problem can be reduced to a problem in the
+     * stresses alone. Not supported are several ranks, problems without
+     * inertia, a consistent mass matrix, and materials without a cone.
+     * Collective.
      * @param parameter name of the parameter that requests the reduction, with its value
      * @param projected whether the multipliers are to be eliminated, which makes W a
      * dense matrix
