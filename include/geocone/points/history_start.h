@@ -57,7 +57,8 @@ namespace geocone::GEOCONE_DIM
       return !refusal.empty();
     }
 
-    /** Throws an error if a material point was rejected on any rank. Collective.
+    /** Throws an exception of type Error if a material point was rejected on
+     *  any rank. Collective.
      *  @throws Error */
     template <typename Error>
     void

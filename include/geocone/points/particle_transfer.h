@@ -82,8 +82,8 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Velocity gradient C of a particle in affine transfer rules (APIC). With the
-   * moments of the nodes
+   * Velocity gradient C of a particle in affine transfer schemes (APIC). With
+   * the moments of the nodes
    *   B = sum_i N_i v_i r_i',  D = sum_i N_i r_i r_i',  r_i = x_i - x_p,
    * C e = B e/d for each eigenvector e of D with the eigenvalue d. On a side of
    * the mesh only the shape functions of the side are nonzero, and d vanishes

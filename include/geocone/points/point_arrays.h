@@ -86,8 +86,8 @@ namespace geocone::GEOCONE_DIM
     void
     pad();
 
-    /** Reorders the points: the new point i is the former point order[i]. Points
-     *  not listed are removed. */
+    /** Reorders the points: new point i is old point order[i]. Points not
+     *  listed are removed. */
     void
     reorder(const std::vector<unsigned int> &order);
 

@@ -67,9 +67,9 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Reorders the values of a variable: the new point i is the former point
-   * order[i]. The number of points must not increase. The memory of @p values
-   * is reused; @p old is a work array.
+   * Reorders the values of a variable: new point i is old point order[i]. The
+   * number of points must not increase. The memory of @p values is reused;
+   * @p old is a work array.
    */
   template <typename T>
   void
@@ -395,8 +395,8 @@ namespace geocone::GEOCONE_DIM
       visit([&](const char *, auto &variable) { variable.set_capacity(n); });
     }
 
-    /** Reorders the points: the new point i is the former point order[i].
-     *  Points not listed are removed. */
+    /** Reorders the points: new point i is old point order[i]. Points not
+     *  listed are removed. */
     void
     reorder(const std::vector<unsigned int> &order)
     {

@@ -119,7 +119,8 @@ namespace geocone::GEOCONE_DIM
     void
     sort_by_cell(std::vector<PointArrays> &groups);
 
-    /** Selects the stored nodes and lists those with prescribed velocities. */
+    /** Selects the nodes to be stored and makes a list of those with prescribed
+     *  velocities. */
     void
     store_nodes();
 

@@ -160,9 +160,11 @@ namespace geocone::GEOCONE_DIM
     virtual double
     cell_size() const = 0;
 
-    /** Returns the number of nodes (cells) of the whole grid. */
+    /** Returns the number of nodes of the whole grid. */
     virtual unsigned long
     n_all_nodes() const = 0;
+
+    /** Returns the number of cells of the whole grid. */
     virtual unsigned long
     n_cells() const = 0;
 

@@ -142,8 +142,8 @@ namespace geocone::GEOCONE_DIM
       std::array<std::vector<double>, dim> slopes;
     };
 
-    /** Allocates the nodes of this rank and lists the nodes with prescribed
-     *  velocities. */
+    /** Allocates storage for the nodes of this rank and makes a list of those
+     *  with prescribed velocities. */
     void
     store_nodes(const Constraints &constraints);
 

@@ -179,8 +179,8 @@ namespace geocone::GEOCONE_DIM
      */
     void (*scatter[4])(const GridView &, const TransferBlock &, BlockScratch &);
 
-    /** Scatters the point values a and the masses to the nodes, without the
-     *  values b_d for gradients. */
+    /** Scatters only the point values a and the masses to the nodes, not the
+     *  values b_d that multiply the gradients of the basis functions. */
     void (*scatter_values[4])(const GridView &,
                               const TransferBlock &,
                               BlockScratch &);
@@ -234,8 +234,8 @@ namespace geocone::GEOCONE_DIM
                             const TransferBlock &,
                             BlockScratch &);
 
-    /** Replaces the mean stress in the point values for scatter() with the cell
-     *  mean (B-bar method). The update is
+    /** In the point values to be scattered, replaces the mean stress of each
+     *  point with the mean over its cell (B-bar method). The update is
      *    s <- s + (BlockScratch::mean_stress - tr s/dim) I. */
     void (*replace_mean_stress)(const TransferBlock &, BlockScratch &);
   };

@@ -286,8 +286,9 @@ namespace geocone::GEOCONE_DIM
         }
     }
 
-    /** Adds point masses to the nodes, in vectors of four nodes along the last
-     *  direction. The vectors are padded with zeros after p + 1 nodes. */
+    /** Adds point masses to the nodes, four consecutive nodes in the last grid
+     *  direction at a time (SIMD). The vectors of four nodes are padded with
+     *  zeros after p + 1 nodes. */
     template <int p, int d, int n>
     static void
     add_masses(const GridView &grid,
