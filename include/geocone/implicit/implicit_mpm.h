@@ -27,8 +27,8 @@ namespace geocone::GEOCONE_DIM
    * particles are sorted into cells again, and the mesh is reset.
    *
    * Options: PIC and APIC instead of FLIP, advection with the particle
-   * velocity, a partly consistent mass matrix, and the schemes of
-   * TimeIntegration.
+   * velocity, a mass matrix (1 - c) M_lumped + c M_consistent, and the
+   * schemes of TimeIntegration.
    */
   class ImplicitMPM : public ImplicitStepper, public dealii::ParameterAcceptor
   {
@@ -284,7 +284,7 @@ namespace geocone::GEOCONE_DIM
                  Vector                  &difference) const override;
 
     /** Computes the initial nodal velocity vL from the nodal momentum with the
-     *  partly consistent mass matrix. */
+     *  mass matrix M = (1 - c) M_lumped + c M_consistent. */
     void
     solve_mass(Vector &velocity) const;
 
