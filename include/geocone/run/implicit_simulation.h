@@ -50,9 +50,9 @@ namespace geocone::GEOCONE_DIM
   class ImplicitSimulation : public SceneSimulation
   {
   public:
-    /** Function that returns the cell sizes of an adapted mesh and the bounds of the
-     *  load from limit analysis. The cell sizes are those "from the bounds"; both
-     *  results are valid on the first rank. Collective. */
+    /** Function that returns the cell sizes of an adapted mesh and the bounds
+     *  on the load from limit analysis. The cell sizes are those "from the
+     *  bounds"; both results are valid on the first rank. Collective. */
     using SizesOfScene = std::function<std::pair<CellSizes, LoadBracket>(
       const MeshParameters &, const Scene &, const MPI_Comm, Log &)>;
 

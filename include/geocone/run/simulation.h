@@ -163,7 +163,8 @@ namespace geocone::GEOCONE_DIM
     dealii::Timer  total, step_loop, output_time;
 
   private:
-    /** Performs all remaining stages from the current position. */
+    /** Runs all remaining stages, starting from the current position in the
+     *  loading programme. */
     void
     follow_programme();
 

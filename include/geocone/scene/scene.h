@@ -74,8 +74,8 @@ namespace geocone::GEOCONE_DIM
     std::string
     warn_of_records() const;
 
-    /** Returns the warning that loads and reactions do not include the water
-     *  pressure. The text is empty without water. */
+    /** Returns the text of the warning that loads and reactions do not include
+     *  the water pressure. The text is empty without water. */
     std::string
     warn_of_effective_loads() const;
 

@@ -26,7 +26,7 @@ namespace geocone::GEOCONE_DIM
     std::vector<dealii::Tensor<1, dim>> supports;
   };
 
-  /** Diagnostics of moving material points. Not used with fixed quadrature
+  /** Diagnostics of a time step that are available only for moving material
    *  points. */
   struct Motion
   {
