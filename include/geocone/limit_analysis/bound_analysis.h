@@ -136,7 +136,7 @@ namespace geocone::GEOCONE_DIM
     /** Returns true if finer meshes than the first mesh can be generated. */
     virtual bool
     refines() const = 0;
-    /** Returns true if several ranks may share the analysis. */
+    /** Returns true if the analysis can run on several MPI ranks. */
     virtual bool
     runs_on_ranks() const
     {

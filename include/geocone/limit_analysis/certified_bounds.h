@@ -56,9 +56,9 @@ namespace geocone::GEOCONE_DIM
   certified_lower(const BoundScene &bound, const double tolerance);
   /** @} */
 
-  /** Solves a given upper-bound (lower-bound) problem only until the bound is
-   *  known to be below (above) a given load, or not to be
-   *  (InteriorPoint::Options::question).
+  /** Solves a given upper-bound (lower-bound) problem until it is decided
+   *  whether the bound is below (above) a given load. See
+   *  InteriorPoint::Options::question.
    *  @param question the load */
   /** @{ */
   CertifiedBounds::Side

@@ -64,9 +64,9 @@ namespace geocone::GEOCONE_DIM
 
       unsigned int correctors = 2; ///< maximum number per iteration
 
-      /** Load that the bound is only compared with: iterations end as soon as the bound is
-       *  on the conclusive side of it (above it for stresses, below it for velocities), or
-       *  cannot be. NaN: the optimum is wanted. */
+      /** Load with which the bound is compared; NaN: the optimal bound is computed. The
+       *  iterations end as soon as a lower bound (stresses) above this load, or an upper
+       *  bound (velocities) below this load, is found or excluded. */
       double question = std::numeric_limits<double>::quiet_NaN();
     };
 

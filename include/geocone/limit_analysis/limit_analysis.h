@@ -67,8 +67,8 @@ namespace geocone::GEOCONE_DIM
     static Side
     figures_of(const CertifiedBounds::Side &side);
 
-    /** Returns both bounds on the current mesh, scaled to loads, as the results
-     *  of a refinement level.
+    /** Returns both bounds computed on the current mesh, converted to loads, as
+     *  the results of a refinement level.
      *  @param unit load that corresponds to the load factor 1 of a problem */
     BoundLevel
     level_of(const double unit) const;
@@ -115,7 +115,7 @@ namespace geocone::GEOCONE_DIM
     LoadBracket
     certified_by(const std::vector<BoundLevel> &levels) const;
 
-    /** Computes the gradients of both bounds on the current mesh. */
+    /** Computes, on the current mesh, the gradients of both bounds. */
     std::vector<Gradient>
     gradients_of_last() const;
 

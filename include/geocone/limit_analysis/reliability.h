@@ -47,7 +47,8 @@ namespace geocone::GEOCONE_DIM
     double                lower = 0., upper = 1.; ///< of these samples
     std::array<double, 2> limits = {{0., 1.}};    ///< of all samples
 
-    /** @param confidence least probability with which the limits include the
+    /** Evaluates the results of the samples.
+     *  @param confidence least probability with which the limits include the
      *  probability of failure */
     FailureProbability(const std::vector<SampleRecord> &samples,
                        const double                     confidence);

@@ -76,8 +76,8 @@ namespace geocone
     {
       double factor = 1.; ///< last F for which both bounds were computed
 
-      /** Certified bounds on the factor of safety on this mesh; empty if not
-       *  certified. */
+      /** Certified bounds on the factor of safety, computed on this mesh; empty
+       *  if not certified. */
       std::optional<double> lower, upper;
 
       /** Number of matrix factorisations on the mesh for the lower and for the
@@ -85,7 +85,7 @@ namespace geocone
       std::array<unsigned int, 2> iterations = {{0, 0}};
     };
 
-    /** Computes both bounds on the factor of safety for a mesh.
+    /** Computes both bounds on the factor of safety, using a given mesh.
      *  @throws StepFailure if the body fails for no factor F, or for all
      *  factors */
     Level

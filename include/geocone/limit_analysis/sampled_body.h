@@ -62,7 +62,8 @@ namespace geocone::GEOCONE_DIM
   class SampledBody
   {
   public:
-    /** @param mean the body with its mean strengths; its mesh must outlive this
+    /** Creates a body from its mean strengths.
+     *  @param mean body with mean strengths; its mesh must outlive this object
      *  @param parent triangle of the first mesh that contains each triangle
      *  @param n_first number of triangles of the first mesh */
     SampledBody(BoundScene                mean,

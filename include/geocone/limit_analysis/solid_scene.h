@@ -113,12 +113,12 @@ namespace geocone::GEOCONE_DIM
     void
     prepare_reduction(const Scene &scene, const Tetrahedra &tetrahedra);
 
-    /** Input of the upper and lower bound on a mesh. */
+    /** Input of the upper-bound and lower-bound problems on a mesh. */
     SolidScene
     on(const Scene &scene, const Tetrahedra &tetrahedra) const;
 
-    /** Input of the upper and lower bound on a mesh for the reduced strength
-     *  c/F and tan(phi)/F. */
+    /** Input of the upper-bound and lower-bound problems on a mesh, for the
+     *  reduced strength c/F and tan(phi)/F. */
     SolidScene
     reduced(const Scene      &scene,
             const Tetrahedra &tetrahedra,

@@ -29,7 +29,7 @@ namespace geocone::GEOCONE_DIM
       CertifiedBounds::Side lower_proof, upper_proof;
     };
 
-    /** Computes both bounds on the factor of safety for a mesh.
+    /** Computes both bounds on the factor of safety, using a given mesh.
      *  @param tolerance of the interior-point method, relative to the load
      *  @throws StepFailure if the body fails for no factor F, or for all
      *  factors */
