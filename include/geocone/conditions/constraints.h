@@ -227,9 +227,8 @@ namespace geocone::GEOCONE_DIM
     number_shared(
       const std::map<unsigned int, std::vector<unsigned int>> &of_dof);
 
-    /** Finds the boundary faces that contribute to the reactions of shared
-     *  nodes, where a velocity component is prescribed by more than one
-     *  boundary condition. Collective. */
+    /** Finds the boundary faces that contribute to the reactions at nodes
+     *  shared by several boundary conditions. Collective. */
     void
     find_shared(
       const BackgroundMesh                                    &mesh,

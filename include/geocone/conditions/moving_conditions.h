@@ -111,11 +111,11 @@ namespace geocone::GEOCONE_DIM
     loaded_nodes() const;
 
     /**
-     * Corrected position of a point that has crossed a boundary segment with
-     * prescribed normal velocity in the last move(). Points can cross the segment
-     * because the condition is imposed in the mean only. The corrected position is
-     * on the segment, or at its end if the point came from beside it. Empty for
-     * points that crossed no segment.
+     * Corrected position of a point that, in the last call to move(), crossed a
+     * boundary segment with prescribed normal velocity. Points can cross the
+     * segment because the condition is imposed in the mean only. The corrected
+     * position is on the segment, or at its end if the point came from beside
+     * it. Empty for points that crossed no segment.
      * @param before,after position of the point before and after the step
      */
     std::optional<dealii::Point<dim>>

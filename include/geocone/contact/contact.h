@@ -244,7 +244,7 @@ namespace geocone::GEOCONE_DIM
       slip
     };
 
-    /** Contact force and state of an owned node in the last call to
+    /** Contact force and state of an owned node, computed by the last call to
      *  replace(). */
     struct Touch
     {

@@ -392,8 +392,8 @@ namespace geocone::GEOCONE_DIM
     double
     current_mass() const;
 
-    /** Coordinate x with a given mass on its left (m). The search interval is
-     *  [left, right]. */
+    /** Coordinate x (m) to the left of which a given mass lies. The search
+     *  interval is [left, right]. */
     double
     mass_quantile(const double wanted, double left, double right) const;
 

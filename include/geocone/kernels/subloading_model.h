@@ -110,7 +110,8 @@ namespace geocone
 
     /**
      * Size pc (Pa) of the yield surface with rotation tensor beta that passes
-     * through a stress. The size is not positive if no such surface exists.
+     * through a given stress. The size is not positive if no such surface
+     * exists.
      */
     double
     size_through(const Vector &stress, const Vector &beta) const;

@@ -99,7 +99,7 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * Computes the initial state variables for a stress (Pa) from the
+     * Computes the initial state variables for a given stress (Pa) from the
      * parameters. The similarity centre is a = chi sigma; beta and Rb are
      * given; pcb is given or follows from the overconsolidation ratio.
      * @return a note on values that had to be changed, or empty

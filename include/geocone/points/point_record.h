@@ -25,7 +25,7 @@ namespace geocone::GEOCONE_DIM
   void
   check_places(const MaterialPoints &points, const MPI_Comm comm);
 
-  /** Saves the material points in a checkpoint, cell by cell. Collective. */
+  /** Saves the material points to a checkpoint, cell by cell. Collective. */
   void
   save_points(Archive &archive, const MaterialPoints &points);
 

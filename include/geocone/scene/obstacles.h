@@ -217,7 +217,7 @@ namespace geocone::GEOCONE_DIM
     std::string
     parameter(const std::string &entry) const;
 
-    /** Throws the error for an obstacle that overlaps with the body in the
+    /** Throws an exception for an obstacle that overlaps with the body in the
      *  initial state.
      *  @throws InputError
      *  @param how depth and position of the overlap, for the message */
