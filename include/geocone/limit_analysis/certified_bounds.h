@@ -47,31 +47,33 @@ namespace geocone::GEOCONE_DIM
     double gap_share = 0.;
   };
 
-  /** Solves the upper-bound (lower-bound) problem and certifies the result.
+  /** Solves the upper-bound problem and certifies the upper bound.
    *  @param tolerance of the interior-point method, relative to the load */
-  /** @{ */
   CertifiedBounds::Side
   certified_upper(const BoundScene &bound, const double tolerance);
+
+  /** Solves the lower-bound problem and certifies the lower bound.
+   *  @param tolerance of the interior-point method, relative to the load */
   CertifiedBounds::Side
   certified_lower(const BoundScene &bound, const double tolerance);
-  /** @} */
 
-  /** Solves a given upper-bound (lower-bound) problem until it is decided
-   *  whether the bound is below (above) a given load. See
-   *  InteriorPoint::Options::question.
+  /** Solves a given upper-bound problem until it is decided whether the upper
+   *  bound is below a given load. See InteriorPoint::Options::question.
    *  @param question the load */
-  /** @{ */
   CertifiedBounds::Side
   certified_upper(const BoundScene   &bound,
                   const BoundProblem &above,
                   const double        tolerance,
                   const double        question);
+
+  /** Solves a given lower-bound problem until it is decided whether the lower
+   *  bound is above a given load. See InteriorPoint::Options::question.
+   *  @param question the load */
   CertifiedBounds::Side
   certified_lower(const BoundScene   &bound,
                   const BoundProblem &below,
                   const double        tolerance,
                   const double        question);
-  /** @} */
 
   /** Solves the upper-bound and lower-bound problems on a mesh and certifies the results.
    *  @param tolerance of the interior-point method, relative to the load */

@@ -39,8 +39,8 @@ namespace geocone::GEOCONE_DIM
    * Stresses must be in equilibrium to rounding. The residual of an iterate is removed in
    * the metric of its cones, which violates them less the farther the iterate is from
    * their boundaries: the last iterate is not always the best one. If stresses are
-   * wanted, the result is those of the iterate with the highest load after all stresses
-   * are scaled back into their cones.
+   * returned, they are those of the iterate with the highest load after all stresses are
+   * scaled back into their cones.
    */
   class InteriorPoint
   {

@@ -71,7 +71,7 @@ namespace geocone::GEOCONE_DIM
      * unit of velocity.
      * @param velocity prescribed non-zero velocity (m/s), if any
      * @param has_weight whether gravity acts
-     * @throws InputError if the loads asked for do not suit the prescribed velocity
+     * @throws InputError if the selected loads do not suit the prescribed velocity
      */
     void
     choose(const std::optional<dealii::Tensor<1, dim>> &velocity,

@@ -77,19 +77,21 @@ namespace geocone::GEOCONE_DIM
                 const unsigned int                         order,
                 const std::vector<dealii::Tensor<1, dim>> &velocity);
 
-  /** Solves the upper-bound (lower-bound) problem on a mesh and certifies the result.
-   *  @param order of velocities or stresses
+  /** Solves the upper-bound problem on a mesh and certifies the upper bound.
+   *  @param order polynomial order of the velocities
    *  @param tolerance of the interior-point method, relative to the load */
-  /** @{ */
   SolidBound
   certified_upper(const SolidScene  &bound,
                   const unsigned int order,
                   const double       tolerance);
+
+  /** Solves the lower-bound problem on a mesh and certifies the lower bound.
+   *  @param order polynomial order of the stresses
+   *  @param tolerance of the interior-point method, relative to the load */
   SolidBound
   certified_lower(const SolidScene  &bound,
                   const unsigned int order,
                   const double       tolerance);
-  /** @} */
 } // namespace geocone::GEOCONE_DIM
 
 #endif
