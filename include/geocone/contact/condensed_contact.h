@@ -31,7 +31,7 @@ namespace geocone
       unsigned int first      = 0; ///< index of u_N in u (and r); u_T follows
       unsigned int n_tangents = 0; ///< 0 for nodes without friction
 
-      double least    = 0.; ///< lower bound of u_N (m/s)
+      double least    = 0.; ///< lower bound on u_N (m/s)
       double friction = 0.; ///< friction coefficient mu
       double adhesion = 0.; ///< shear strength at r_N = 0, if closed (N/m)
       double tension  = 0.; ///< tensile strength, <= adhesion/mu (N/m)

@@ -31,8 +31,9 @@ namespace geocone::GEOCONE_DIM
                    const BackgroundMesh &mesh,
                    const Space          &space);
 
-    /** Redistributes the data over the ranks after
-     *  BackgroundMesh::repartition() and Space::follow_ranks(). Collective. */
+    /** Redistributes the data over the ranks after the cells and nodes have
+     *  been redistributed (BackgroundMesh::repartition(),
+     *  Space::follow_ranks()). Collective. */
     void
     follow_ranks();
 

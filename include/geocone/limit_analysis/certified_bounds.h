@@ -80,7 +80,8 @@ namespace geocone::GEOCONE_DIM
   CertifiedBounds
   certified_bounds(const BoundScene &bound, const double tolerance);
 
-  /** Returns CertifiedBounds::uneven, the refinement indicator of each triangle.
+  /** Returns the refinement indicator of each triangle
+   *  (CertifiedBounds::uneven).
    *  @param gap contribution of each triangle to the gap
    *  @param lower solution of the lower bound */
   std::vector<double>

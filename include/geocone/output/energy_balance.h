@@ -25,8 +25,8 @@ namespace geocone
   class EnergyBalance
   {
   public:
-    /** Ratio of numerically created energy to the reference energy turnover()
-     *  above which the run warns. */
+    /** Threshold for a warning: ratio of numerically created energy to the
+     *  reference energy turnover(). */
     static constexpr double tolerance = 0.01;
 
     /** Sets the energies of the body at the start of the run. */

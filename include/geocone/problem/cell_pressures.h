@@ -170,7 +170,8 @@ namespace geocone::GEOCONE_DIM
     double
     fit(const unsigned int cell);
 
-    /** Performs a Newton step for the volumetric strains t_p of a cell after fit(). */
+    /** Performs a Newton step for the volumetric strains t_p of a cell; to be
+     *  called after fit(). */
     void
     shift(const unsigned int cell);
 

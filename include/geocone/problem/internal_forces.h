@@ -293,8 +293,8 @@ namespace geocone::GEOCONE_DIM
                        const WeightedHoopStress &weighted_hoop_stress,
                        double                   *cell_f) const;
 
-    /** Adds the low-rank contribution of CellPressures, i.e. of B-bar in
-     *  dilatant soil, to the stiffness matrix K of a cell. */
+    /** Adds the low-rank contribution of B-bar in dilatant soil (CellPressures)
+     *  to the stiffness matrix K of a cell. */
     template <int n>
     void
     add_pressure_stiffness(const unsigned int              c,

@@ -57,16 +57,16 @@ namespace geocone::GEOCONE_DIM
     Error
     update(const std::vector<Mandel> &strain, std::vector<Mode> &mode);
 
-    /** Stress of each point after the last update() (Pa): s - A^-1 R, with the
-     *  residual R of the natural map and its Jacobian A. Before the first
-     *  update() it is the initial guess. */
+    /** Stress of each point after the last call to update() (Pa): s - A^-1 R,
+     *  with the residual R of the natural map and its Jacobian A. Before the
+     *  first update() it is the initial guess. */
     const std::vector<Mandel> &
     stress() const
     {
       return iterate;
     }
 
-    /** Tangent stiffness of each point after the last update() (Pa). */
+    /** Tangent stiffness of each point after the last call to update() (Pa). */
     const std::vector<MandelMatrix> &
     tangent() const
     {

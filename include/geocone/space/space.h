@@ -105,12 +105,13 @@ namespace geocone::GEOCONE_DIM
     std::vector<std::string>
     warnings(const LawTraits &law, const Method &method) const;
 
-    /** Updates shape functions and node positions after
-     *  BackgroundMesh::move_grid(). */
+    /** Updates shape functions and node positions after the grid lines have
+     *  been moved (BackgroundMesh::move_grid()). */
     void
     follow_grid();
 
-    /** Renumbers the nodes after BackgroundMesh::repartition(). Collective. */
+    /** Renumbers the nodes after the cells have been redistributed over the
+     *  ranks (BackgroundMesh::repartition()). Collective. */
     void
     follow_ranks();
 

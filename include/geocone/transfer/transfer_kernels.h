@@ -172,8 +172,8 @@ namespace geocone::GEOCONE_DIM
                              BlockScratch &);
 
     /**
-     * Scatters the point values (a | b_x | b_y ...) in BlockScratch::given to
-     * the nodes. Each node is incremented by
+     * Scatters the point values (a | b_x | b_y ...), stored in
+     * BlockScratch::given, to the nodes. Each node is incremented by
      *   N a + sum_d dN/dx_d b_d,
      * and the nodal mass by N m, unless the pointer to the masses is null.
      */
@@ -206,8 +206,8 @@ namespace geocone::GEOCONE_DIM
                           const TransferBlock &,
                           BlockScratch &);
 
-    /** Computes the divergence of the velocity at each point,
-     *  BlockScratch::divergence. */
+    /** Computes the divergence of the velocity at each point (stored in
+     *  BlockScratch::divergence). */
     void (*find_divergence)(const TransferBlock &, BlockScratch &);
 
     /** Replaces the volumetric strain increment of each point with the cell
