@@ -140,6 +140,11 @@ namespace geocone::GEOCONE_DIM
       return most_levels > 1;
     }
     bool
+    reduces_strength() const override
+    {
+      return false; // samples are compared with a load factor of 1
+    }
+    bool
     runs_on_ranks() const override
     {
       return true;
