@@ -26,10 +26,11 @@ namespace
   using Rows = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
   /** Parameters of all laws, found before the first point is made. */
-  const ParameterFile::OfOthers &
+  const ParameterFile::ParametersOfOtherKinds &
   of_other_laws()
   {
-    static const ParameterFile::OfOthers all = parameters_of_laws();
+    static const ParameterFile::ParametersOfOtherKinds all =
+      parameters_of_laws();
     return all;
   }
 

@@ -237,12 +237,13 @@ namespace geocone::GEOCONE_DIM
     bool
     run_scene(const CommandLine &call, Drawing &drawing)
     {
-      const ParameterFile::OfOthers of_others = parameters_of_laws();
-      const ParameterFile           file      = call.resumed
-                                                  ? parameters_of_run(*call.resumed)
-                                                  : ParameterFile(call.file, call.overrides);
-      Log                           log(MPI_COMM_WORLD, call.quiet);
-      Methods                       methods(file, log);
+      const ParameterFile::ParametersOfOtherKinds of_others =
+        parameters_of_laws();
+      const ParameterFile                       file = call.resumed
+                                                         ? parameters_of_run(*call.resumed)
+                                                         : ParameterFile(call.file, call.overrides);
+      Log                                       log(MPI_COMM_WORLD, call.quiet);
+      Methods                                   methods(file, log);
       const std::vector<ParameterFile::Setting> settings =
         file.parse(of_others);
       RunOptions options = run_options(call, file);

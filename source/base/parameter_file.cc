@@ -524,7 +524,7 @@ namespace geocone
   }
 
   std::vector<ParameterFile::Setting>
-  ParameterFile::parse(const OfOthers &of_others) const
+  ParameterFile::parse(const ParametersOfOtherKinds &of_others) const
   {
     choose_units(peek("Analysis/Units", "SI"));
     const Declared                 declared = all_declared();

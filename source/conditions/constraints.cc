@@ -38,7 +38,7 @@ namespace geocone::GEOCONE_DIM
     : scene(scene)
     , space(space)
     , comm(mesh.triangulation().get_communicator())
-    , acts(scene.dirichlet.acting_in(stage))
+    , is_active(scene.dirichlet.acting_in(stage))
   {
     node_positions   = &space.node_positions();
     const auto &list = scene.dirichlet.list;
@@ -57,8 +57,9 @@ namespace geocone::GEOCONE_DIM
               bounds[dim + d] = std::min(bounds[dim + d], -x[d]);
             }
         };
-        if (list[c]->moves())
-          for (const SidePart &panel : panels_of_body(*list[c], scene.geometry))
+        if (list[c]->moves_with_body())
+          for (const SidePart &panel :
+               segments_of_body(*list[c], scene.geometry))
             for (const Point<dim> &corner : panel.corners)
               extend(corner);
         else
@@ -91,10 +92,10 @@ namespace geocone::GEOCONE_DIM
   Constraints::begin_stage(const BackgroundMesh &mesh, const std::string &stage)
   {
     std::vector<bool> next    = scene.dirichlet.acting_in(stage);
-    const bool        changes = next != acts;
+    const bool        changes = next != is_active;
     if (changes)
       {
-        acts = std::move(next);
+        is_active = std::move(next);
         prescribed.clear();
         oblique.clear();
         turned_nodes.clear();
@@ -113,7 +114,7 @@ namespace geocone::GEOCONE_DIM
     // Conditions that prescribe each local dof; the last one determines it.
     std::map<unsigned int, std::vector<unsigned int>> of_dof;
     for (unsigned int c = 0; c < nodes.size(); ++c)
-      for (unsigned int i = 0; i < dim && acts[c]; ++i)
+      for (unsigned int i = 0; i < dim && is_active[c]; ++i)
         if (scene.dirichlet.list[c]->components[i])
           for (const unsigned int node : nodes[c])
             of_dof[dim * node + i].push_back(c);
@@ -220,7 +221,7 @@ namespace geocone::GEOCONE_DIM
     const auto                                    &list = scene.dirichlet.list;
     std::map<unsigned int, std::vector<Direction>> of_node;
     for (unsigned int c = 0; c < list.size(); ++c)
-      if (list[c]->normal && acts[c])
+      if (list[c]->normal && is_active[c])
         for (const auto &[node, n] : normals_of(*list[c], mesh, nodes[c]))
           of_node[node].push_back({c, dim, n});
 
@@ -289,7 +290,7 @@ namespace geocone::GEOCONE_DIM
              std::map<std::array<unsigned int, 2>, Tensor<1, dim>>>
       of_cell;
     for (unsigned int c = 0; c < list.size(); ++c)
-      if (!list[c]->moves())
+      if (!list[c]->moves_with_body())
         ids[c] = mesh.side_ids(*list[c]);
     for (const auto &cell : mesh.own_cells())
       for (const unsigned int f : cell->face_indices())
@@ -299,7 +300,7 @@ namespace geocone::GEOCONE_DIM
               {
                 unsigned int holder = list.size();
                 for (unsigned int c = 0; c < list.size(); ++c)
-                  if (acts[c] && list[c]->components[d] &&
+                  if (is_active[c] && list[c]->components[d] &&
                       ids[c].count(cell->face(f)->boundary_id()) > 0 &&
                       list[c]->holds_at(point.position))
                     holder = c;
@@ -393,7 +394,7 @@ namespace geocone::GEOCONE_DIM
   }
 
   std::string
-  Constraints::warn_of_bent_values() const
+  Constraints::warn_of_nonlinear_values() const
   {
     if (space.degree() == 1 || !space.is_non_negative())
       return "";
@@ -403,7 +404,7 @@ namespace geocone::GEOCONE_DIM
     const auto  &list = scene.dirichlet.list;
     for (unsigned int c = 0; c < list.size(); ++c)
       {
-        if (list[c]->moves())
+        if (list[c]->moves_with_body())
           continue;
         // A linear function has at each midpoint the mean of both ends.
         double largest = 0., bend = 0.;
@@ -516,7 +517,7 @@ namespace geocone::GEOCONE_DIM
         mean /= points.cells[c]->measure();
         for (unsigned int i = first_part[cell]; i < first_part[cell + 1]; ++i)
           {
-            const Part &part = parts[i];
+            const FaceIntegral &part = parts[i];
             exerted[part.place] += mean[index_of_normal[part.component]] *
                                    part.weight[part.component];
             for (int k = 0; k < n_shears; ++k)

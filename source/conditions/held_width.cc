@@ -33,16 +33,16 @@ namespace geocone::GEOCONE_DIM
   } // namespace
 
   std::vector<std::string>
-  warn_of_held_width(const Scene          &scene,
-                     const BackgroundMesh &mesh,
-                     const Space          &space)
+  warn_of_partial_coverage(const Scene          &scene,
+                           const BackgroundMesh &mesh,
+                           const Space          &space)
   {
     constexpr double         noticed = 1e-3; ///< part of the width
     std::vector<std::string> warnings;
     const MPI_Comm           comm = mesh.triangulation().get_communicator();
     for (const auto &condition : scene.dirichlet.list)
       {
-        if (condition->moves() || condition->has_formula())
+        if (condition->moves_with_body() || condition->has_formula())
           continue;
         const auto box = condition->box_corners();
         if (!box)

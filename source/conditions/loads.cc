@@ -76,7 +76,7 @@ namespace geocone::GEOCONE_DIM
                           mesh.is_simplicial()
                             ? Quadrature<dim>(QWitherdenVincentSimplex<dim>(3))
                             : Quadrature<dim>(QGauss<dim>(space.degree() + 1)));
-        of_water.resize(scene.water.parts(0.).size());
+        of_water.resize(scene.water.interpolation_weights(0.).size());
         for (Vector &of_line : of_water)
           of_line.reinit(space.partitioner());
         std::vector<types::global_dof_index> nodes;
@@ -100,7 +100,7 @@ namespace geocone::GEOCONE_DIM
         for (Vector &of_line : of_water)
           of_line.compress(VectorOperation::add);
       }
-    const std::vector<bool> is_there = mesh.is_among(points.cells);
+    const std::vector<bool> is_there = mesh.marked_cells(points.cells);
     for (unsigned int c = 0; c < scene.tractions.list.size(); ++c)
       {
         const BoundaryCondition &condition = *scene.tractions.list[c];
@@ -164,7 +164,8 @@ namespace geocone::GEOCONE_DIM
               g[dof % dim] * weight_per_g.local_element(dof);
         if (scene.water.acts() && !scaled)
           {
-            const std::vector<double> parts = scene.water.parts(t);
+            const std::vector<double> parts =
+              scene.water.interpolation_weights(t);
             for (unsigned int line = 0; line < of_water.size(); ++line)
               if (parts[line] != 0.)
                 force.add(parts[line] * g[1] / scene.gravity.at(1e300)[1],

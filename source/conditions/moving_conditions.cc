@@ -110,15 +110,15 @@ namespace geocone::GEOCONE_DIM
     : scene(scene)
     , mesh(mesh)
     , space(space)
-    , acts(scene.dirichlet.acting_in(scene.loading.list.front()->name))
+    , is_active(scene.dirichlet.acting_in(scene.loading.list.front()->name))
   {
     const auto &list = scene.dirichlet.list;
     for (unsigned int c = 0; c < list.size(); ++c)
-      if (list[c]->moves())
+      if (list[c]->moves_with_body())
         {
           std::vector<SidePart> panels = // also checks the names
-            panels_of_body(*list[c], scene.geometry);
-          if (list[c]->holds() != Imposition::On::side)
+            segments_of_body(*list[c], scene.geometry);
+          if (list[c]->imposed_on() != Imposition::On::side)
             continue;
           shorten(*list[c], panels);
           supports.push_back({c, panels});
@@ -127,7 +127,7 @@ namespace geocone::GEOCONE_DIM
     for (unsigned int c = 0; c < tractions.size(); ++c)
       {
         const std::vector<SidePart> panels =
-          panels_of_body(*tractions[c], scene.geometry);
+          segments_of_body(*tractions[c], scene.geometry);
         double size = 0.;
         for (const SidePart &panel : panels)
           for (unsigned int k = 0; k + 1 < dim; ++k)
@@ -162,7 +162,7 @@ namespace geocone::GEOCONE_DIM
   }
 
   std::vector<double>
-  MovingConditions::sum_held(const MaterialPoints &points) const
+  MovingConditions::sum_prescribed(const MaterialPoints &points) const
   {
     std::vector<double> sum(scene.dirichlet.list.size());
     for (unsigned int p = 0; p < points.held_by.size(); ++p)
@@ -175,10 +175,10 @@ namespace geocone::GEOCONE_DIM
   void
   MovingConditions::check_held_particles(const MaterialPoints &points) const
   {
-    const std::vector<double> of_conditions = sum_held(points);
+    const std::vector<double> of_conditions = sum_prescribed(points);
     for (unsigned int c = 0; c < of_conditions.size(); ++c)
       if (const BoundaryCondition &condition = *scene.dirichlet.list[c];
-          condition.holds() == Imposition::On::particles &&
+          condition.imposed_on() == Imposition::On::particles &&
           of_conditions[c] == 0.)
         throw InputError(condition.parameter("Box"),
                          condition.part(),
@@ -220,7 +220,7 @@ namespace geocone::GEOCONE_DIM
     for (const auto &[condition, surface] : loads)
       {
         const BoundaryCondition &load = *scene.tractions.list[condition];
-        const bool               acts =
+        const bool               is_active =
           stage == nullptr || stage->scales(load.name) == scaled;
         const std::vector<SidePart> facets = surface.facets();
         const std::vector<double>   parts =
@@ -229,7 +229,7 @@ namespace geocone::GEOCONE_DIM
                          facets,
                          [&, &surface = surface](const std::size_t    number,
                                                  const BoundaryPoint &point) {
-                           if (acts)
+                           if (is_active)
                              add_traction(load,
                                           surface.size_at_start(number),
                                           area_of(facets[number]),
@@ -266,9 +266,9 @@ namespace geocone::GEOCONE_DIM
   void
   MovingConditions::add_rows_of_sides(const double t, Multipliers &rows) const
   {
-    for (const HeldSide &side : supports)
+    for (const PrescribedSide &side : supports)
       {
-        if (!acts[side.condition])
+        if (!is_active[side.condition])
           continue;
         const BoundaryCondition &condition =
           *scene.dirichlet.list[side.condition];
@@ -315,10 +315,10 @@ namespace geocone::GEOCONE_DIM
     const auto &conditions = scene.dirichlet.list;
     if (std::none_of(
           conditions.begin(), conditions.end(), [](const auto &condition) {
-            return condition->holds() == Imposition::On::particles;
+            return condition->imposed_on() == Imposition::On::particles;
           }))
       return;
-    const std::vector<double>            of_conditions = sum_held(points);
+    const std::vector<double>            of_conditions = sum_prescribed(points);
     std::vector<types::global_dof_index> nodes;
     std::vector<double>                  of_cell(conditions.size());
     for (unsigned int c = 0; c < points.n_cells(); ++c)
@@ -328,13 +328,13 @@ namespace geocone::GEOCONE_DIM
              p < points.first_point[c + 1];
              ++p)
           if (const unsigned int held = points.held_by[p];
-              held > 0 && acts[held - 1])
+              held > 0 && is_active[held - 1])
             of_cell[held - 1] += mesh.measure(points.position[p]);
         for (unsigned int p = points.first_point[c];
              p < points.first_point[c + 1];
              ++p)
           if (const unsigned int held = points.held_by[p];
-              held > 0 && acts[held - 1])
+              held > 0 && is_active[held - 1])
             {
               const double            size = mesh.measure(points.position[p]);
               const Imposition::Share share =
@@ -444,17 +444,17 @@ namespace geocone::GEOCONE_DIM
              "m/s is asked where the others leave %g m/s; impose "
              "segments or cell averages, or a velocity that is "
              "the same for all its points",
-             refusal->asked,
-             refusal->left));
+             refusal->prescribed,
+             refusal->implied));
   }
 
   void
   MovingConditions::move(const Vector &v, const double h, const double t)
   {
-    for (HeldSide &side : supports)
+    for (PrescribedSide &side : supports)
       {
         side.before = side.panels;
-        if (!acts[side.condition])
+        if (!is_active[side.condition])
           {
             side.panels = moved_with_body(side.panels, mesh, space, v, h);
             continue;
@@ -485,9 +485,9 @@ namespace geocone::GEOCONE_DIM
         if (point.values[i] > 0.)
           mark.local_element(dim * space.local_node(point.nodes[i])) += 1.;
     };
-    for (const HeldSide &side : supports)
+    for (const PrescribedSide &side : supports)
       for (const SidePart &panel : side.panels)
-        if (acts[side.condition])
+        if (is_active[side.condition])
           for (const BoundaryPoint &point : points_on(mesh, space, panel))
             mark_nodes(point);
     for (const LoadedSide &side : loads)
@@ -510,12 +510,12 @@ namespace geocone::GEOCONE_DIM
                                        const Point<dim> &after) const
   {
     std::optional<Point<dim>> place;
-    for (const HeldSide &side : supports)
+    for (const PrescribedSide &side : supports)
       for (unsigned int l = 0; l < side.panels.size(); ++l)
         {
           const SidePart &panel = side.panels[l];
           const Seen      now   = seen_from(panel, after);
-          if (!now.is_close_behind() || !acts[side.condition] ||
+          if (!now.is_close_behind() || !is_active[side.condition] ||
               !holds_normal(*scene.dirichlet.list[side.condition], panel))
             continue;
           const Seen was = seen_from(side.before[l], before);
@@ -542,7 +542,7 @@ namespace geocone::GEOCONE_DIM
   }
 
   unsigned int
-  MovingConditions::n_behind(const MaterialPoints &points) const
+  MovingConditions::n_penetrated(const MaterialPoints &points) const
   {
     if (supports.empty())
       return 0;
@@ -550,13 +550,13 @@ namespace geocone::GEOCONE_DIM
     for (unsigned int p = 0; p < points.n_points(); ++p)
       {
         bool behind = false;
-        for (const HeldSide &side : supports)
+        for (const PrescribedSide &side : supports)
           for (const SidePart &panel : side.panels)
             {
               const Seen seen = seen_from(panel, points.position[p]);
               behind =
                 behind ||
-                (acts[side.condition] && seen.is_close_behind() &&
+                (is_active[side.condition] && seen.is_close_behind() &&
                  seen.beyond > 0.1 * scene.geometry.size_of_point(
                                        points.position[p], points.volume[p]) &&
                  holds_normal(*scene.dirichlet.list[side.condition], panel));
@@ -570,12 +570,12 @@ namespace geocone::GEOCONE_DIM
   MovingConditions::soil_limits() const
   {
     std::vector<SoilLimit> limits;
-    for (const HeldSide &side : supports)
+    for (const PrescribedSide &side : supports)
       for (const SidePart &panel : side.panels)
         {
           const Tensor<1, dim> area = area_of(panel);
           for (unsigned int d = 0; d < dim; ++d)
-            if (acts[side.condition] &&
+            if (is_active[side.condition] &&
                 std::abs(area[d]) > (1. - 1e-9) * area.norm() &&
                 holds_normal(*scene.dirichlet.list[side.condition], panel))
               limits.push_back({d,
@@ -589,7 +589,7 @@ namespace geocone::GEOCONE_DIM
   void
   MovingConditions::state(StateRow &row)
   {
-    for (HeldSide &side : supports)
+    for (PrescribedSide &side : supports)
       for (SidePart &panel : side.panels)
         {
           auto ends = ends_of(panel);
@@ -605,7 +605,7 @@ namespace geocone::GEOCONE_DIM
   MovingConditions::box_of(const BoundaryCondition &condition) const
   {
     std::vector<Point<dim>> corners;
-    for (const HeldSide &side : supports)
+    for (const PrescribedSide &side : supports)
       if (scene.dirichlet.list[side.condition].get() == &condition)
         for (const SidePart &panel : side.panels)
           for (const Point<dim> &x : panel.corners)

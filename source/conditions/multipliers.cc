@@ -477,9 +477,9 @@ namespace geocone::GEOCONE_DIM
   }
 
   Multipliers::LowMassShare
-  Multipliers::light_share(const Vector &v,
-                           const Vector &mass,
-                           const Space  &space) const
+  Multipliers::low_mass_share(const Vector &v,
+                              const Vector &mass,
+                              const Space  &space) const
   {
     const unsigned int n = n_rows();
     if (n == 0)

@@ -94,7 +94,7 @@ namespace geocone::GEOCONE_DIM
               for (const unsigned int v : vertices)
                 places.push_back(cell->vertex(v));
               const FacePlane plane{SidePart{places}};
-              if (plane.ahead(cell->center()) > 0.)
+              if (plane.signed_distance(cell->center()) > 0.)
                 {
                   std::reverse(vertices.begin(), vertices.end());
                   std::reverse(places.begin(), places.end());
@@ -206,7 +206,7 @@ namespace geocone::GEOCONE_DIM
         if (part == 0.)
           continue;
         const double gap =
-          plane.ahead(at.ahead_of(Point<dim - 1>(middle / part)));
+          plane.signed_distance(at.ahead_of(Point<dim - 1>(middle / part)));
         if (gap <= std::max(its.diameter, plane.diameter) + reach &&
             gap >= -std::min(its.diameter, plane.diameter))
           candidates.push_back(at);
@@ -222,15 +222,16 @@ namespace geocone::GEOCONE_DIM
           {
             const Point<dim - 1> x       = piece.at(rule.point(q)),
                                  other_s = unit_place(candidate.flat, x);
-            const double gap =
-              std::abs(plane.ahead(candidate.other->outline.at(other_s)));
+            const double gap             = std::abs(
+              plane.signed_distance(candidate.other->outline.at(other_s)));
             const bool is_hidden = std::any_of(
               candidates.begin(),
               candidates.end(),
               [&](const Candidate &before) {
                 return before.other != candidate.other &&
                        is_in(before.flat, x) &&
-                       std::abs(plane.ahead(before.ahead_of(x))) < gap;
+                       std::abs(plane.signed_distance(before.ahead_of(x))) <
+                         gap;
               });
             if (!is_hidden)
               points.push_back(

@@ -39,13 +39,14 @@ namespace geocone
           r.segment(i + 1, m) - tangential_rho(node) * u.segment(i + 1, m);
         if (pull.norm() <= bound)
           continue;
-        state.contact   = Contact::slip;
-        state.direction = pull / pull.norm();
-        state.turn      = MatrixXd::Zero(m, m);
+        state.contact              = Contact::slip;
+        state.direction            = pull / pull.norm();
+        state.direction_derivative = MatrixXd::Zero(m, m);
         if (m > 1)
-          state.turn = bound / pull.norm() *
-                       (MatrixXd::Identity(m, m) -
-                        state.direction * state.direction.transpose());
+          state.direction_derivative =
+            bound / pull.norm() *
+            (MatrixXd::Identity(m, m) -
+             state.direction * state.direction.transpose());
       }
     return all;
   }
@@ -66,15 +67,16 @@ namespace geocone
           }
         if (state[k].contact == Contact::slip)
           {
-            const VectorXd &d       = state[k].direction;
-            const MatrixXd &turn    = state[k].turn;
-            MatrixXd        of_pull = K.middleRows(i + 1, m);
+            const VectorXd &d = state[k].direction;
+            const MatrixXd &direction_derivative =
+              state[k].direction_derivative;
+            MatrixXd of_pull = K.middleRows(i + 1, m);
             of_pull.middleCols(i + 1, m).diagonal().array() -=
               tangential_rho(node);
             A.middleRows(i + 1, m) -=
-              node.friction * d * K.row(i) + turn * of_pull;
+              node.friction * d * K.row(i) + direction_derivative * of_pull;
             b.segment(i + 1, m) += (node.friction * c[i] + node.adhesion) * d +
-                                   turn * c.segment(i + 1, m);
+                                   direction_derivative * c.segment(i + 1, m);
           }
         else
           for (unsigned int t = i + 1; t <= i + m; ++t)

@@ -148,7 +148,7 @@ namespace geocone::GEOCONE_DIM
         const Tensor<1, dim> free = free_part(node.normal, node.node);
         const double         part = free.norm(); // of the normal
         if (n == 0 ||
-            (n < dim && part < (node.is_twin ? hardly : along_support)))
+            (n < dim && part < (node.is_twin ? hardly : least_free_component)))
           {
             if (node.touches_body() && !node.is_twin)
               throw StepFailure(
@@ -327,15 +327,15 @@ namespace geocone::GEOCONE_DIM
   {
     double largest = 0.;
     for (unsigned int i = 0; i < list.size(); ++i)
-      if (touch[i].state != State::open)
-        largest = std::max(largest, touch[i].size);
+      if (nodal_contact[i].state != State::open)
+        largest = std::max(largest, nodal_contact[i].size);
     largest = dealii::Utilities::MPI::max(largest, comm);
     std::vector<unsigned int> chosen;
     for (unsigned int i = 0; i < list.size(); ++i)
       if (is_owned(list[i]) && !list[i].is_corner &&
-          (touch[i].state != State::open ||
-           touch[i].rho *
-               (touch[i].relative * list[i].normal - list[i].least) <=
+          (nodal_contact[i].state != State::open ||
+           nodal_contact[i].rho *
+               (nodal_contact[i].relative * list[i].normal - list[i].least) <=
              largest))
         chosen.push_back(i);
     return chosen;
@@ -352,7 +352,7 @@ namespace geocone::GEOCONE_DIM
         rho_Q[i] = Matrix();
         for (unsigned int a = 0; a < dim; ++a)
           {
-            rho_Q[i][a][a] = touch[i].rho;
+            rho_Q[i][a][a] = nodal_contact[i].rho;
             for (unsigned int b = 0; b < dim; ++b)
               row_A[a].local_element(dim * list[i].node + b) = a == b ? 1. : 0.;
           }
@@ -373,8 +373,9 @@ namespace geocone::GEOCONE_DIM
     result.of_bodies = has_pairs;
     result.has_friction =
       dealii::Utilities::MPI::max(int(frictional), comm) > 0;
-    result.moves_obstacles  = obstacles.n_free() > 0;
-    result.obstacles_loaded = result.moves_obstacles && obstacles.are_loaded();
+    result.has_free_obstacles = obstacles.n_free() > 0;
+    result.obstacles_loaded =
+      result.has_free_obstacles && obstacles.are_loaded();
     return result;
   }
 
@@ -388,7 +389,7 @@ namespace geocone::GEOCONE_DIM
     with_friction = has_friction;
     holds         = holds_now;
     relaxed       = false;
-    touch.assign(list.size(), Touch());
+    nodal_contact.assign(list.size(), NodalContact());
     rho_Q.assign(list.size(), Matrix());
     for (Vector &row : row_A)
       if (row.size() == 0)
@@ -419,14 +420,14 @@ namespace geocone::GEOCONE_DIM
         // Supported directions do not move relative to the obstacle either.
         const Force      velocity = free_part(node.velocity, node.node);
         const Projection at       = project(node, locals[i], velocity);
-        touch[i].force            = locals[i].r;
-        touch[i].state            = at.state;
-        touch[i].size =
+        nodal_contact[i].force    = locals[i].r;
+        nodal_contact[i].state    = at.state;
+        nodal_contact[i].size =
           locals[i].r.norm() + locals[i].rho * (locals[i].v - velocity).norm();
-        touch[i].relative = locals[i].v - velocity;
-        touch[i].rho      = locals[i].rho;
-        rho_Q[i]          = locals[i].rho * at.Q;
-        Matrix A          = node.share - at.Q * node.share;
+        nodal_contact[i].relative = locals[i].v - velocity;
+        nodal_contact[i].rho      = locals[i].rho;
+        rho_Q[i]                  = locals[i].rho * at.Q;
+        Matrix A                  = node.share - at.Q * node.share;
         for (unsigned int a = 0; a < dim; ++a)
           for (unsigned int b = 0; b < dim; ++b)
             if (node.is_second)
@@ -436,9 +437,10 @@ namespace geocone::GEOCONE_DIM
         for (unsigned int d = 0; d < dim; ++d)
           if (unknowns.is_free(dim * node.node + d))
             {
-              double &row    = residual.local_element(dim * node.node + d);
-              row            = (node.is_second ? row : 0.) + at.F[d];
-              touch[i].error = std::hypot(touch[i].error, at.F[d]);
+              double &row = residual.local_element(dim * node.node + d);
+              row         = (node.is_second ? row : 0.) + at.F[d];
+              nodal_contact[i].error =
+                std::hypot(nodal_contact[i].error, at.F[d]);
             }
       }
     for (Vector &row : row_A)
@@ -540,7 +542,7 @@ namespace geocone::GEOCONE_DIM
                   if (!is_owned(list[i]))
                     continue;
                   sums[number].local_element(dim * node + d) -=
-                    touch[i].rho * GQ[d];
+                    nodal_contact[i].rho * GQ[d];
                   update.U(row, number) += rho_Q[i][d] * G;
                 }
           });
@@ -575,7 +577,7 @@ namespace geocone::GEOCONE_DIM
               is_owned(node) && !node.touches_body())
             {
               const Force p =
-                rho_Q[i] * (free_part(dst, node.node) / touch[i].rho -
+                rho_Q[i] * (free_part(dst, node.node) / nodal_contact[i].rho -
                             free_part(dv, node.node));
               for (unsigned int k = 0; k < n_motions; ++k)
                 sums[n_motions * node.obstacle + k] +=

@@ -72,8 +72,8 @@ namespace geocone::GEOCONE_DIM
         return;
       }
 
-    path.reinit(space.partitioner());
-    path.update_ghost_values(); // zero ghost values are read
+    nodal_displacement.reinit(space.partitioner());
+    nodal_displacement.update_ghost_values(); // zero ghost values are read
     if (has_bonds())
       {
         bonds.reinit(space.partitioner());
@@ -86,12 +86,13 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
-  ObstacleContact::take_body(const std::vector<BackgroundMesh::Cell> &cells)
+  ObstacleContact::set_body_cells(
+    const std::vector<BackgroundMesh::Cell> &cells)
   {
     if (!exists())
       return;
     using Cell                       = BackgroundMesh::Cell;
-    const std::vector<bool> is_there = mesh.is_among(cells);
+    const std::vector<bool> is_there = mesh.marked_cells(cells);
     const auto is_bare = [&](const Cell &cell, const unsigned int f) {
       return is_there[cell->active_cell_index()] &&
              (cell->face(f)->at_boundary() ||
@@ -121,7 +122,7 @@ namespace geocone::GEOCONE_DIM
     had_cells.resize(space.n_local_nodes());
     for (unsigned int node = 0; node < had_cells.size(); ++node)
       had_cells[node] = of_body.local_element(dim * node) > 0.;
-    for (Vector *const of_nodes : {&path, &bonds})
+    for (Vector *const of_nodes : {&nodal_displacement, &bonds})
       if (of_nodes->size() > 0)
         {
           of_nodes->zero_out_ghost_values();
@@ -156,19 +157,19 @@ namespace geocone::GEOCONE_DIM
   {
     Point<dim> x = space.node_positions()[node];
     if (mesh_is_body)
-      x += value_at(path, node);
+      x += value_at(nodal_displacement, node);
     return x;
   }
 
   bool
-  ObstacleContact::is_held(const unsigned int    node,
-                           const Tensor<1, dim> &normal) const
+  ObstacleContact::is_prescribed(const unsigned int    node,
+                                 const Tensor<1, dim> &normal) const
   {
     Tensor<1, dim> free;
     for (unsigned int d = 0; d < dim; ++d)
       if (supports->is_free(dim * node + d))
         free[d] = normal[d];
-    return free.norm() < along_support;
+    return free.norm() < least_free_component;
   }
 
   ContactStep
@@ -229,7 +230,7 @@ namespace geocone::GEOCONE_DIM
   }
 
   double
-  ObstacleContact::reach(const double h, const double u_n) const
+  ObstacleContact::closable_gap(const double h, const double u_n) const
   {
     return (mesh_is_body ? closed_gap : nearly_closed) * size +
            2. * h * std::abs(u_n);
@@ -281,7 +282,7 @@ namespace geocone::GEOCONE_DIM
             ->law;
         apply_law(law, contact);
         rebound(u_n, law, contact);
-        near[contact.node] = {contact, at.gap, reach(h, u_n)};
+        near[contact.node] = {contact, at.gap, closable_gap(h, u_n)};
       }
     return near;
   }
@@ -294,7 +295,7 @@ namespace geocone::GEOCONE_DIM
   {
     const Obstacle  &obstacle = *scene.obstacles.list[o];
     const Point<dim> x        = place(node);
-    return obstacle.slides_little()
+    return obstacle.has_small_sliding()
              ? obstacle.nearest_to_start(space.node_positions()[node],
                                          x,
                                          displacement[o],
@@ -323,7 +324,8 @@ namespace geocone::GEOCONE_DIM
             if (node < space.n_owned_nodes())
               u -= value_at(v, node);
             const Obstacle::Nearest at = nearest(o, node, h * u, others[o]);
-            if (at.distance < -closed_gap * size && is_held(node, at.normal))
+            if (at.distance < -closed_gap * size &&
+                is_prescribed(node, at.normal))
               refusal =
                 format("the obstacle '%s' enters the node at (%s), "
                        "which a boundary condition holds, by %.3g m"
@@ -351,9 +353,9 @@ namespace geocone::GEOCONE_DIM
     std::string refusal;
     for (const unsigned int node : candidates)
       {
-        const Point<dim>     x = place(node);
-        const Tensor<1, dim> v = value_at(velocity_n, node);
-        std::vector<Near>    near;
+        const Point<dim>              x = place(node);
+        const Tensor<1, dim>          v = value_at(velocity_n, node);
+        std::vector<PotentialContact> near;
         for (unsigned int o = 0; o < list.size(); ++o)
           {
             const Tensor<1, dim>    arm = x - centre(o);
@@ -379,7 +381,7 @@ namespace geocone::GEOCONE_DIM
             apply_law(list[o]->law, contact);
             const double u_n = (v - V) * at.normal;
             rebound(u_n, list[o]->law, contact);
-            near.push_back({contact, gap, reach(h, u_n)});
+            near.push_back({contact, gap, closable_gap(h, u_n)});
           }
         if (const auto other = bodies.find(node); other != bodies.end())
           near.push_back(other->second);
@@ -391,31 +393,35 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
-  ObstacleContact::add_nearest(std::vector<Near> &near,
-                               std::string       &refusal,
-                               ContactStep       &step) const
+  ObstacleContact::add_nearest(std::vector<PotentialContact> &near,
+                               std::string                   &refusal,
+                               ContactStep                   &step) const
   {
     // Contacts that may close in the step come before nearer ones that may not,
     // and obstacles before bodies at the same distance.
-    std::stable_sort(
-      near.begin(), near.end(), [](const Near &a, const Near &b) {
-        const bool a_is_far = a.gap > a.reach, b_is_far = b.gap > b.reach;
-        return a_is_far != b_is_far ? b_is_far : a.gap < b.gap;
-      });
-    std::vector<const Near *> taken;
-    for (const Near &at : near)
+    std::stable_sort(near.begin(),
+                     near.end(),
+                     [](const PotentialContact &a, const PotentialContact &b) {
+                       const bool a_is_far = a.gap > a.closable_gap,
+                                  b_is_far = b.gap > b.closable_gap;
+                       return a_is_far != b_is_far ? b_is_far : a.gap < b.gap;
+                     });
+    std::vector<const PotentialContact *> taken;
+    for (const PotentialContact &at : near)
       if (std::isfinite(at.gap) &&
           (taken.empty() ||
-           (at.gap <= at.reach && taken[0]->gap <= taken[0]->reach &&
-            std::all_of(taken.begin(), taken.end(), [&](const Near *other) {
-              return at.contact.normal * other->contact.normal < parallel;
-            }))))
+           (at.gap <= at.closable_gap &&
+            taken[0]->gap <= taken[0]->closable_gap &&
+            std::all_of(
+              taken.begin(), taken.end(), [&](const PotentialContact *other) {
+                return at.contact.normal * other->contact.normal < parallel;
+              }))))
         taken.push_back(&at);
     if (taken.size() > 1)
       {
         const std::string where =
           "the node at (" + text_of_place(place(taken[0]->contact.node)) + ") ";
-        const auto name_of = [&](const Near *at) {
+        const auto name_of = [&](const PotentialContact *at) {
           const auto        &obstacles = scene.obstacles.list;
           const unsigned int i         = at->contact.obstacle;
           return i < obstacles.size()
@@ -425,7 +431,7 @@ namespace geocone::GEOCONE_DIM
         const std::string both =
           "'" + name_of(taken[0]) + "' and '" + name_of(taken[1]) + "'";
         bool is_free = false;
-        for (const Near *at : taken)
+        for (const PotentialContact *at : taken)
           is_free = is_free || (!at->contact.touches_body() &&
                                 step.bodies[at->contact.obstacle].n_free() > 0);
         if (taken.size() > 2)
@@ -438,14 +444,14 @@ namespace geocone::GEOCONE_DIM
           refusal = where + "touches " + both +
                     " at once, of which one is a free obstacle" + of_corner;
       }
-    for (const Near *at : taken)
+    for (const PotentialContact *at : taken)
       step.nodes.push_back(at->contact);
   }
 
   Tensor<1, dim>
   ObstacleContact::force(const Contact &contact, const unsigned int i)
   {
-    return contact.free_part(contact.touches()[i].force,
+    return contact.free_part(contact.nodal_contacts()[i].force,
                              contact.nodes()[i].node);
   }
 
@@ -464,14 +470,15 @@ namespace geocone::GEOCONE_DIM
         const unsigned int node = nodes[i].node;
         if (node >= space.n_owned_nodes())
           continue;
-        const Contact::Touch &touch = contact.touches()[i];
-        ++sums[touch.state == Contact::State::open    ? 0
-               : touch.state == Contact::State::stick ? 1
-                                                      : 2];
+        const Contact::NodalContact &nodal_contact =
+          contact.nodal_contacts()[i];
+        ++sums[nodal_contact.state == Contact::State::open    ? 0
+               : nodal_contact.state == Contact::State::stick ? 1
+                                                              : 2];
         const Tensor<1, dim> u        = value_at(v, node),
                              relative = u - nodes[i].velocity;
-        most[0]                       = std::max(most[0], touch.error);
-        sums[6] += touch.size;
+        most[0]                       = std::max(most[0], nodal_contact.error);
+        sums[6] += nodal_contact.size;
         // Final gap from the initial one, -least h, unless the node rebounds.
         if (!nodes[i].rebounds)
           most[1] = std::max(
@@ -481,10 +488,11 @@ namespace geocone::GEOCONE_DIM
         const Tensor<1, dim> r = force(contact, i);
         // Vertices of quadratic tetrahedra have no tributary area.
         if (const double l = nodes[i].length;
-            mesh_is_body && l > 0. && touch.state != Contact::State::open)
+            mesh_is_body && l > 0. &&
+            nodal_contact.state != Contact::State::open)
           {
             sums[5] += l;
-            if (touch.state == Contact::State::stick)
+            if (nodal_contact.state == Contact::State::stick)
               sums[7] += l;
             const double pressure = (r * nodes[i].normal) / l;
             most[2]               = std::max(most[2], pressure);
@@ -558,9 +566,9 @@ namespace geocone::GEOCONE_DIM
     for (unsigned int i = 0; i < nodes.size(); ++i)
       if (nodes[i].node < space.n_owned_nodes())
         closed_nodes.local_element(dim * nodes[i].node + nodes[i].is_second) =
-          contact.touches()[i].state == Contact::State::open    ? 0.
-          : contact.touches()[i].state == Contact::State::stick ? 2.
-                                                                : 1.;
+          contact.nodal_contacts()[i].state == Contact::State::open    ? 0.
+          : contact.nodal_contacts()[i].state == Contact::State::stick ? 2.
+                                                                       : 1.;
     closed_nodes.update_ghost_values();
     of_impulse.update_ghost_values();
     v.update_ghost_values();
@@ -638,7 +646,7 @@ namespace geocone::GEOCONE_DIM
     const auto         &nodes = contact.nodes();
     for (unsigned int i = 0; i < nodes.size(); ++i)
       if (nodes[i].touches_body() && nodes[i].node < space.n_owned_nodes() &&
-          contact.touches()[i].state != Contact::State::open)
+          contact.nodal_contacts()[i].state != Contact::State::open)
         {
           double *own = &sums[(dim + 1) * (nodes[i].obstacle - n_obstacles)];
           for (unsigned int d = 0; d < dim; ++d)
@@ -675,9 +683,9 @@ namespace geocone::GEOCONE_DIM
       return;
     if (mesh_is_body && exists())
       {
-        path.zero_out_ghost_values();
-        path.add(h, v);
-        path.update_ghost_values();
+        nodal_displacement.zero_out_ghost_values();
+        nodal_displacement.add(h, v);
+        nodal_displacement.update_ghost_values();
         check_held(contact, v, h);
       }
     if (mesh_is_body && has_bonds())
@@ -687,7 +695,7 @@ namespace geocone::GEOCONE_DIM
         for (unsigned int i = 0; i < contact.nodes().size(); ++i)
           if (const ContactNode &at = contact.nodes()[i];
               contact.is_owned(at) &&
-              contact.touches()[i].state != Contact::State::open)
+              contact.nodal_contacts()[i].state != Contact::State::open)
             bonds.local_element(dim * at.node) = at.obstacle + 1.;
         bonds.update_ghost_values();
       }

@@ -90,7 +90,7 @@ namespace geocone::GEOCONE_DIM
   ObstacleMotions::find(const Sums &sums)
   {
     inverse_E.assign(bodies.size(), ObstacleMotions::Matrix::Zero());
-    lack_of_all = 0.;
+    out_of_balance_norm = 0.;
     if (n_free_motions == 0)
       return;
     const auto balance = [&]() {
@@ -126,7 +126,7 @@ namespace geocone::GEOCONE_DIM
       }
     for (unsigned int o = 0; o < bodies.size(); ++o)
       {
-        lack_of_all += now[o].R.norm();
+        out_of_balance_norm += now[o].R.norm();
         const ObstacleMotions::Matrix inverse = now[o].E.inverse();
         for (unsigned int k = 0; k < n_motions; ++k)
           for (unsigned int l = 0; l < n_motions; ++l)
@@ -147,14 +147,14 @@ namespace geocone::GEOCONE_DIM
 
   void
   ObstacleMotions::balance(Eigen::VectorXd &inertia,
-                           Eigen::VectorXd &lack) const
+                           Eigen::VectorXd &out_of_balance) const
   {
     inertia.resize(n_free_motions);
-    lack.resize(n_free_motions);
+    out_of_balance.resize(n_free_motions);
     for (unsigned int o = 0; o < bodies.size(); ++o)
       for_free(o, [&](const unsigned int k, const unsigned int number) {
         inertia[number] = bodies[o].inertia[k];
-        lack[number] =
+        out_of_balance[number] =
           bodies[o].inertia[k] * (motion[o][k] - bodies[o].without_contact[k]);
       });
   }
@@ -166,7 +166,7 @@ namespace geocone::GEOCONE_DIM
     for (unsigned int o = 0; o < bodies.size(); ++o)
       for_free(o, [&](const unsigned int k, const unsigned int) {
         const double y = motion[o][k], momentum = bodies[o].inertia[k] * y;
-        sum.change += momentum * (y - bodies[o].velocity_n[k]);
+        sum.work += momentum * (y - bodies[o].velocity_n[k]);
         sum.energy += momentum * y / 2.;
       });
     return sum;

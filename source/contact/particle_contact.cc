@@ -181,7 +181,7 @@ namespace geocone::GEOCONE_DIM
         std::vector<std::vector<unsigned int>> twins(space.nodes_per_cell());
         for (unsigned int layer = 0; layer < mesh.n_layers(); ++layer)
           {
-            space.cell_nodes(mesh.twin(cell, layer), of_cell);
+            space.cell_nodes(mesh.cell_in_layer(cell, layer), of_cell);
             for (unsigned int i = 0; i < of_cell.size(); ++i)
               twins[i].push_back(space.local_node(of_cell[i]));
           }
@@ -198,12 +198,12 @@ namespace geocone::GEOCONE_DIM
       }
   }
 
-  std::vector<ParticleBodies::Share>
-  ParticleBodies::shares_of(const Pair           &pair,
-                            const MaterialPoints &points,
-                            const Unknowns       &unknowns) const
+  std::vector<ParticleBodies::SupportParticle>
+  ParticleBodies::support_particles(const Pair           &pair,
+                                    const MaterialPoints &points,
+                                    const Unknowns       &unknowns) const
   {
-    std::vector<Share> shares;
+    std::vector<SupportParticle> particles;
     for_each_point(
       points,
       [&](const unsigned int p,
@@ -218,23 +218,24 @@ namespace geocone::GEOCONE_DIM
               at.N[i] > least_function &&
               unknowns.has_mass(dim * nodes[place][pair.first]) &&
               unknowns.has_mass(dim * nodes[place][pair.other]))
-            shares.push_back(
+            particles.push_back(
               {place,
                layer == pair.first,
                x,
                scene.geometry.size_of_point(x, points.volume[p]) / 2.});
       });
-    return shares;
+    return particles;
   }
 
   std::vector<Tensor<1, dim>>
-  ParticleBodies::normals(const Pair               &pair,
-                          const std::vector<Share> &shares) const
+  ParticleBodies::normals(const Pair                         &pair,
+                          const std::vector<SupportParticle> &particles) const
   {
     std::vector<Tensor<1, dim>>                         normal(nodes.size());
     std::vector<std::array<std::vector<Point<dim>>, 2>> of_place(nodes.size());
-    for (const Share &share : shares)
-      of_place[share.place][share.is_first].push_back(share.x);
+    for (const SupportParticle &particle : particles)
+      of_place[particle.position_index][particle.is_first].push_back(
+        particle.x);
 
     // Other ranks have further particles at shared positions. Sent: number of
     // the position, side, and coordinates, in the plane of hull corners only.
@@ -281,9 +282,9 @@ namespace geocone::GEOCONE_DIM
   }
 
   std::vector<double>
-  ParticleBodies::gaps(const Pair                        &pair,
-                       const std::vector<Share>          &shares,
-                       const std::vector<Tensor<1, dim>> &normal) const
+  ParticleBodies::gaps(const Pair                         &pair,
+                       const std::vector<SupportParticle> &particles,
+                       const std::vector<Tensor<1, dim>>  &normal) const
   {
     // Extent of both sides from the position.
     std::array<Vector, 2> nearest;
@@ -293,13 +294,14 @@ namespace geocone::GEOCONE_DIM
         for (unsigned int i = 0; i < space.n_local_nodes(); ++i)
           of_side.local_element(dim * i) = 1e300;
       }
-    for (const Share &share : shares)
+    for (const SupportParticle &particle : particles)
       {
-        const unsigned int node = nodes[share.place][pair.first];
-        const double       along =
-          (share.x - space.node_positions()[node]) * normal[share.place];
-        double &least = nearest[share.is_first].local_element(dim * node);
-        least = std::min(least, (share.is_first ? along : -along) - share.half);
+        const unsigned int node  = nodes[particle.position_index][pair.first];
+        const double       along = (particle.x - space.node_positions()[node]) *
+                             normal[particle.position_index];
+        double &least = nearest[particle.is_first].local_element(dim * node);
+        least =
+          std::min(least, (particle.is_first ? along : -along) - particle.half);
       }
     for (Vector &of_side : nearest)
       {
@@ -319,13 +321,16 @@ namespace geocone::GEOCONE_DIM
   {
     for (const Pair &pair : pairs)
       {
-        std::map<unsigned int, std::array<std::vector<Share>, 2>> of_place;
-        for (const Share &share : shares_of(pair, points, unknowns))
-          of_place[share.place][share.is_first].push_back(share);
+        std::map<unsigned int, std::array<std::vector<SupportParticle>, 2>>
+          of_place;
+        for (const SupportParticle &particle :
+             support_particles(pair, points, unknowns))
+          of_place[particle.position_index][particle.is_first].push_back(
+            particle);
         std::string where;
         for (const auto &[place, sides] : of_place)
-          for (const Share &a : sides[0])
-            for (const Share &b : sides[1])
+          for (const SupportParticle &a : sides[0])
+            for (const SupportParticle &b : sides[1])
               if (a.x.distance(b.x) < beside * (a.half + b.half))
                 where = text_of_place(a.x);
         where =
@@ -378,8 +383,9 @@ namespace geocone::GEOCONE_DIM
     std::string                         thrice;
     for (const Pair &pair : pairs)
       {
-        const std::vector<Share>    shares = shares_of(pair, points, unknowns);
-        std::vector<Tensor<1, dim>> normal = normals(pair, shares);
+        const std::vector<SupportParticle> particles =
+          support_particles(pair, points, unknowns);
+        std::vector<Tensor<1, dim>> normal = normals(pair, particles);
         for (unsigned int place = 0; place < nodes.size(); ++place)
           if (normal[place].norm_square() == 0.)
             normal[place] = value_at(outward, nodes[place][pair.other]) -
@@ -387,7 +393,7 @@ namespace geocone::GEOCONE_DIM
         for (Tensor<1, dim> &n : normal)
           if (n.norm_square() > 0.)
             n /= n.norm();
-        const std::vector<double> gap = gaps(pair, shares, normal);
+        const std::vector<double> gap = gaps(pair, particles, normal);
 
         for (unsigned int place = 0; place < nodes.size(); ++place)
           {

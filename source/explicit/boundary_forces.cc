@@ -87,10 +87,11 @@ namespace geocone::GEOCONE_DIM
   }
 
   BoundaryForces::Done
-  BoundaryForces::add_dashpots(GridTransfer                     &nodes,
-                               const double                      dt,
-                               const double                      least_mass,
-                               const std::vector<unsigned char> &is_held) const
+  BoundaryForces::add_dashpots(
+    GridTransfer                     &nodes,
+    const double                      dt,
+    const double                      least_mass,
+    const std::vector<unsigned char> &is_prescribed) const
   {
     Done               done;
     const unsigned int n_owned = space.n_owned_nodes();
@@ -106,7 +107,7 @@ namespace geocone::GEOCONE_DIM
           double      &f = nodes.write[node_size * i + change_of_node + d];
           const double v = nodes.read[node_size * i + d];
           double mean = v, D = 0.; // of held nodes, which are at rest mostly
-          if (!is_held[dof])
+          if (!is_prescribed[dof])
             {
               const double in   = incoming.local_element(dof),
                            half = dt / (2. * m);

@@ -18,7 +18,7 @@ namespace geocone::GEOCONE_DIM
   ExplicitMPM::state_of_all(StateRow &row)
   {
     row(n_steps,
-        fade,
+        mass_ratio,
         fade_end,
         last_step,
         gravity,

@@ -147,7 +147,7 @@ namespace geocone::GEOCONE_DIM
         condition->refuse_normal("free with explicit MPM",
                                  "give Velocity x and y, or set "
                                  "Discretisation/Method = FEM");
-        if (condition->moves())
+        if (condition->moves_with_body())
           throw InputError(condition->parameter("Imposed on"),
                            condition->imposition.word(),
                            "nodes with explicit MPM",
@@ -277,7 +277,9 @@ namespace geocone::GEOCONE_DIM
   ExplicitMPM::start_nodes()
   {
     const bool stress_first = order == Order::usf;
-    pass(nothing, stress_first ? Gives::momentum_and_mass : Gives::all, 0.);
+    pass(nothing,
+         stress_first ? ScatteredData::momentum_and_mass : ScatteredData::all,
+         0.);
     const Stopwatch watch(clock.exchange);
     transfer->exchange(true);
   }
@@ -301,13 +303,13 @@ namespace geocone::GEOCONE_DIM
     for (const auto &[g, p] : transfer->lost)
       {
         PointArrays &group = groups[g];
-        if (outflow.is_error() && obstacle.empty())
-          obstacle = has_left(group, p);
-        take_away(group, p);
+        if (outflow.is_error() && error_message.empty())
+          error_message = lost_point_message(group, p);
+        remove_point(group, p);
         some_left = true;
       }
-    if (Utilities::MPI::logical_or(!obstacle.empty(), comm))
-      throw StepFailure(text_of_any_rank(comm, obstacle));
+    if (Utilities::MPI::logical_or(!error_message.empty(), comm))
+      throw StepFailure(text_of_any_rank(comm, error_message));
     start_nodes();
     nodes->mark_held();
     body_mass     = current_mass();
@@ -330,7 +332,7 @@ namespace geocone::GEOCONE_DIM
   {
     gravity = scene->gravity.at(t + dt / 2.);
     sums    = PassSums();
-    fade    = fade_end > t ? std::max(0., 1. - dt / (fade_end - t)) : 0.;
+    mass_ratio = fade_end > t ? std::max(0., 1. - dt / (fade_end - t)) : 0.;
     if (boundary)
       boundary->begin_step(t + dt / 2.);
     const NodalUpdate::Step at_nodes = {
@@ -349,24 +351,24 @@ namespace geocone::GEOCONE_DIM
     // Data for the next step would be useless if the transfer is refreshed
     // before it.
     const bool gives_next = !transfer->moves_each_step();
-    const auto gives      = [&](const Gives what) {
-      return gives_next ? what : Gives::nothing;
+    const auto scattered  = [&](const ScatteredData what) {
+      return gives_next ? what : ScatteredData::nothing;
     };
     if (order == Order::usl)
       {
         accelerate(false, true);
-        pass(everything, gives(Gives::all), dt);
+        pass(everything, scattered(ScatteredData::all), dt);
       }
     else if (order == Order::musl)
       {
         accelerate(false, false);
-        pass(velocity, Gives::momentum, dt);
+        pass(velocity, ScatteredData::momentum, dt);
         exchange(false);
         {
           const Stopwatch watch(clock.grid);
           nodes->velocity_after(at_nodes);
         }
-        pass(strain_and_position, gives(Gives::all), dt);
+        pass(strain_and_position, scattered(ScatteredData::all), dt);
       }
     else
       {
@@ -374,10 +376,12 @@ namespace geocone::GEOCONE_DIM
           const Stopwatch watch(clock.grid);
           nodes->velocity_before(t);
         }
-        pass(strain, Gives::force, dt);
+        pass(strain, ScatteredData::force, dt);
         exchange(false);
         accelerate(true, true);
-        pass(velocity_and_position, gives(Gives::momentum_and_mass), dt);
+        pass(velocity_and_position,
+             scattered(ScatteredData::momentum_and_mass),
+             dt);
       }
     if (gives_next)
       exchange(true);
@@ -394,22 +398,24 @@ namespace geocone::GEOCONE_DIM
   void
   ExplicitMPM::gather_sums()
   {
-    if (obstacle.empty() && !(sums.least_volume > 0.))
+    if (error_message.empty() && !(sums.least_volume > 0.))
       for (const PointArrays &group : groups)
-        for (unsigned int p = 0; p < group.n_points() && obstacle.empty(); ++p)
+        for (unsigned int p = 0; p < group.n_points() && error_message.empty();
+             ++p)
           if (!(group.volume[p] > 0.) && group.mass[p] > 0.)
-            obstacle = format("the volume of point %u at (%s) has become "
-                              "zero or negative\n"
-                              "  remedy:  take a smaller 'Explicit/Courant "
-                              "number' or 'Explicit/Time step', or splines",
-                              group.id[p],
-                              text_of_place(group.position.of(p)).c_str());
+            error_message =
+              format("the volume of point %u at (%s) has become "
+                     "zero or negative\n"
+                     "  remedy:  take a smaller 'Explicit/Courant "
+                     "number' or 'Explicit/Time step', or splines",
+                     group.id[p],
+                     text_of_place(group.position.of(p)).c_str());
     double largest[6] = {
       sums.wave_speed2,
       sums.speed2,
       sums.strain,
       double(must_refresh || some_left || transfer->must_sort(sums)),
-      double(!obstacle.empty()),
+      double(!error_message.empty()),
       double(stop_request_of_rank())};
     Utilities::MPI::max(largest, comm, largest);
     asked_to_stop    = static_cast<int>(largest[5]);
@@ -418,7 +424,7 @@ namespace geocone::GEOCONE_DIM
     sums.strain      = largest[2];
     must_refresh     = largest[3] > 0.;
     if (largest[4] > 0.)
-      throw StepFailure(text_of_any_rank(comm, obstacle));
+      throw StepFailure(text_of_any_rank(comm, error_message));
   }
 
   ExplicitReport

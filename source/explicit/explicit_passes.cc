@@ -44,10 +44,13 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
-  ExplicitMPM::pass(const Update update, const Gives gives, const double dt)
+  ExplicitMPM::pass(const Update        update,
+                    const ScatteredData scattered,
+                    const double        dt)
   {
     const Stopwatch watch(clock.passes);
-    const bool      gives_force = gives == Gives::force || gives == Gives::all;
+    const bool      gives_force =
+      scattered == ScatteredData::force || scattered == ScatteredData::all;
     if (gives_force)
       hoop_force = 0.;
     // Cell means of the stress need the stress at all points.
@@ -62,9 +65,9 @@ namespace geocone::GEOCONE_DIM
         return scratch.divergence;
       });
     for_each_block([&](const TransferBlock &points) {
-      take(update, dt, points);
-      if (gives != Gives::nothing && !later)
-        give(gives, points);
+      gather(update, dt, points);
+      if (scattered != ScatteredData::nothing && !later)
+        scatter(scattered, points);
     });
     for (const PointArrays &group : groups)
       if (update.strain)
@@ -75,13 +78,14 @@ namespace geocone::GEOCONE_DIM
       find_mean_stress(points);
       return scratch.mean_stress;
     });
-    for_each_block([&](const TransferBlock &points) { give(gives, points); });
+    for_each_block(
+      [&](const TransferBlock &points) { scatter(scattered, points); });
   }
 
   void
-  ExplicitMPM::take(const Update         update,
-                    const double         dt,
-                    const TransferBlock &points)
+  ExplicitMPM::gather(const Update         update,
+                      const double         dt,
+                      const TransferBlock &points)
   {
     if (update.strain || update.velocity || update.position)
       {
@@ -96,7 +100,7 @@ namespace geocone::GEOCONE_DIM
         kernels->update_points(update, dt, rule.flip_part(), points, scratch);
       }
     if (update.strain)
-      follow_law(update, dt, points);
+      update_stresses(update, dt, points);
     if (update.position)
       {
         bound_positions(points);
@@ -107,9 +111,9 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
-  ExplicitMPM::follow_law(const Update         update,
-                          const double         dt,
-                          const TransferBlock &points)
+  ExplicitMPM::update_stresses(const Update         update,
+                               const double         dt,
+                               const TransferBlock &points)
   {
     PointArrays           &group = groups[points.group];
     const ConstitutiveLaw &law   = scene->materials.law(group.of_material);
@@ -147,10 +151,10 @@ namespace geocone::GEOCONE_DIM
         lower[d] = here.lower[d];
         upper[d] = here.upper[d];
       }
-    if (!std::isfinite(here.check) || !transfer->reaches(lower) ||
-        !transfer->reaches(upper))
+    if (!std::isfinite(here.check) || !transfer->covers(lower) ||
+        !transfer->covers(upper))
       {
-        mend_positions(points);
+        correct_positions(points);
         here = PassSums();
         kernels->bound(points, here);
       }
@@ -199,11 +203,14 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
-  ExplicitMPM::give(const Gives gives, const TransferBlock &points)
+  ExplicitMPM::scatter(const ScatteredData  scattered,
+                       const TransferBlock &points)
   {
-    const bool force = gives == Gives::force || gives == Gives::all;
-    const bool mass  = gives == Gives::momentum_and_mass || gives == Gives::all;
-    const bool momentum = gives != Gives::force;
+    const bool force =
+      scattered == ScatteredData::force || scattered == ScatteredData::all;
+    const bool mass = scattered == ScatteredData::momentum_and_mass ||
+                      scattered == ScatteredData::all;
+    const bool momentum = scattered != ScatteredData::force;
     if (b_bar && force)
       transfer->average(points, scratch.mean_stress);
     if (axisymmetric && force)
@@ -263,7 +270,8 @@ namespace geocone::GEOCONE_DIM
   }
 
   std::string
-  ExplicitMPM::has_left(const PointArrays &group, const unsigned int p) const
+  ExplicitMPM::lost_point_message(const PointArrays &group,
+                                  const unsigned int p) const
   {
     return format("point %u has left the background mesh at (%s)\n"
                   "  remedy:  enlarge 'Mesh/Box', hold the side, or set "
@@ -273,7 +281,7 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
-  ExplicitMPM::mend_positions(const TransferBlock &points)
+  ExplicitMPM::correct_positions(const TransferBlock &points)
   {
     PointArrays       &group = groups[points.group];
     const unsigned int end =
@@ -285,13 +293,13 @@ namespace geocone::GEOCONE_DIM
         const bool       is_finite =
           std::isfinite(place.square()) &&
           std::isfinite(group.velocity.of(p).norm_square());
-        if (is_finite && transfer->reaches(place))
+        if (is_finite && transfer->covers(place))
           continue;
         Point<dim> nearest;
         if (!is_finite)
           {
-            if (obstacle.empty() && p < end)
-              obstacle =
+            if (error_message.empty() && p < end)
+              error_message =
                 format("the velocity of point %u is not a number\n"
                        "  remedy:  take a smaller 'Explicit/Courant number' "
                        "or 'Explicit/Time step', splines, or the order MUSL",
@@ -306,10 +314,10 @@ namespace geocone::GEOCONE_DIM
           }
         nearest            = transfer->nearest_in_domain(place);
         const bool outside = nearest.distance(place) > tolerance;
-        if (!transfer->reaches(nearest))
+        if (!transfer->covers(nearest))
           {
-            if (obstacle.empty() && p < end)
-              obstacle =
+            if (error_message.empty() && p < end)
+              error_message =
                 format("point %u at (%s) moved through more than a cell "
                        "in one step\n"
                        "  remedy:  take a smaller 'Explicit/Courant number' "
@@ -320,9 +328,9 @@ namespace geocone::GEOCONE_DIM
           }
         else if (outside && p < end)
           {
-            if (outflow.is_error() && obstacle.empty())
-              obstacle = has_left(group, p);
-            take_away(group, p);
+            if (outflow.is_error() && error_message.empty())
+              error_message = lost_point_message(group, p);
+            remove_point(group, p);
             some_left = true;
           }
         for (unsigned int d = 0; d < dim; ++d)

@@ -165,11 +165,12 @@ namespace geocone::GEOCONE_DIM
             for (unsigned int p = 0; p < group.n_points() && n > 0; ++p)
               {
                 group.copy_history(p, values.data());
-                start.set(law,
-                          law.whole(group.stress_components(p), values.data()),
-                          law.size(values.data()),
-                          group.position.of(p),
-                          values.data());
+                start.set(
+                  law,
+                  law.full_stress(group.stress_components(p), values.data()),
+                  law.size(values.data()),
+                  group.position.of(p),
+                  values.data());
                 for (unsigned int k = 0; k < n; ++k)
                   group.history[k][p] = values[k];
               }
@@ -223,7 +224,7 @@ namespace geocone::GEOCONE_DIM
             for (unsigned int d = 0; d < dim; ++d)
               momentum[d] += group.mass[p] * group.velocity[d][p];
             if (at_once)
-              take_away(group, p);
+              remove_point(group, p);
             else
               {
                 group.get(p, row.data());
@@ -253,7 +254,7 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
-  ExplicitMPM::take_away(PointArrays &group, const unsigned int p)
+  ExplicitMPM::remove_point(PointArrays &group, const unsigned int p)
   {
     const double m = group.mass[p];
     sum.removed_mass += m;
@@ -275,15 +276,16 @@ namespace geocone::GEOCONE_DIM
         // The remaining cross-section shrinks; the removed part is counted.
         const unsigned int p = points.first + k;
         const double       m = group.mass[p];
-        sum.removed_energy += (1. - fade) * kinetic_energy(group, p);
+        sum.removed_energy += (1. - mass_ratio) * kinetic_energy(group, p);
         sum.removed_potential -=
-          (1. - fade) * m *
+          (1. - mass_ratio) * m *
           (scene->gravity.at(1e300) * (group.position.of(p) - datum));
-        sum.removed_mass += (1. - fade) * m;
+        sum.removed_mass += (1. - mass_ratio) * m;
         for (unsigned int d = 0; d < dim; ++d)
-          sum.removed_momentum[d] += (1. - fade) * m * group.velocity[d][p];
-        group.mass[p] *= fade;
-        group.volume[p] *= fade;
+          sum.removed_momentum[d] +=
+            (1. - mass_ratio) * m * group.velocity[d][p];
+        group.mass[p] *= mass_ratio;
+        group.volume[p] *= mass_ratio;
       }
   }
 
@@ -331,7 +333,7 @@ namespace geocone::GEOCONE_DIM
     for (PointArrays &group : groups)
       if (group.ramped)
         for (unsigned int p = 0; p < group.n_points(); ++p)
-          take_away(group, p);
+          remove_point(group, p);
     std::vector<PointArrays> staying;
     for (PointArrays &group : groups)
       if (!group.ramped)

@@ -114,7 +114,7 @@ namespace geocone::GEOCONE_DIM
             group.copy_history(p, values.data());
             const double c2 =
               law.wave_modulus(
-                law.whole(group.stress_components(p), values.data()),
+                law.full_stress(group.stress_components(p), values.data()),
                 values.data()) *
               group.volume[p] / m;
             if (c2 > fastest)

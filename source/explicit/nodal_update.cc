@@ -28,9 +28,9 @@ namespace geocone::GEOCONE_DIM
   void
   NodalUpdate::mark_held()
   {
-    is_held.assign(dim * static_cast<std::size_t>(transfer.n_nodes()), 0);
+    is_prescribed.assign(dim * static_cast<std::size_t>(transfer.n_nodes()), 0);
     for (const PrescribedNode &node : transfer.prescribed)
-      is_held[dim * node.node + node.component] = 1;
+      is_prescribed[dim * node.node + node.component] = 1;
   }
 
   double
@@ -102,7 +102,7 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
-  NodalUpdate::hold_prescribed(const Step &step)
+  NodalUpdate::impose_prescribed(const Step &step)
   {
     held.clear();
     for (const PrescribedNode &node : transfer.prescribed)
@@ -158,16 +158,16 @@ namespace geocone::GEOCONE_DIM
     if (step.measures_force)
       measure_unbalanced_force();
     if (step.damping > 0.)
-      damp(step);
+      add_damping(step);
     if (boundary != nullptr)
       {
         const BoundaryForces::Done done =
-          boundary->add_dashpots(transfer, dt, least_mass, is_held);
+          boundary->add_dashpots(transfer, dt, least_mass, is_prescribed);
         sum.support_work += done.work;
         sum.impulse += done.impulse;
       }
 
-    hold_prescribed(step);
+    impose_prescribed(step);
     for (const auto &range : transfer.mine)
       for (unsigned int i = range[0]; i < range[1]; ++i)
         sum.small_masses += mass[i] > 0. && !(mass[i] > least_mass);
@@ -184,7 +184,7 @@ namespace geocone::GEOCONE_DIM
             v[d] += change[d];
           }
       }
-    for (const HeldNode &node : held)
+    for (const PrescribedComponent &node : held)
       {
         double *v = read + node_size * node.node + node.component;
 
@@ -214,18 +214,19 @@ namespace geocone::GEOCONE_DIM
     unbalanced = 0.;
     for (unsigned int i = 0; i < transfer.n_nodes(); ++i)
       for (unsigned int d = 0; d < dim; ++d)
-        if (!is_held[dim * i + d])
+        if (!is_prescribed[dim * i + d])
           unbalanced = std::max(unbalanced, std::abs(force_at(i, d)));
   }
 
   void
-  NodalUpdate::damp(const Step &step)
+  NodalUpdate::add_damping(const Step &step)
   {
     // Without prescribed components, whose force is a reaction.
     const double *read  = transfer.read.data();
     const auto    force = [&](const unsigned int i, const unsigned int d) {
       const double F = std::abs(force_at(i, d));
-      if (is_held[dim * i + d] || !(transfer.mass[i] > least_mass) || F == 0.)
+      if (is_prescribed[dim * i + d] || !(transfer.mass[i] > least_mass) ||
+          F == 0.)
         return 0.;
       // Sign of the velocity, continuous if it is small compared with its
       // change in the step: rounding must not determine a force.

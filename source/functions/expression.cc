@@ -35,7 +35,7 @@ namespace geocone::GEOCONE_DIM
           {
             throw InputError(parameter,
                              text,
-                             allowed_formula(FormulaOf::place_and_time),
+                             allowed_formula(FormulaVariables::place_and_time),
                              "the library cannot read it: write it otherwise");
           }
       }
@@ -72,7 +72,7 @@ namespace geocone::GEOCONE_DIM
     const std::string word = "record ";
     if (folder != nullptr && text.compare(0, word.size(), word) == 0)
       {
-        record = std::make_unique<Record>(
+        record = std::make_unique<TimeHistory>(
           existing_file(text.substr(word.size()),
                         *folder,
                         parameter,
@@ -108,7 +108,7 @@ namespace geocone::GEOCONE_DIM
   }
 
   double
-  Expression::stays_from() const
+  Expression::constant_from() const
   {
     return record && record->value(record->end()) != 0.
              ? record->end()

@@ -12,16 +12,17 @@
 namespace geocone::GEOCONE_DIM
 {
   std::string
-  allowed_formula(const FormulaOf variables)
+  allowed_formula(const FormulaVariables variables)
   {
     const std::string of_place = std::string(coordinates) + " (m)";
     return "a formula in " +
-           (variables == FormulaOf::time    ? ""
-            : variables == FormulaOf::place ? of_place + " and "
-                                            : of_place + ", ") +
-           (variables == FormulaOf::place ? "" : "t (s) and ") + "pi, e.g. " +
-           (variables == FormulaOf::place ? "0.25 - x^2"
-                                          : "-0.02*min(1,t/0.1)");
+           (variables == FormulaVariables::time    ? ""
+            : variables == FormulaVariables::place ? of_place + " and "
+                                                   : of_place + ", ") +
+           (variables == FormulaVariables::place ? "" : "t (s) and ") +
+           "pi, e.g. " +
+           (variables == FormulaVariables::place ? "0.25 - x^2"
+                                                 : "-0.02*min(1,t/0.1)");
   }
 
   namespace
@@ -45,9 +46,9 @@ namespace geocone::GEOCONE_DIM
     class FormulaReader
     {
     public:
-      FormulaReader(const std::string &text,
-                    const std::string &parameter,
-                    const FormulaOf    variables)
+      FormulaReader(const std::string     &text,
+                    const std::string     &parameter,
+                    const FormulaVariables variables)
         : text(text)
         , parameter(parameter)
         , variables(variables)
@@ -243,9 +244,9 @@ namespace geocone::GEOCONE_DIM
         else if (name == "rand" || name == "rand_seed")
           refuse("random numbers differ from run to run: give a formula, or a "
                  "record");
-        else if (name == "t" && variables == FormulaOf::place)
+        else if (name == "t" && variables == FormulaVariables::place)
           refuse("it does not depend on t");
-        else if (is_place && variables == FormulaOf::time)
+        else if (is_place && variables == FormulaVariables::time)
           refuse("it does not depend on " + name);
         else if (!is_place && name != "t" && name != "pi" && name != "_pi" &&
                  name != "_e")
@@ -277,18 +278,18 @@ namespace geocone::GEOCONE_DIM
                  std::to_string(n) + "; " + point_remedy);
       }
 
-      const std::string &text, &parameter;
-      const FormulaOf    variables;
-      std::size_t        place   = 0;
-      unsigned int       depth   = 0;
-      bool               divides = false; ///< the last operator consumed
+      const std::string     &text, &parameter;
+      const FormulaVariables variables;
+      std::size_t            place   = 0;
+      unsigned int           depth   = 0;
+      bool                   divides = false; ///< the last operator consumed
     };
   } // namespace
 
   void
-  check_formula(const std::string &text,
-                const std::string &parameter,
-                const FormulaOf    variables)
+  check_formula(const std::string     &text,
+                const std::string     &parameter,
+                const FormulaVariables variables)
   {
     FormulaReader(text, parameter, variables).read();
   }

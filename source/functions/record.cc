@@ -11,9 +11,9 @@
 
 namespace geocone
 {
-  Record::Record(const std::string &file,
-                 const std::string &text,
-                 const std::string &parameter)
+  TimeHistory::TimeHistory(const std::string &file,
+                           const std::string &text,
+                           const std::string &parameter)
   {
     std::vector<double> rows;
     bool                is_value = false;
@@ -68,7 +68,7 @@ namespace geocone
   }
 
   double
-  Record::value(const double t) const
+  TimeHistory::value(const double t) const
   {
     if (t <= times.front())
       return values.front();

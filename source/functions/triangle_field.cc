@@ -116,9 +116,11 @@ namespace geocone::GEOCONE_DIM
           {
             // Zero on the opposite side.
             const Point<dim> &on = vertices[cells[at.cell][(i + 1) % 3]];
-            at.parts[i] = g[i][0] * (x[0] - on[0]) + g[i][1] * (x[1] - on[1]);
+            at.barycentric[i] =
+              g[i][0] * (x[0] - on[0]) + g[i][1] * (x[1] - on[1]);
           }
-        const double least = std::min({at.parts[0], at.parts[1], at.parts[2]});
+        const double least =
+          std::min({at.barycentric[0], at.barycentric[1], at.barycentric[2]});
         if (least >= 0.)
           return at;
         if (least > nearest)
@@ -136,7 +138,7 @@ namespace geocone::GEOCONE_DIM
     double     sum = 0.;
     const auto at  = locate(x);
     for (unsigned int i = 0; i < 3 && at; ++i)
-      sum += at->parts[i] * values[cells[at->cell][i]];
+      sum += at->barycentric[i] * values[cells[at->cell][i]];
     return sum;
   }
 

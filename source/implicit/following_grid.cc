@@ -38,7 +38,7 @@ namespace geocone::GEOCONE_DIM
                        "quadrilaterals");
     std::string known;
     for (const auto &candidate : scene.dirichlet.list)
-      if (candidate->holds() == Imposition::On::side)
+      if (candidate->imposed_on() == Imposition::On::side)
         {
           known += (known.empty() ? "" : " | ") + candidate->name;
           if (candidate->name == name)

@@ -96,7 +96,7 @@ namespace geocone::GEOCONE_DIM
     mesh  = &mesh_;
     space = &space_;
     for (const auto &condition : scene->dirichlet.list)
-      if (condition->moves())
+      if (condition->moves_with_body())
         throw InputError(condition->parameter("Imposed on"),
                          condition->imposition.word(),
                          "nodes with FEM",
@@ -187,7 +187,7 @@ namespace geocone::GEOCONE_DIM
         constraints->set_values(v, start + 1e-6 * stage->duration);
         start += stage->duration;
       }
-    const std::string warning = constraints->warn_of_bent_values();
+    const std::string warning = constraints->warn_of_nonlinear_values();
     begin_stage(*scene->loading.list.front());
     if (!begun)
       begin(points, timer);
@@ -212,7 +212,7 @@ namespace geocone::GEOCONE_DIM
     // Whether obstacles support the body is unknown before contact.
     if (!inertia && !obstacles->exists())
       constraints->check_support(*mesh, *space, points);
-    obstacles->take_body(points.cells);
+    obstacles->set_body_cells(points.cells);
     loads = std::make_unique<Loads>(*scene, *mesh, *space, points);
     absorbing =
       std::make_unique<AbsorbingBoundary>(*scene, *mesh, *space, &points);
@@ -268,7 +268,7 @@ namespace geocone::GEOCONE_DIM
                       std::vector<std::string> &remarks)
   {
     const MPI_Comm    comm     = mesh->triangulation().get_communicator();
-    std::vector<bool> is_there = mesh->is_among(points.cells);
+    std::vector<bool> is_there = mesh->marked_cells(points.cells);
     unsigned int      n        = 0;
     for (const BackgroundMesh::Cell &cell : points.cells)
       if (stage.removes(cell->center()))
@@ -288,7 +288,7 @@ namespace geocone::GEOCONE_DIM
                    MaterialPoints           &points,
                    std::vector<std::string> &remarks)
   {
-    std::vector<bool> is_there = mesh->is_among(points.cells);
+    std::vector<bool> is_there = mesh->marked_cells(points.cells);
     for (const std::string &material : stage.added_materials)
       {
         unsigned int n = 0;

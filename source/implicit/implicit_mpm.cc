@@ -51,7 +51,7 @@ namespace geocone::GEOCONE_DIM
     present_stage = scene->loading.list.front()->name;
     datum         = mesh->lower_corner();
     if (is_unbalanced(points))
-      hand_over(points);
+      redistribute(points);
     set_up(newton);
     check_contact(points);
     if (!grid_follows.empty())
@@ -89,7 +89,7 @@ namespace geocone::GEOCONE_DIM
     newton.check(*problem);
     kinematics.velocity = velocity_L;
     kinematics.supports.resize(scene->supports().size());
-    if (const std::string bent = constraints->warn_of_bent_values();
+    if (const std::string bent = constraints->warn_of_nonlinear_values();
         !bent.empty())
       warning += (warning.empty() ? "" : "; ") + bent;
     return warning;
@@ -135,7 +135,7 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
-  ImplicitMPM::hand_over(MaterialPoints &points)
+  ImplicitMPM::redistribute(MaterialPoints &points)
   {
     std::vector<unsigned int> n_in_cell(mesh->triangulation().n_active_cells());
     for (const unsigned int cell : points.cell)
@@ -153,7 +153,7 @@ namespace geocone::GEOCONE_DIM
     Archive archive(mesh->triangulation().get_communicator());
     save_nodes(archive, "velocity", *mesh, *space, kinematics.velocity);
     save_grid(archive);
-    hand_over(points);
+    redistribute(points);
     set_up(newton);
     kinematics.velocity.reinit(space->partitioner());
     velocity_L.reinit(space->partitioner());
@@ -356,7 +356,7 @@ namespace geocone::GEOCONE_DIM
   {
     Vector       of_water(space->partitioner());
     const double part = scene->gravity.at(t)[1] / scene->gravity.at(1e300)[1];
-    const std::vector<double> parts = scene->water.parts(t);
+    const std::vector<double> parts = scene->water.interpolation_weights(t);
     for_each_point(points,
                    [&](const unsigned int p,
                        const unsigned int /* cell */,
@@ -424,7 +424,7 @@ namespace geocone::GEOCONE_DIM
         tried.add_earlier(report);
         report = std::move(tried);
         with.freezer.take(*problem, v_start, true, report.converged);
-        if (report.converged || report.exceeds)
+        if (report.converged || report.lag_error_too_large)
           break;
       }
     return report;
@@ -469,7 +469,8 @@ namespace geocone::GEOCONE_DIM
     // the rebound with others at the start of the next step. Hence contacts
     // come to rest without ObstacleContact::settle, unlike in fixed meshes.
     trial       = {};
-    trial.share = constraints->multipliers.light_share(v, lumped_mass, *space);
+    trial.share =
+      constraints->multipliers.low_mass_share(v, lumped_mass, *space);
     const std::string why_not = rejection(trial.share);
     return why_not.empty() ? transfer(points, v_end, v, step.h) : why_not;
   }
@@ -525,10 +526,10 @@ namespace geocone::GEOCONE_DIM
         hand_over_state(newton, timer, kinematics, points);
       }
     report.motion = {n_light_of_step,
-                     moving->n_behind(points),
+                     moving->n_penetrated(points),
                      trial.n_returned,
                      trial.returned_by,
                      trial.share.largest,
-                     front_of(points)};
+                     largest_coordinates(points)};
   }
 } // namespace geocone::GEOCONE_DIM

@@ -148,7 +148,7 @@ namespace geocone::GEOCONE_DIM
     if (!obstacles->exists())
       return;
     for (const auto &condition : scene->dirichlet.list)
-      if (condition->moves())
+      if (condition->moves_with_body())
         throw InputError(
           condition->parameter("Imposed on"),
           condition->imposition.word(),
@@ -157,7 +157,7 @@ namespace geocone::GEOCONE_DIM
           "side");
     for (const auto &obstacle : scene->obstacles.list)
       {
-        if (obstacle->slides_little())
+        if (obstacle->has_small_sliding())
           throw InputError(obstacle->parameter("Sliding"),
                            "small",
                            "finite with MPM",

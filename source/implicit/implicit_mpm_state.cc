@@ -148,7 +148,7 @@ namespace geocone::GEOCONE_DIM
             *std::min_element(extent.begin(), extent.end()));
         // Individually prescribed particles move with the grid and stay in
         // their row: otherwise their rows would also prescribe a gradient.
-        const BoundaryCondition *holder = holder_of(points, p);
+        const BoundaryCondition *holder = condition_of_particle(points, p);
         Tensor<1, dim>           move;
         for (unsigned int d = 0; d < dim; ++d)
           {
@@ -209,8 +209,8 @@ namespace geocone::GEOCONE_DIM
   }
 
   const BoundaryCondition *
-  ImplicitMPM::holder_of(const MaterialPoints &points,
-                         const unsigned int    p) const
+  ImplicitMPM::condition_of_particle(const MaterialPoints &points,
+                                     const unsigned int    p) const
   {
     const unsigned int held = points.held_by[p];
     if (held == 0 || !moving->is_acting(held - 1))
@@ -282,7 +282,7 @@ namespace geocone::GEOCONE_DIM
   }
 
   Point<dim>
-  ImplicitMPM::front_of(const MaterialPoints &points) const
+  ImplicitMPM::largest_coordinates(const MaterialPoints &points) const
   {
     Point<dim> front;
     for (unsigned int d = 0; d < dim; ++d)
@@ -316,7 +316,7 @@ namespace geocone::GEOCONE_DIM
         points.position[p] = moved[p].position;
         points.velocity[p] = moved[p].velocity;
         points.affine[p]   = moved[p].affine;
-        if (const BoundaryCondition *holder = holder_of(points, p))
+        if (const BoundaryCondition *holder = condition_of_particle(points, p))
           for (unsigned int d = 0; d < dim; ++d)
             if (holder->components[d])
               points.velocity[p][d] = holder->components[d]->value(

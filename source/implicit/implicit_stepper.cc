@@ -166,11 +166,11 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
-  ImplicitStepper::take_works(const TimeStep       &step,
-                              const MaterialPoints &points,
-                              const Vector         &v,
-                              const Vector         &residual,
-                              StepReport           &report) const
+  ImplicitStepper::add_works(const TimeStep       &step,
+                             const MaterialPoints &points,
+                             const Vector         &v,
+                             const Vector         &residual,
+                             StepReport           &report) const
   {
     WorksOnNodes work = works_on_nodes(step, v, residual);
     if (obstacles->exists())
@@ -193,7 +193,7 @@ namespace geocone::GEOCONE_DIM
     // Dissipation by friction in contact is part of the external work.
     report.works.external =
       external_work(work, step, points) + report.contact.dissipation;
-    report.works.of_ghosts = (step.h / step.solved_h) * ghost_work;
+    report.works.ghost_work = (step.h / step.solved_h) * ghost_work;
   }
 
   void
@@ -217,7 +217,7 @@ namespace geocone::GEOCONE_DIM
     const Multipliers     &rows   = constraints->multipliers;
     for (unsigned int c = 0; c < scene->dirichlet.list.size(); ++c)
       {
-        const bool moves = scene->dirichlet.list[c]->moves();
+        const bool moves = scene->dirichlet.list[c]->moves_with_body();
         if (moves)
           reactions[c].moment =
             rows.moment(lambda, c, constraints->centre(c), *space);
@@ -261,7 +261,7 @@ namespace geocone::GEOCONE_DIM
     Vector v_end         = integration.end_velocity(step, start_velocity(), v);
     report.newton.reason = try_move(step, points, v_end, v);
     if (const Stage &stage = scene->loading.stage_at(t + h / 2.);
-        stage.seeks_equilibrium() && report.newton.reason.empty())
+        stage.requires_equilibrium() && report.newton.reason.empty())
       report.newton.reason = stage.no_equilibrium(accelerating_share(
         *problem, points, scene->materials, start_velocity(), v));
     if (!report.newton.reason.empty())
@@ -276,15 +276,15 @@ namespace geocone::GEOCONE_DIM
         report.plates = bars->states_of_plates();
       }
     accept_move(step, points, v);
-    report.load_factor =
-      scaled.take(*constraints, problem->multipliers(), force, residual);
+    report.load_factor = scaled.add_scaled_loads(
+      *constraints, problem->multipliers(), force, residual);
     const InternalForces &forces = problem->internal_forces();
     const double          excess = forces.excess_work();
     report.quality               = forces.quality(excess);
-    report.works.of_excess       = (step.h / step.solved_h) * excess;
+    report.works.excess_work     = (step.h / step.solved_h) * excess;
     report.reactions             = constraints->reactions(
       residual, points, forces.total_stress(), step.solved_at);
-    take_works(step, points, v, residual, report);
+    add_works(step, points, v, residual, report);
     report.works.dissipation = update_points(step, points);
     constraints->turn_back(v_end);
     constraints->turn_back(v);

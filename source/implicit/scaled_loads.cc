@@ -32,10 +32,10 @@ namespace geocone::GEOCONE_DIM
   }
 
   double
-  ScaledLoads::take(const Constraints     &constraints,
-                    const Eigen::VectorXd &lambda,
-                    Vector                &force,
-                    Vector                &residual) const
+  ScaledLoads::add_scaled_loads(const Constraints     &constraints,
+                                const Eigen::VectorXd &lambda,
+                                Vector                &force,
+                                Vector                &residual) const
   {
     if (scaled.size() == 0)
       return 1.;

@@ -87,7 +87,7 @@ namespace geocone::GEOCONE_DIM
                        "another one in stages with 'Scaled loads'",
                        remedy);
     for (const auto &condition : scene.dirichlet.list)
-      if (condition->moves())
+      if (condition->moves_with_body())
         throw InputError(condition->parameter("Imposed on"),
                          condition->imposition.word(),
                          "nodes with " + what,

@@ -12,13 +12,13 @@ namespace geocone::GEOCONE_DIM
 {
 #ifdef GEOCONE_HAS_AVX2_UNITS
   extern template void
-  advance_cone_block<xsimd::avx2>(const ConeNumbers &, const PointBlock &);
+  advance_cone_block<xsimd::avx2>(const ConeConstants &, const PointBlock &);
 #endif
 
   namespace
   {
-    ConeNumbers
-    numbers_of(const FlowCone &cone, const Elasticity &elasticity)
+    ConeConstants
+    constants_of(const FlowCone &cone, const Elasticity &elasticity)
     {
       const double root = dim == 2 ? sqrt2 : std::sqrt(3.);
       return {cone.a,
@@ -32,13 +32,13 @@ namespace geocone::GEOCONE_DIM
     }
 
     void
-    advance_by_best(const ConeNumbers &numbers, const PointBlock &block)
+    advance_by_best(const ConeConstants &constants, const PointBlock &block)
     {
 #ifdef GEOCONE_HAS_AVX2_UNITS
       if (machine_has_avx2())
-        return advance_cone_block<xsimd::avx2>(numbers, block);
+        return advance_cone_block<xsimd::avx2>(constants, block);
 #endif
-      advance_cone_block<BaselineArch>(numbers, block);
+      advance_cone_block<BaselineArch>(constants, block);
     }
   } // namespace
 
@@ -47,7 +47,7 @@ namespace geocone::GEOCONE_DIM
                const Elasticity &elasticity,
                const PointBlock &block)
   {
-    advance_by_best(numbers_of(cone, elasticity), block);
+    advance_by_best(constants_of(cone, elasticity), block);
   }
 
   void
@@ -57,9 +57,9 @@ namespace geocone::GEOCONE_DIM
                const double       part,
                const unsigned int place)
   {
-    ConeNumbers numbers = numbers_of(cone, elasticity);
-    numbers.part        = part;
-    numbers.place       = place;
-    advance_by_best(numbers, block);
+    ConeConstants constants = constants_of(cone, elasticity);
+    constants.memory_factor = part;
+    constants.place         = place;
+    advance_by_best(constants, block);
   }
 } // namespace geocone::GEOCONE_DIM

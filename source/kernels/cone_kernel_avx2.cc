@@ -8,6 +8,6 @@
 namespace geocone::GEOCONE_DIM
 {
   template void
-  advance_cone_block<xsimd::avx2>(const ConeNumbers &, const PointBlock &);
+  advance_cone_block<xsimd::avx2>(const ConeConstants &, const PointBlock &);
 } // namespace geocone::GEOCONE_DIM
 #endif

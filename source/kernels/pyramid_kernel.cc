@@ -9,12 +9,12 @@ namespace geocone::GEOCONE_DIM
 {
 #ifdef GEOCONE_HAS_AVX2_UNITS
   extern template void
-  advance_pyramid_block<xsimd::avx2>(const PyramidNumbers &,
+  advance_pyramid_block<xsimd::avx2>(const PyramidConstants &,
                                      const PointBlock &);
 #endif
 
   void
-  advance_pyramid(const PyramidNumbers &pyramid, const PointBlock &block)
+  advance_pyramid(const PyramidConstants &pyramid, const PointBlock &block)
   {
 #ifdef GEOCONE_HAS_AVX2_UNITS
     if (machine_has_avx2())

@@ -8,7 +8,7 @@
 namespace geocone::GEOCONE_DIM
 {
   template void
-  advance_pyramid_block<xsimd::avx2>(const PyramidNumbers &,
+  advance_pyramid_block<xsimd::avx2>(const PyramidConstants &,
                                      const PointBlock &);
 } // namespace geocone::GEOCONE_DIM
 #endif

@@ -8,10 +8,10 @@ namespace geocone
 {
 #ifdef GEOCONE_HAS_AVX2_UNITS
   extern template void
-  take_single_substeps_by<xsimd::avx2>(const SubloadingNumbers &,
+  take_single_substeps_by<xsimd::avx2>(const DerivedSubloadingConstants &,
                                        SubloadingLanes<4> &);
   extern template void
-  take_single_substeps_by<xsimd::avx2>(const SubloadingNumbers &,
+  take_single_substeps_by<xsimd::avx2>(const DerivedSubloadingConstants &,
                                        SubloadingLanes<6> &);
 #endif
 
@@ -19,7 +19,7 @@ namespace geocone
   {
     template <int n>
     void
-    take_by_best(const SubloadingNumbers &c, SubloadingLanes<n> &lanes)
+    take_by_best(const DerivedSubloadingConstants &c, SubloadingLanes<n> &lanes)
     {
 #ifdef GEOCONE_HAS_AVX2_UNITS
       if (machine_has_avx2())
@@ -30,13 +30,15 @@ namespace geocone
   } // namespace
 
   void
-  take_single_substeps(const SubloadingNumbers &c, SubloadingLanes<4> &lanes)
+  take_single_substeps(const DerivedSubloadingConstants &c,
+                       SubloadingLanes<4>               &lanes)
   {
     take_by_best(c, lanes);
   }
 
   void
-  take_single_substeps(const SubloadingNumbers &c, SubloadingLanes<6> &lanes)
+  take_single_substeps(const DerivedSubloadingConstants &c,
+                       SubloadingLanes<6>               &lanes)
   {
     take_by_best(c, lanes);
   }

@@ -8,10 +8,10 @@
 namespace geocone
 {
   template void
-  take_single_substeps_by<xsimd::avx2>(const SubloadingNumbers &,
+  take_single_substeps_by<xsimd::avx2>(const DerivedSubloadingConstants &,
                                        SubloadingLanes<4> &);
   template void
-  take_single_substeps_by<xsimd::avx2>(const SubloadingNumbers &,
+  take_single_substeps_by<xsimd::avx2>(const DerivedSubloadingConstants &,
                                        SubloadingLanes<6> &);
 } // namespace geocone
 #endif

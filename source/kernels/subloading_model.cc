@@ -48,9 +48,9 @@ namespace geocone
     /** Limits p + pe from below by the lowest pressure. */
     template <int n>
     void
-    limit(const SubloadingNumbers &c,
-          SubloadingState<n>      &y,
-          SubloadingReport        &report)
+    limit(const DerivedSubloadingConstants &c,
+          SubloadingState<n>               &y,
+          SubloadingReport                 &report)
     {
       const double lack = c.lowest_pressure - c.pe - Body<n>::mean(y.stress);
       if (lack > 0.)

@@ -138,7 +138,7 @@ namespace geocone::GEOCONE_DIM
       std::unique_ptr<IncrementalProblem> problem;
     };
 
-    Outcome
+    ReplayResult
     replay_incremental(const std::string              &file_name,
                        const std::vector<std::string> &overrides,
                        ResultFolder                   &folder)
@@ -174,7 +174,7 @@ namespace geocone::GEOCONE_DIM
       const InternalForces &forces  = problem.internal_forces();
       const Quality         quality = forces.quality(forces.excess_work());
 
-      Outcome outcome;
+      ReplayResult outcome;
       outcome.summary = {
         {"kind", frozen.particles ? "MPM" : "FEM"},
         {"unknowns", problem.free_dofs().n_rows},
@@ -196,7 +196,7 @@ namespace geocone::GEOCONE_DIM
 
     /** Replays any problem; reduced problems exist in the plane only. */
     template <unsigned int dimension>
-    Outcome
+    ReplayResult
     replay_problem(const std::string              &file_name,
                    const std::vector<std::string> &overrides,
                    ResultFolder                   &folder)
@@ -234,7 +234,8 @@ namespace geocone::GEOCONE_DIM
   {
     const std::filesystem::path path(file_name);
     ResultFolder                results(folder);
-    const Outcome  outcome = replay_problem<dim>(file_name, overrides, results);
+    const ReplayResult          outcome =
+      replay_problem<dim>(file_name, overrides, results);
     nlohmann::json summary = outcome.summary;
     summary["name"]        = path.stem().string();
     log.print(format(

@@ -58,7 +58,7 @@ namespace geocone::GEOCONE_DIM
     return is_text(file_name) || is_fclib(file_name);
   }
 
-  Outcome
+  ReplayResult
   replay_reduced(const std::string              &file_name,
                  const std::vector<std::string> &overrides,
                  ResultFolder                   &folder)
@@ -84,7 +84,7 @@ namespace geocone::GEOCONE_DIM
       if (cone.a > 0.)
         non_associativity =
           std::max(non_associativity, (cone.a - cone.b) / cone.a);
-    Outcome outcome;
+    ReplayResult outcome;
     outcome.summary = {
       {"kind", "reduced"},
       {"unknowns", s.size()},

@@ -40,7 +40,7 @@ namespace geocone
                                 rows);
         });
       }
-    factors.analyse_as_it_is(matrix);
+    factors.analyse_natural_order(matrix);
   }
 
   template <typename Function>
@@ -110,7 +110,7 @@ namespace geocone
   }
 
   void
-  BlockMatrix::Factors::analyse_as_it_is(
+  BlockMatrix::Factors::analyse_natural_order(
     const Eigen::SparseMatrix<double> &matrix)
   {
     cholmod().nmethods           = 1;

@@ -164,7 +164,7 @@ namespace geocone::GEOCONE_DIM
     scene.observation.prepare(
       scene.supports(), scene.materials, scene.gravity, false);
     for (const auto &condition : scene.dirichlet.list)
-      if (condition->moves())
+      if (condition->moves_with_body())
         throw InputError(condition->parameter("Imposed on"),
                          condition->imposition.word(),
                          "nodes with 'Analysis/Kind' = limit load",

@@ -28,7 +28,7 @@ namespace geocone::GEOCONE_DIM
     PointCone   &cone    = cones[material];
     cone.a               = tan_phi * cos_phi;
     cone.k *= k_factor * cos_phi;
-    cone.opening *= tension_factor;
+    cone.cut_off *= tension_factor;
     growth[material].slope *= k_factor * cos_phi;
   }
 
@@ -84,12 +84,12 @@ namespace geocone::GEOCONE_DIM
         {
           PointCone *const own = &cone[3 * c];
           if (std::any_of(own, own + 3, [](const PointCone &one) {
-                return one.is_cut() && one.a * one.opening < one.k;
+                return one.is_cut() && one.a * one.cut_off < one.k;
               }))
             all.push_back(c);
           else
             for (unsigned int i = 0; i < 3; ++i)
-              own[i].opening = infinite_tension;
+              own[i].cut_off = infinite_tension;
         }
       return all;
     }
@@ -171,7 +171,7 @@ namespace geocone::GEOCONE_DIM
             {
               problem.volume.push_back(problem.volume[3 * triangle + i]);
               problem.cone.push_back(
-                {1., problem.cone[3 * triangle + i].opening});
+                {1., problem.cone[3 * triangle + i].cut_off});
               problem.B.add(Eigen::Matrix3d::Identity(),
                             cut_dofs(problem, c, i));
             }
@@ -366,7 +366,7 @@ namespace geocone::GEOCONE_DIM
      * Upper estimate of the dissipation: for linear strength and a convex function D of
      * linear rates, the integrand is at most sum_ij l_i l_j k_i D(e_j), l_i the
      * barycentric coordinates, whose integral is A/3 sum_j D(e_j) (k_j + sum_i k_i)/4.
-     * With a cut-off, D has the factor k - a opening, which must not be negative: where
+     * With a cut-off, D has the factor k - a cut_off, which must not be negative: where
      * the cone is smaller than the cut-off, it is enlarged to it.
      */
     void
@@ -380,7 +380,7 @@ namespace geocone::GEOCONE_DIM
           double k[3];
           for (unsigned int i = 0; i < 3; ++i)
             k[i] = cone[i].is_cut()
-                     ? std::max(cone[i].k, cone[i].a * cone[i].opening)
+                     ? std::max(cone[i].k, cone[i].a * cone[i].cut_off)
                      : cone[i].k;
           for (unsigned int i = 0; i < 3; ++i)
             cone[i].k = (k[i] + k[0] + k[1] + k[2]) / 4.;

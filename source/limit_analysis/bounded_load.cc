@@ -219,7 +219,7 @@ namespace geocone::GEOCONE_DIM
                            "a 'Cohesion gradient' where loads are bounded",
                            "strength is to be linear in each triangle: give a "
                            "gradient, or layers");
-        if (cone->opening == 0.)
+        if (cone->cut_off == 0.)
           throw InputError("Materials/" + scene.materials.name(m) +
                              "/Tensile strength",
                            0,
@@ -348,7 +348,7 @@ namespace geocone::GEOCONE_DIM
       {
         bound.cones.push_back({flow_cones[m].a,
                                flow_cones[m].k / units.stress,
-                               flow_cones[m].opening / units.stress});
+                               flow_cones[m].cut_off / units.stress});
         bound.growth.push_back(
           {growth[m].slope / units.stress, growth[m].level});
       }

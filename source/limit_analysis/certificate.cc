@@ -233,8 +233,8 @@ namespace geocone::GEOCONE_DIM
     if (cone.is_cut())
       {
         const double shear = std::max(0., rate.tail<2>().norm() + rate[0]);
-        return -cone.opening * rate[0] +
-               (cone.k - cone.a * cone.opening) * shear / (1. - cone.a);
+        return -cone.cut_off * rate[0] +
+               (cone.k - cone.a * cone.cut_off) * shear / (1. - cone.a);
       }
     return cone.is_cylinder() ? cone.k * rate.tail<2>().norm()
                               : -cone.k / cone.a * rate[0];

@@ -104,7 +104,7 @@ namespace geocone::GEOCONE_DIM
              const std::vector<double>   &gap,
              const CertifiedBounds::Side &lower)
   {
-    std::vector<double> uneven = gap;
+    std::vector<double> refinement_indicator = gap;
     // Marks stresses at yield away from the upper bound's mechanism.
     std::vector<double> power      = lower.power;
     double              sum_of_gap = 0., sum_of_power = 0.;
@@ -117,9 +117,9 @@ namespace geocone::GEOCONE_DIM
     constexpr double part = 0.3;
     if (std::isfinite(sum_of_power) && sum_of_power > 0.)
       for (unsigned int c = 0; c < power.size(); ++c)
-        uneven[c] = std::max(gap[c], 0.) +
-                    part * sum_of_gap / sum_of_power * power[c];
-    return uneven;
+        refinement_indicator[c] =
+          std::max(gap[c], 0.) + part * sum_of_gap / sum_of_power * power[c];
+    return refinement_indicator;
   }
 
   CertifiedBounds
@@ -131,7 +131,7 @@ namespace geocone::GEOCONE_DIM
     bounds.lower             = certified_lower(bound, tolerance);
 
     bounds.gap    = gap_of_cells(above, bounds.upper.bound, bounds.lower.bound);
-    bounds.uneven = uneven_gap(bound, bounds.gap, bounds.lower);
+    bounds.refinement_indicator = uneven_gap(bound, bounds.gap, bounds.lower);
     const double work =
       above.has_factor() ? above.live.dot(bounds.upper.bound.q) : 1.;
     bounds.gap_share =
@@ -148,8 +148,9 @@ namespace geocone::GEOCONE_DIM
   {
     const BoundScene davis =
       load.by_davis(scene, triangles, 1., DavisVariant::A);
-    return {
-      {load.value_of_unit() * certified_lower(davis, tolerance).bound.load,
-       load.value_of_unit() * certified_upper(davis, tolerance).bound.load}};
+    return {{load.load_of_unit_factor() *
+               certified_lower(davis, tolerance).bound.load,
+             load.load_of_unit_factor() *
+               certified_upper(davis, tolerance).bound.load}};
   }
 } // namespace geocone::GEOCONE_DIM

@@ -149,9 +149,9 @@ namespace geocone
           const auto sums = group->evaluate(q, options.flow_margin);
           product += sums.product;
           gap += sums.gap;
-          miss += sums.miss;
+          miss += sums.flow_residual;
           size += sums.size;
-          most = std::max(most, sums.most);
+          most = std::max(most, sums.largest_stress_ratio);
           group->add_forces(all);
         }
       r_d  = only_free(all - lambda * problem.live - problem.dead);

@@ -17,7 +17,7 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    /** Derivatives of a point's dissipation with respect to its cone's k and opening, in
+    /** Derivatives of a point's dissipation with respect to its cone's k and cut_off, in
      *  which it is linear. */
     std::array<double, 2>
     rates_of_cone(const PointCone &cone, const Vector3d &e)
@@ -66,7 +66,7 @@ namespace geocone::GEOCONE_DIM
             continue;
           const unsigned int m    = bound.triangles.material[p / 3];
           const PointCone   &cone = problem.cone[p];
-          const auto [y, opening] = rates_of_cone(cone, e[p]);
+          const auto [y, cut_off] = rates_of_cone(cone, e[p]);
           const double V = problem.volume[p], square = 1. - cone.a * cone.a;
           const double by = bound.scene.materials[m].is_reduced() ? F : 1.;
           const double per_unit  = V * sqrt2 / (by * bound.units.stress);
@@ -76,7 +76,7 @@ namespace geocone::GEOCONE_DIM
           // da = cos^3(phi) d tan(phi), and k is a constant times cos(phi).
           to.tan_phi += V * y * (s[p][0] - cone.k * cone.a / square) *
                         std::pow(square, 1.5) / by;
-          to.tension += per_unit * opening;
+          to.tension += per_unit * cut_off;
         }
     }
 
@@ -200,7 +200,7 @@ namespace geocone::GEOCONE_DIM
         cohesion                 = cone.k / cos_phi * unit;
         slope                    = given.growth[m].slope / cos_phi * unit;
         tan_phi                  = cone.a / cos_phi;
-        tension                  = cone.opening * unit;
+        tension                  = cone.cut_off * unit;
       }
     };
 
@@ -290,7 +290,7 @@ namespace geocone::GEOCONE_DIM
       using Of = Powers::OfObstacle;
       add("friction_coefficient", "-", law.friction, &Of::friction);
       add("adhesion", "Pa", law.adhesion, &Of::adhesion);
-      if (!law.never_parts())
+      if (!law.never_opens())
         add("tensile_strength", "Pa", law.tension, &Of::tension);
     }
 

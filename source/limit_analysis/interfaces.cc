@@ -20,7 +20,7 @@ namespace geocone::GEOCONE_DIM
     {
       const double mu = obstacle.law.friction, c = obstacle.law.adhesion,
                    t = obstacle.law.tension;
-      if (mu == 0. && obstacle.law.never_parts())
+      if (mu == 0. && obstacle.law.never_opens())
         return {{0., c > 0. ? c : 1., true, c > 0.}};
       std::vector<Interface::Face> faces;
       if (mu > 0. || c > 0.)

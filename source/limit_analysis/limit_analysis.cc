@@ -184,7 +184,7 @@ namespace geocone::GEOCONE_DIM
     bounds =
       certified_bounds(bounded_load.on(scene, *triangles), inner_tolerance());
     print_reasons(figures_of(bounds.upper), figures_of(bounds.lower));
-    const BoundLevel level = level_of(bounded_load.value_of_unit());
+    const BoundLevel level = level_of(bounded_load.load_of_unit_factor());
     if (!bounded_load.is_reaction() && level.upper_certified &&
         level.upper <= 0.)
       throw StepFailure(
@@ -257,7 +257,8 @@ namespace geocone::GEOCONE_DIM
                              load,
                              gap_tolerance / 8.);
       }
-    sizes = adapted_sizes(*triangles, bounds.uneven, next_cells(level), &fans);
+    sizes = adapted_sizes(
+      *triangles, bounds.refinement_indicator, next_cells(level), &fans);
   }
 
   Simulation::StepOutcome
@@ -329,7 +330,7 @@ namespace geocone::GEOCONE_DIM
       return gradients_of_load(given,
                                {given, bounds.lower},
                                {given, bounds.upper},
-                               bounded_load.value_of_unit());
+                               bounded_load.load_of_unit_factor());
     const double F_lower   = reduced.lower.value_or(1.),
                  F_upper   = reduced.upper.value_or(1.);
     const BoundScene below = bounded_load.reduced(scene, *triangles, F_lower),

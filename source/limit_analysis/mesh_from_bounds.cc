@@ -73,11 +73,12 @@ namespace geocone::GEOCONE_DIM
                 fault = "the limit load of this scene has no finite bounds";
               else
                 {
-                  next = adapted_sizes(triangles, bounds.uneven, n_asked);
-                  gap  = (upper - lower) / std::abs(lower);
+                  next = adapted_sizes(
+                    triangles, bounds.refinement_indicator, n_asked);
+                  gap = (upper - lower) / std::abs(lower);
                   bracket.take(
-                    proven(bounds.lower.bound, load.value_of_unit()),
-                    proven(bounds.upper.bound, load.value_of_unit()));
+                    proven(bounds.lower.bound, load.load_of_unit_factor()),
+                    proven(bounds.upper.bound, load.load_of_unit_factor()));
                   bracket.cells = triangles.cells.size();
                   if (is_last && load.non_associated())
                     bracket.davis = {

@@ -147,7 +147,7 @@ namespace geocone::GEOCONE_DIM
                        "cohesion",
                        "tan(phi) | unit weight of a material without cohesion",
                        "give " + of_material + "Cohesion");
-    if (chosen != RandomProperty::unit_weight && std::isfinite(cone.opening))
+    if (chosen != RandomProperty::unit_weight && std::isfinite(cone.cut_off))
       throw InputError(of_material + "Tensile strength",
                        "set",
                        "none where the strength is random",

@@ -244,9 +244,9 @@ namespace geocone::GEOCONE_DIM
           mechanisms[oldest++ % most_mechanisms] =
             std::move(*verdict.mechanism);
       }
-    if (verdict.uneven.empty())
+    if (verdict.refinement_indicator.empty())
       return std::nullopt;
-    return bisected(nested, largest(verdict.uneven));
+    return bisected(nested, largest(verdict.refinement_indicator));
   }
 
   SampleRecord

@@ -149,7 +149,7 @@ namespace geocone::GEOCONE_DIM
     if (verdict.upper < 1.)
       verdict.kind = Kind::fails;
     else
-      verdict.uneven = uneven_gap(
+      verdict.refinement_indicator = uneven_gap(
         mean, gap_of_cells(problem, upper.bound, lower.bound), lower);
     return verdict;
   }

@@ -238,8 +238,8 @@ namespace geocone::GEOCONE_DIM
     bodies_of(const SolidScene &bound)
     {
       std::map<std::array<double, 3>, unsigned int> bodies;
-      for (const HeldFacet &held : bound.held)
-        if (held.kind != HeldFacet::Kind::free)
+      for (const FacetCondition &held : bound.facet_conditions)
+        if (held.kind != FacetCondition::Kind::free)
           bodies.emplace(
             std::array<double, 3>{
               {held.velocity[0], held.velocity[1], held.velocity[2]}},
@@ -311,12 +311,12 @@ namespace geocone::GEOCONE_DIM
       std::make_unique<Planes>(std::vector<OpeningCone>{opening_cone()});
     for (unsigned int f = 0; f < tetrahedra.facets.size(); ++f)
       {
-        const auto      &facet    = tetrahedra.facets[f];
-        const double     A        = tetrahedra.area(f) / (L * L);
-        const HeldFacet &held     = bound.held[f];
-        const auto       axes     = axes_of_facet(tetrahedra, f);
-        const auto       first    = nodes_in_cell(tetrahedra, order, f, 0);
-        const bool       is_inner = facet.cells[1] != Tetrahedra::none;
+        const auto           &facet    = tetrahedra.facets[f];
+        const double          A        = tetrahedra.area(f) / (L * L);
+        const FacetCondition &held     = bound.facet_conditions[f];
+        const auto            axes     = axes_of_facet(tetrahedra, f);
+        const auto            first    = nodes_in_cell(tetrahedra, order, f, 0);
+        const bool            is_inner = facet.cells[1] != Tetrahedra::none;
         std::vector<unsigned int> second;
         if (is_inner)
           second = nodes_in_cell(tetrahedra, order, f, 1);
@@ -324,7 +324,7 @@ namespace geocone::GEOCONE_DIM
           tetrahedra.material[cell_of_jump(bound, f)];
         const auto         k = strength_of_jumps(bound, order, f);
         const unsigned int body =
-          held.kind == HeldFacet::Kind::free
+          held.kind == FacetCondition::Kind::free
             ? 0
             : first_body +
                 dim *
@@ -341,7 +341,7 @@ namespace geocone::GEOCONE_DIM
                 dofs[d]       = a + d;
                 dofs[dim + d] = b + d;
               }
-            if (is_inner || held.kind == HeldFacet::Kind::fixed)
+            if (is_inner || held.kind == FacetCondition::Kind::fixed)
               {
                 Faces::Strains B;
                 for (unsigned int row = 0; row < 3; ++row)
@@ -352,7 +352,7 @@ namespace geocone::GEOCONE_DIM
                     }
                 jumps->add(B, dofs, A / n_facet, material, k[i]);
               }
-            else if (held.kind == HeldFacet::Kind::plane)
+            else if (held.kind == FacetCondition::Kind::plane)
               {
                 const double mu = bound.strengths[material].face_friction();
                 if (mu > 0.)
@@ -476,14 +476,14 @@ namespace geocone::GEOCONE_DIM
 
     for (unsigned int f = 0; f < tetrahedra.facets.size(); ++f)
       {
-        const double     A    = tetrahedra.area(f) / (L * L);
-        const HeldFacet &held = bound.held[f];
+        const double          A    = tetrahedra.area(f) / (L * L);
+        const FacetCondition &held = bound.facet_conditions[f];
         for (unsigned int i = 0; i < n_facet; ++i)
           {
             const unsigned int dof = first_w + dim * (n_facet * f + i);
             for (unsigned int d = 0; d < dim; ++d)
-              if (held.kind == HeldFacet::Kind::fixed ||
-                  (held.kind == HeldFacet::Kind::plane && held.axis == d))
+              if (held.kind == FacetCondition::Kind::fixed ||
+                  (held.kind == FacetCondition::Kind::plane && held.axis == d))
                 {
                   problem.is_prescribed[dof + d] = true;
                   problem.prescribed[dof + d]    = held.velocity[d];

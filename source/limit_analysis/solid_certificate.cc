@@ -189,7 +189,7 @@ namespace geocone::GEOCONE_DIM
     for (unsigned int f = 0; f < tetrahedra.facets.size(); ++f)
       {
         const auto          &facet = tetrahedra.facets[f];
-        const HeldFacet     &held  = bound.held[f];
+        const FacetCondition &held  = bound.facet_conditions[f];
         const Tensor<1, dim> n     = tetrahedra.normal(f);
         const double         A     = tetrahedra.area(f) / (L * L);
         const auto           first = nodes_in_cell(tetrahedra, order, f, 0);
@@ -210,8 +210,8 @@ namespace geocone::GEOCONE_DIM
                    simplex_nodes::edges_of_facet[i - 3])
                 left -= total(given[end]) / 2.;
             for (unsigned int d = 0; d < dim; ++d)
-              if (held.kind == HeldFacet::Kind::fixed ||
-                  (held.kind == HeldFacet::Kind::plane && held.axis == d))
+              if (held.kind == FacetCondition::Kind::fixed ||
+                  (held.kind == FacetCondition::Kind::plane && held.axis == d))
                 power += A / n_facet * left[d] * held.velocity[d];
               else
                 result.error = std::max(result.error, std::abs(left[d]));
@@ -290,7 +290,7 @@ namespace geocone::GEOCONE_DIM
     for (unsigned int f = 0; f < tetrahedra.facets.size(); ++f)
       {
         const auto      &facet    = tetrahedra.facets[f];
-        const HeldFacet &held     = bound.held[f];
+        const FacetCondition &held     = bound.facet_conditions[f];
         const double     A        = tetrahedra.area(f) / (L * L);
         const auto       first    = nodes_in_cell(tetrahedra, order, f, 0);
         const bool       is_inner = facet.cells[1] != Tetrahedra::none;
@@ -318,7 +318,7 @@ namespace geocone::GEOCONE_DIM
                 work += A * f_live[i] * outer[i];
               }
           }
-        if (!is_inner && held.kind == HeldFacet::Kind::free)
+        if (!is_inner && held.kind == FacetCondition::Kind::free)
           continue;
         std::vector<unsigned int> second;
         if (is_inner)
@@ -330,7 +330,7 @@ namespace geocone::GEOCONE_DIM
                         : held.velocity) -
               outer[i];
             // Along a plane of symmetry, or a smooth one, soil slides freely.
-            const double slip = held.kind == HeldFacet::Kind::plane
+            const double slip = held.kind == FacetCondition::Kind::plane
                                   ? 0.
                                   : std::hypot(u * axes[1], u * axes[2]);
             const Flow   flow = flow_of_jump(mu, k[i], u * axes[0], slip);

@@ -127,10 +127,10 @@ namespace geocone::GEOCONE_DIM
       }
     for (unsigned int f = 0; f < tetrahedra.facets.size(); ++f)
       {
-        const auto      &cells    = tetrahedra.facets[f].cells;
-        const HeldFacet &held     = bound.held[f];
-        const bool       is_inner = cells[1] != Tetrahedra::none;
-        if (!is_inner && held.kind == HeldFacet::Kind::free)
+        const auto           &cells    = tetrahedra.facets[f].cells;
+        const FacetCondition &held     = bound.facet_conditions[f];
+        const bool            is_inner = cells[1] != Tetrahedra::none;
+        if (!is_inner && held.kind == FacetCondition::Kind::free)
           continue;
         const double         A = tetrahedra.area(f) / (L * L);
         const Tensor<1, dim> n = tetrahedra.normal(f);
@@ -146,7 +146,7 @@ namespace geocone::GEOCONE_DIM
               (is_inner ? upper.velocity[n_v * cells[1] + second[j]]
                         : held.velocity) -
               upper.velocity[n_v * cells[0] + first[j]];
-            if (held.kind == HeldFacet::Kind::plane)
+            if (held.kind == FacetCondition::Kind::plane)
               u = (u * n) * n; // tractions along it are given
             Mandel s = Mandel::Zero();
             for (unsigned int i = 0; i < n_t; ++i)

@@ -117,7 +117,7 @@ namespace geocone::GEOCONE_DIM
     return level_of(figures_of(upper),
                     figures_of(lower),
                     tetrahedra->cells.size(),
-                    load.value_of_unit());
+                    load.load_of_unit_factor());
   }
 
   /** Limit analyses with reduced strength on the current mesh, for SafetySearch. */

@@ -138,8 +138,9 @@ namespace geocone::GEOCONE_DIM
       }
   }
 
-  std::vector<HeldFacet>
-  SolidLoad::held_facets(const Scene &scene, const Tetrahedra &tetrahedra) const
+  std::vector<FacetCondition>
+  SolidLoad::facet_conditions(const Scene      &scene,
+                              const Tetrahedra &tetrahedra) const
   {
     struct Components
     {
@@ -206,7 +207,7 @@ namespace geocone::GEOCONE_DIM
             }
         }
 
-    std::vector<HeldFacet> held(all.size());
+    std::vector<FacetCondition> held(all.size());
     for (unsigned int f = 0; f < all.size(); ++f)
       {
         unsigned int n_held = 0, axis = 0;
@@ -219,8 +220,8 @@ namespace geocone::GEOCONE_DIM
             }
         if (n_held == 0)
           continue;
-        held[f].kind =
-          n_held == dim ? HeldFacet::Kind::fixed : HeldFacet::Kind::plane;
+        held[f].kind = n_held == dim ? FacetCondition::Kind::fixed
+                                     : FacetCondition::Kind::plane;
         held[f].axis = axis;
         if (n_held == dim)
           continue;
@@ -237,10 +238,10 @@ namespace geocone::GEOCONE_DIM
   }
 
   std::optional<Tensor<1, dim>>
-  SolidLoad::prescribed_velocity(const std::vector<HeldFacet> &held)
+  SolidLoad::prescribed_velocity(const std::vector<FacetCondition> &held)
   {
     std::optional<Tensor<1, dim>> velocity;
-    for (const HeldFacet &facet : held)
+    for (const FacetCondition &facet : held)
       if (facet.velocity.norm() > 0.)
         {
           if (velocity &&
@@ -286,17 +287,18 @@ namespace geocone::GEOCONE_DIM
   {
     /** @throws InputError if a rigid motion of the body is free */
     void
-    check_rigid_motions(const Tetrahedra             &tetrahedra,
-                        const std::vector<HeldFacet> &held,
-                        const double                  length)
+    check_rigid_motions(const Tetrahedra                  &tetrahedra,
+                        const std::vector<FacetCondition> &held,
+                        const double                       length)
     {
       Eigen::Matrix<double, 6, 6> squares = Eigen::Matrix<double, 6, 6>::Zero();
       const Point<dim>            centre  = tetrahedra.centre(0);
       for (unsigned int f = 0; f < held.size(); ++f)
-        if (held[f].kind != HeldFacet::Kind::free)
+        if (held[f].kind != FacetCondition::Kind::free)
           for (const unsigned int v : tetrahedra.facets[f].vertices)
             for (unsigned int d = 0; d < dim; ++d)
-              if (held[f].kind == HeldFacet::Kind::fixed || held[f].axis == d)
+              if (held[f].kind == FacetCondition::Kind::fixed ||
+                  held[f].axis == d)
                 {
                   const Tensor<1, dim> arm =
                     (tetrahedra.vertices[v] - centre) / length;
@@ -323,7 +325,8 @@ namespace geocone::GEOCONE_DIM
   SolidLoad::prepare(const Scene &scene, const Tetrahedra &tetrahedra)
   {
     take_strengths(scene);
-    const std::vector<HeldFacet> held = held_facets(scene, tetrahedra);
+    const std::vector<FacetCondition> held =
+      facet_conditions(scene, tetrahedra);
     choose(prescribed_velocity(held), scene.gravity.acts());
     check_loads(scene, tetrahedra, held);
   }
@@ -343,15 +346,16 @@ namespace geocone::GEOCONE_DIM
                            "strength is reduced",
                            "c and tan(phi) are those of Mohr-Coulomb");
         }
-    const std::vector<HeldFacet> held = held_facets(scene, tetrahedra);
+    const std::vector<FacetCondition> held =
+      facet_conditions(scene, tetrahedra);
     choose_all(prescribed_velocity(held).has_value(), "strength reduction");
     check_loads(scene, tetrahedra, held);
   }
 
   void
-  SolidLoad::check_loads(const Scene                  &scene,
-                         const Tetrahedra             &tetrahedra,
-                         const std::vector<HeldFacet> &held)
+  SolidLoad::check_loads(const Scene                       &scene,
+                         const Tetrahedra                  &tetrahedra,
+                         const std::vector<FacetCondition> &held)
   {
     std::vector<unsigned int> n_cells(scene.materials.size());
     for (const unsigned int material : tetrahedra.material)
@@ -387,8 +391,8 @@ namespace geocone::GEOCONE_DIM
         one.growth.slope /= units.stress;
         bound.strengths.push_back(one);
       }
-    bound.held = held_facets(scene, tetrahedra);
-    for (HeldFacet &facet : bound.held)
+    bound.facet_conditions = facet_conditions(scene, tetrahedra);
+    for (FacetCondition &facet : bound.facet_conditions)
       facet.velocity /= units.velocity;
 
     bound.traction_of_facet.resize(tetrahedra.facets.size());
@@ -419,9 +423,9 @@ namespace geocone::GEOCONE_DIM
                  ? bound.traction_of_facet[f][i].live
                  : bound.traction_of_facet[f][i].dead) += t[i];
             }
-          const HeldFacet &held    = bound.held[f];
-          bool             is_free = held.kind == HeldFacet::Kind::free;
-          if (held.kind == HeldFacet::Kind::plane)
+          const FacetCondition &held = bound.facet_conditions[f];
+          bool is_free               = held.kind == FacetCondition::Kind::free;
+          if (held.kind == FacetCondition::Kind::plane)
             is_free = std::abs(t[0][held.axis]) + std::abs(t[1][held.axis]) +
                         std::abs(t[2][held.axis]) <=
                       1e-12 * largest;

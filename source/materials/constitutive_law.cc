@@ -169,7 +169,7 @@ namespace geocone::GEOCONE_DIM
   }
 
   ConstitutiveLaw::Stress
-  ConstitutiveLaw::whole(const Components &s, const double *history) const
+  ConstitutiveLaw::full_stress(const Components &s, const double *history) const
   {
     Stress all = {{s[0], s[1], dim == 2 ? 0. : s[n_mandel / 2], s[2]}};
     if (dim == 2)

@@ -49,9 +49,9 @@ namespace geocone::GEOCONE_DIM
   }
 
   std::optional<FlowCone>
-  DruckerPrager::step_cone(const Mandel  &stress_n,
-                           const double  *history_n,
-                           const StepLaw &step) const
+  DruckerPrager::step_cone(const Mandel   &stress_n,
+                           const double   *history_n,
+                           const StepData &step) const
   {
     if (dim == 2)
       return std::nullopt;
@@ -71,9 +71,9 @@ namespace geocone::GEOCONE_DIM
   }
 
   double
-  DruckerPrager::power_beyond_strength(const SpatialMandel &plastic_strain,
-                                       const SpatialMandel &stress,
-                                       const double        *history) const
+  DruckerPrager::excess_work_density(const SpatialMandel &plastic_strain,
+                                     const SpatialMandel &stress,
+                                     const double        *history) const
   {
     return FlowCone::tangential_norm(
              SpatialMandel(spatial_axes() * plastic_strain)) *
@@ -107,7 +107,7 @@ namespace geocone::GEOCONE_DIM
   DruckerPrager::yield_function(const SpatialMandel &stress,
                                 const double        *history) const
   {
-    return cone_with(grown_cohesion(history))
+    return cone_with(cohesion_increase(history))
       .yield_function(SpatialMandel(spatial_axes() * stress));
   }
 } // namespace geocone::GEOCONE_DIM

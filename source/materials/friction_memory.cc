@@ -60,6 +60,7 @@ namespace geocone::GEOCONE_DIM
     // As for theta = 0 and phi = 12; smaller differences converge without
     // memory.
     constexpr double least = 0.2;
-    return non_associativity > Material::hard_flow && aperture_left > least;
+    return non_associativity > Material::strong_non_associativity &&
+           aperture_left > least;
   }
 } // namespace geocone::GEOCONE_DIM

@@ -225,10 +225,10 @@ namespace geocone::GEOCONE_DIM
   }
 
   std::optional<FlowCone>
-  HardeningMohrCoulomb::end_cone(const Mandel  &stress_n,
-                                 const double  *history_n,
-                                 const StepLaw &step,
-                                 const double   slip) const
+  HardeningMohrCoulomb::end_cone(const Mandel   &stress_n,
+                                 const double   *history_n,
+                                 const StepData &step,
+                                 const double    slip) const
   {
     return has_curves
              ? with_memory(

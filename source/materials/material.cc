@@ -112,9 +112,9 @@ namespace geocone::GEOCONE_DIM
   }
 
   std::optional<FlowCone>
-  Material::step_cone(const Mandel  &stress_n,
-                      const double  *history_n,
-                      const StepLaw &step) const
+  Material::step_cone(const Mandel   &stress_n,
+                      const double   *history_n,
+                      const StepData &step) const
   {
     std::optional<FlowCone> cone = flow_cone(history_n);
     if (cone && step.friction_lag > 0.)
@@ -123,10 +123,10 @@ namespace geocone::GEOCONE_DIM
   }
 
   std::optional<FlowCone>
-  Material::end_cone(const Mandel  &stress_n,
-                     const double  *history_n,
-                     const StepLaw &step,
-                     const double   slip) const
+  Material::end_cone(const Mandel   &stress_n,
+                     const double   *history_n,
+                     const StepData &step,
+                     const double    slip) const
   {
     const auto cone = step_cone(stress_n, history_n, step);
     return cone ? cone->hardened(slip) : cone;
@@ -140,7 +140,7 @@ namespace geocone::GEOCONE_DIM
   }
 
   std::optional<FlowCheck>
-  Material::check_flow(const PointStep &point, const StepLaw &step) const
+  Material::check_flow(const PointStep &point, const StepData &step) const
   {
     if (!flow_cone(point.history_n))
       return std::nullopt;
@@ -270,7 +270,7 @@ namespace geocone::GEOCONE_DIM
       cone->a > 0. ? -cone->k / (sqrt2 * cone->a) : std::min(0., -p);
     const double q      = 2. * cone->a * p + sqrt2 * cone->k;
     const double at_tip = cone->a > 0. ? 0. : sqrt2 * cone->k;
-    const double T      = cone->opening / sqrt2;
+    const double T      = cone->cut_off / sqrt2;
     if (cone->is_cut() && (cone->a == 0. || -T > tip))
       {
         const double corner = (cone->k / sqrt2 - T) / (1. - cone->a);

@@ -105,10 +105,10 @@ namespace geocone::GEOCONE_DIM
                      "CONTRIBUTING.md explains");
   }
 
-  ParameterFile::OfOthers
+  ParameterFile::ParametersOfOtherKinds
   parameters_of_laws()
   {
-    ParameterFile::OfOthers all;
+    ParameterFile::ParametersOfOtherKinds all;
     for (const std::string &type : material_types())
       {
         {
@@ -211,8 +211,9 @@ namespace geocone::GEOCONE_DIM
         all.spatial         = all.spatial || law->is_spatial();
         all.can_yield       = all.can_yield || checks_flow(*law);
         all.dilates         = all.dilates || law->dilates();
-        all.has_hard_flow =
-          all.has_hard_flow || (flow > Material::hard_flow && !(tau > 0.));
+        all.strongly_non_associated =
+          all.strongly_non_associated ||
+          (flow > Material::strong_non_associativity && !(tau > 0.));
         all.non_associativity = std::max(all.non_associativity, flow);
       }
     all.frictionless = n_cylinders > 0 && n_cones == 0;

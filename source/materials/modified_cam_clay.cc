@@ -337,7 +337,7 @@ namespace geocone::GEOCONE_DIM
   ModifiedCamClay::respond(const SpatialMandel &strain,
                            const SpatialMandel &stress_n,
                            const double        *history_n,
-                           const StepLaw &,
+                           const StepData &,
                            SpatialMandel       &stress,
                            double              *history,
                            SpatialMandelMatrix *tangent) const

@@ -23,7 +23,7 @@ namespace geocone::GEOCONE_DIM
   {
     const FrictionalStrength now = given.reduced(F);
     cone                         = cone_of(now.c, now.phi, now.theta);
-    cone.opening                 = sqrt2 * now.tension;
+    cone.cut_off                 = sqrt2 * now.tension;
     k_per_cohesion               = cone_of(1. / F, now.phi, now.theta).k;
   }
 
@@ -31,7 +31,7 @@ namespace geocone::GEOCONE_DIM
   MohrCoulomb::flow_cone(const double *history) const
   {
     FlowCone here = cone;
-    here.k += k_per_cohesion * grown_cohesion(history);
+    here.k += k_per_cohesion * cohesion_increase(history);
     return here;
   }
 
@@ -63,9 +63,9 @@ namespace geocone::GEOCONE_DIM
   }
 
   std::optional<FlowCone>
-  MohrCoulomb::step_cone(const Mandel  &stress_n,
-                         const double  *history_n,
-                         const StepLaw &step) const
+  MohrCoulomb::step_cone(const Mandel   &stress_n,
+                         const double   *history_n,
+                         const StepData &step) const
   {
     return with_memory(*flow_cone(history_n), stress_n, history_n, step);
   }
@@ -74,7 +74,7 @@ namespace geocone::GEOCONE_DIM
   MohrCoulomb::with_memory(const FlowCone &exact,
                            const Mandel   &stress_n,
                            const double   *history_n,
-                           const StepLaw  &step) const
+                           const StepData &step) const
   {
     const FrictionHistory friction_history =
       friction_history_of(step, history_n, to_cone_axes(stress_n)[0]);
@@ -88,7 +88,7 @@ namespace geocone::GEOCONE_DIM
                               const Mandel     &trial,
                               const Mandel     &stress_n,
                               const double     *history_n,
-                              const StepLaw    &step,
+                              const StepData   &step,
                               Mandel           &stress,
                               double           &slip,
                               MandelMatrix     *tangent) const

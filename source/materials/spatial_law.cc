@@ -63,10 +63,10 @@ namespace geocone::GEOCONE_DIM
   SpatialReturnMap::OwnStrength
   FrictionalSpatialLaw::own_strength(const SpatialMandel &stress_n,
                                      const double        *history_n,
-                                     const StepLaw       &step) const
+                                     const StepData      &step) const
   {
     OwnStrength own;
-    own.cohesion = grown_cohesion(history_n);
+    own.cohesion = cohesion_increase(history_n);
     if (non_associativity() > 0.)
       {
         const FrictionHistory friction_history =
@@ -79,7 +79,7 @@ namespace geocone::GEOCONE_DIM
 
   std::optional<FlowCheck>
   FrictionalSpatialLaw::check_flow(const PointStep &point,
-                                   const StepLaw   &step) const
+                                   const StepData  &step) const
   {
     return check_plastic_strain(
       point.strain -
@@ -90,7 +90,7 @@ namespace geocone::GEOCONE_DIM
 
   void
   FrictionalSpatialLaw::remember(const SpatialMandel &stress,
-                                 const StepLaw       &step,
+                                 const StepData      &step,
                                  double              *history) const
   {
     if (memory.time() > 0.)

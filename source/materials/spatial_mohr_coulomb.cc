@@ -128,18 +128,18 @@ namespace geocone::GEOCONE_DIM
   SpatialMohrCoulomb::advance(const PointBlock &block, LawCounts &counts) const
   {
     counts.updates += block.n_points;
-    PyramidNumbers pyramid;
+    PyramidConstants pyramid;
     pyramid.flow   = sin_theta;
     pyramid.size   = exact.size;
     pyramid.lambda = elasticity().lambda;
     pyramid.two_G  = elasticity().two_G;
     if (memory.time() > 0.)
       {
-        pyramid.memory  = index_of_memory();
-        pyramid.part    = memory.remembered(block.step);
-        pyramid.lagging = pyramid.part * (exact.sine - sin_theta);
+        pyramid.memory        = index_of_memory();
+        pyramid.memory_factor = memory.remembered(block.step);
+        pyramid.delayed_sine = pyramid.memory_factor * (exact.sine - sin_theta);
       }
-    pyramid.sine = exact.sine - pyramid.lagging;
+    pyramid.sine = exact.sine - pyramid.delayed_sine;
     if (cohesion_grows())
       {
         pyramid.growth            = index_of_growth();
@@ -152,7 +152,7 @@ namespace geocone::GEOCONE_DIM
   SpatialMohrCoulomb::yield_function(const SpatialMandel &stress,
                                      const double        *history) const
   {
-    return pyramid_with(grown_cohesion(history))
+    return pyramid_with(cohesion_increase(history))
       .yield_function(spectrum(stress).value);
   }
 
@@ -183,9 +183,9 @@ namespace geocone::GEOCONE_DIM
   }
 
   double
-  SpatialMohrCoulomb::power_beyond_strength(const SpatialMandel &plastic_strain,
-                                            const SpatialMandel &stress,
-                                            const double        *history) const
+  SpatialMohrCoulomb::excess_work_density(const SpatialMandel &plastic_strain,
+                                          const SpatialMandel &stress,
+                                          const double        *history) const
   {
     // Active planes have the same f, and g_ij = (1 + sin(theta),
     // -1 + sin(theta)).
@@ -267,7 +267,7 @@ namespace geocone::GEOCONE_DIM
         tangent = D - returns.per_H * Dg * Df.transpose();
         return Mode::cone;
       }
-    const int e = returns.side(trial) > 0. ? 0 : 1;
+    const int e = returns.edge_indicator(trial) > 0. ? 0 : 1;
     returns.to_edge(e, trial, f, strength.size, stress);
     if (stress[0] + stress[2] <= 2. * strength.apex())
       {
@@ -316,12 +316,12 @@ namespace geocone::GEOCONE_DIM
   }
 
   std::optional<Material::Projection>
-  SpatialMohrCoulomb::project_natural_map(const Mandel  &s,
-                                          const Mandel  &z,
-                                          const double   rho,
-                                          const Mandel  &stress_n,
-                                          const double  *history_n,
-                                          const StepLaw &step) const
+  SpatialMohrCoulomb::project_natural_map(const Mandel   &s,
+                                          const Mandel   &z,
+                                          const double    rho,
+                                          const Mandel   &stress_n,
+                                          const double   *history_n,
+                                          const StepData &step) const
   {
     if (dim == 2)
       return std::nullopt;

@@ -167,7 +167,7 @@ namespace geocone::GEOCONE_DIM
       }
     else if (!scene.contacts.list.empty())
       {
-        parted = true;
+        split_at_contacts = true;
         part_bodies(scene.contacts, mesh);
       }
     symmetry = scene.geometry.symmetry;
@@ -198,7 +198,7 @@ namespace geocone::GEOCONE_DIM
       throw InputError("there are more ranks (" + std::to_string(n_ranks) +
                        ") than cells (" + std::to_string(mesh.cells.size()) +
                        ")\n  remedy:  call mpirun with fewer ranks");
-    const bool has_contacts = parted || layers > 1;
+    const bool has_contacts = split_at_contacts || layers > 1;
     if (storage == Storage::automatic)
       storage =
         simplicial || has_contacts ? Storage::shared : Storage::distributed;
@@ -294,7 +294,7 @@ namespace geocone::GEOCONE_DIM
   }
 
   std::vector<bool>
-  BackgroundMesh::is_among(const std::vector<Cell> &cells) const
+  BackgroundMesh::marked_cells(const std::vector<Cell> &cells) const
   {
     LinearAlgebra::distributed::Vector<double> flag(
       tria->global_active_cell_index_partitioner().lock());

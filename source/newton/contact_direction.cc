@@ -86,7 +86,7 @@ namespace geocone::GEOCONE_DIM
   }
 
   std::vector<unsigned int>
-  ContactDirection::entered(Vector &direction) const
+  ContactDirection::penetrating_nodes(Vector &direction) const
   {
     std::vector<unsigned int> found;
     direction.update_ghost_values();
@@ -94,10 +94,10 @@ namespace geocone::GEOCONE_DIM
       if (const ContactNode &node = contact.nodes()[i];
           contact.is_owned(node) && !is_chosen[i] && !node.is_corner)
         {
-          const double w =
-            (contact.touches()[i].relative + relative_change(node, direction)) *
-              node.normal -
-            node.least;
+          const double w = (contact.nodal_contacts()[i].relative +
+                            relative_change(node, direction)) *
+                             node.normal -
+                           node.least;
           if (w < 0.)
             found.push_back(i);
         }
@@ -153,7 +153,7 @@ namespace geocone::GEOCONE_DIM
     for (const Component &at : own)
       {
         const double r =
-          contact.touches()[at.node].force * at.axis - force[at.number];
+          contact.nodal_contacts()[at.node].force * at.axis - force[at.number];
         for (unsigned int d = 0; d < dim; ++d)
           work.residual.local_element(dim * contact.nodes()[at.node].node +
                                       d) += r * at.axis[d];
@@ -173,16 +173,17 @@ namespace geocone::GEOCONE_DIM
     MatrixXd               data = MatrixXd::Zero(n_components, n_data + n_free);
     for (const Component &component : own)
       {
-        const ContactNode    &node = contact.nodes()[component.node];
-        const Contact::Touch &at   = contact.touches()[component.node];
-        auto                  row  = data.row(component.number);
-        row[0]                     = at.relative * component.axis;
-        row[1]                     = component.is_relaxed ? at.rho : 0.;
-        row[2]                     = component.is_normal ? 1. : 0.;
-        row[3]                     = node.least;
-        row[4]                     = node.friction;
-        row[5]                     = node.adhesion;
-        row[6]                     = node.tension;
+        const ContactNode           &node = contact.nodes()[component.node];
+        const Contact::NodalContact &at =
+          contact.nodal_contacts()[component.node];
+        auto row = data.row(component.number);
+        row[0]   = at.relative * component.axis;
+        row[1]   = component.is_relaxed ? at.rho : 0.;
+        row[2]   = component.is_normal ? 1. : 0.;
+        row[3]   = node.least;
+        row[4]   = node.friction;
+        row[5]   = node.adhesion;
+        row[6]   = node.tension;
         contact.for_motions_of(
           node, [&](const unsigned int number, const Tensor<1, dim> &G) {
             row[n_data + number] = G * component.axis;
@@ -258,10 +259,10 @@ namespace geocone::GEOCONE_DIM
         for (const Component &at : own)
           end_force[at.node] +=
             (force[at.number] -
-             (at.is_relaxed ? contact.touches()[at.node].rho : 0.) *
+             (at.is_relaxed ? contact.nodal_contacts()[at.node].rho : 0.) *
                du[at.number]) *
             at.axis;
-        const std::vector<unsigned int> more = entered(direction);
+        const std::vector<unsigned int> more = penetrating_nodes(direction);
         if (dealii::Utilities::MPI::sum(dim * more.size(), comm) == 0 ||
             dealii::Utilities::MPI::sum(dim * more.size(), comm) +
                 n_components >
@@ -287,7 +288,7 @@ namespace geocone::GEOCONE_DIM
           // In a corner the laws are linear in the direction, without its
           // forces.
           if (!node.is_corner)
-            sum += (contact.touches()[i].force - end_force[i]) *
+            sum += (contact.nodal_contacts()[i].force - end_force[i]) *
                    relative_change(node, direction);
           else if (node.is_second)
             continue;

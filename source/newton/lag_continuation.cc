@@ -28,7 +28,8 @@ namespace geocone::GEOCONE_DIM
                                           const StepWorkspace &work) const
   {
     LineSearch search;
-    NewtonLoop explicit_friction    = loop(1., NewtonLoop::near, allowed);
+    NewtonLoop explicit_friction =
+      loop(1., NewtonLoop::near_tolerance, allowed);
     explicit_friction.elastic_first = elastic_first;
     explicit_friction.run(search, work);
     if (work.report.converged)
@@ -40,13 +41,13 @@ namespace geocone::GEOCONE_DIM
   {
     const Vector start = work.v;
     LineSearch   search;
-    NewtonLoop   first  = loop(first_lag, NewtonLoop::near, allowed);
+    NewtonLoop   first  = loop(first_lag, NewtonLoop::near_tolerance, allowed);
     first.elastic_first = elastic_first;
     first.run(search, work);
     if (work.report.converged)
       return;
     work.v = start;
-    from_explicit_friction(first_lag, NewtonLoop::near, work);
+    from_explicit_friction(first_lag, NewtonLoop::near_tolerance, work);
   }
 
   void
@@ -79,7 +80,7 @@ namespace geocone::GEOCONE_DIM
         if (next < 0.5 * fall)
           next = 0.;
         const unsigned int spent = report.iterations;
-        go_to(next, next > 0. ? NewtonLoop::near : tolerance, 15);
+        go_to(next, next > 0. ? NewtonLoop::near_tolerance : tolerance, 15);
         if (!report.converged)
           {
             // A second shorter stage rarely helped: the path turns.

@@ -116,9 +116,10 @@ namespace geocone::GEOCONE_DIM
           }
         const bool         flows = line.state.n_cone + line.state.n_apex > 0;
         const unsigned int spent = report.iterations - start;
-        if (spent >= allowed + (report.residual < near ? allowed : 0) ||
+        if (spent >=
+              allowed + (report.residual < near_tolerance ? allowed : 0) ||
             (!flows && spent >= allowed_without_flow) ||
-            (report.residual > far && spent >= allowed_if_far))
+            (report.residual > far_threshold && spent >= allowed_if_far))
           {
             give_up(line.state, work);
             return;

@@ -214,13 +214,14 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
-  NonsmoothNewton::iterate(const Try                 &next,
+  NonsmoothNewton::iterate(const Attempt             &next,
                            const bool                 elastic_first,
                            const std::vector<Mandel> &start_of_s,
                            const StepWorkspace       &work) const
   {
     NewtonLoop newton;
-    newton.tolerance = next.is_rough ? NewtonLoop::near : relative_tolerance;
+    newton.tolerance =
+      next.is_rough ? NewtonLoop::near_tolerance : relative_tolerance;
     newton.absolute_tolerance   = absolute_tolerance;
     newton.allowed              = next.iterations;
     newton.allowed_without_flow = next.iterations_without_flow;
@@ -255,7 +256,7 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
-  NonsmoothNewton::continue_from_lag(const Try           &next,
+  NonsmoothNewton::continue_from_lag(const Attempt       &next,
                                      const bool           elastic_first,
                                      const double         accepted_excess,
                                      const StepWorkspace &work) const
@@ -279,8 +280,8 @@ namespace geocone::GEOCONE_DIM
       return;
     const InternalForces &forces = work.problem.internal_forces();
     report.excess_share          = forces.excess_share(forces.excess_work());
-    report.exceeds               = report.excess_share > accepted_excess;
-    if (report.exceeds)
+    report.lag_error_too_large   = report.excess_share > accepted_excess;
+    if (report.lag_error_too_large)
       {
         report.converged = false;
         report.reason =
@@ -321,16 +322,16 @@ namespace geocone::GEOCONE_DIM
             : first_iterate_of_stresses()->make(first_iterate_sweeps, work);
       }
     const Vector start = v;
-    for (const Try &next :
+    for (const Attempt &next :
          plan(traits, {formulation, globalisation, max_iterations}))
       {
         const auto is_good = [&]() { // iterate of the previous try
           const NewtonIteration &last = report.table.back();
           return std::isfinite(report.residual) &&
-                 (next.start == Try::Start::iterate ||
+                 (next.start == Attempt::Start::iterate ||
                   last.n_cone + last.n_apex > 0);
         };
-        if (next.start == Try::Start::of_step || !is_good())
+        if (next.start == Attempt::Start::of_step || !is_good())
           v = start;
         if (next.with_one_lag > 0)
           continue_from_lag(next, elastic_first, hints.accepted_excess, work);

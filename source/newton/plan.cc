@@ -11,16 +11,16 @@
 namespace geocone::GEOCONE_DIM
 {
   using Method = GlobalisationMethod;
-  using Start  = Try::Start;
+  using Start  = Attempt::Start;
 
   namespace
   {
-    /** Adds the tries with one local law, with the variants for contact. */
+    /** Adds the attempts with one local law, with the variants for contact. */
     void
-    add_tries(const Try         &law,
-              const StepTraits  &step,
-              const PlanOptions &options,
-              std::vector<Try>  &tries)
+    add_attempts(const Attempt        &law,
+                 const StepTraits     &step,
+                 const PlanOptions    &options,
+                 std::vector<Attempt> &attempts)
     {
       const auto allowed = [&](const unsigned int automatic) {
         return options.max_iterations > 0 ? options.max_iterations : automatic;
@@ -31,12 +31,12 @@ namespace geocone::GEOCONE_DIM
       // there, and the search does not recover. Active contacts are therefore bilateral
       // until the iterate is near, or far even after three iterations.
       const bool bilateral_first = contact.exists && step.law.can_yield &&
-                                   !contact.moves_obstacles &&
+                                   !contact.has_free_obstacles &&
                                    !contact.of_bodies && !law.natural_map;
       const auto variant = [&](const ContactLaw   contact,
                                const Start        start,
                                const unsigned int iterations) {
-        Try next        = law;
+        Attempt next    = law;
         next.contact    = contact;
         next.start      = start;
         next.iterations = allowed(iterations);
@@ -46,11 +46,12 @@ namespace geocone::GEOCONE_DIM
       };
       if (bilateral_first)
         {
-          Try bilateral = variant(ContactLaw::bilateral, Start::of_step, 10);
+          Attempt bilateral =
+            variant(ContactLaw::bilateral, Start::of_step, 10);
           bilateral.prepares = bilateral.is_rough = true;
           bilateral.elastic_first                 = true;
           bilateral.iterations_if_far             = 3;
-          tries.push_back(bilateral);
+          attempts.push_back(bilateral);
         }
       const Start start = bilateral_first ? Start::iterate : Start::of_step;
       // Motions of free obstacles depend on all contacts, and steps in which
@@ -58,65 +59,69 @@ namespace geocone::GEOCONE_DIM
       // carries their loads: contact is solved exactly from the start, which
       // takes a tenth of the iterations. Obstacles without loads are first
       // tried with linearised contact, which costs less.
-      const bool exact_first = contact.moves_obstacles && !step.has_inertia &&
-                               contact.obstacles_loaded && can_be_exact;
+      const bool exact_first = contact.has_free_obstacles &&
+                               !step.has_inertia && contact.obstacles_loaded &&
+                               can_be_exact;
       if (exact_first)
-        tries.push_back(variant(ContactLaw::exact, start, law.iterations));
+        attempts.push_back(variant(ContactLaw::exact, start, law.iterations));
       if (!contact.has_friction)
-        tries.push_back(variant(ContactLaw::linearised, start, law.iterations));
+        attempts.push_back(
+          variant(ContactLaw::linearised, start, law.iterations));
       else
         {
           // If many nodes close in a step, nodes that would stick impede each
           // other. Contact is then solved exactly in each iteration; otherwise
           // the frictionless step may be a better initial guess.
-          Try first = variant(
+          Attempt first = variant(
             ContactLaw::linearised, start, std::min(law.iterations, 30U));
           first.iterations_without_flow = 6;
-          if (contact.moves_obstacles)
+          if (contact.has_free_obstacles)
             first.iterations_if_far = 20;
-          tries.push_back(first);
+          attempts.push_back(first);
           // If points yield, the last iterate is a good initial guess, unless
           // obstacles moved.
           if (can_be_exact && !exact_first)
-            tries.push_back(variant(
-              ContactLaw::exact,
-              contact.moves_obstacles ? Start::of_step : Start::flowing_iterate,
-              law.iterations));
-          Try smooth =
+            attempts.push_back(variant(ContactLaw::exact,
+                                       contact.has_free_obstacles
+                                         ? Start::of_step
+                                         : Start::yielding_iterate,
+                                       law.iterations));
+          Attempt smooth =
             variant(ContactLaw::without_friction, Start::of_step, 30);
           smooth.prepares = true;
-          tries.push_back(smooth);
-          tries.push_back(
+          attempts.push_back(smooth);
+          attempts.push_back(
             variant(ContactLaw::linearised, Start::iterate, law.iterations));
-          tries.back().elastic_first = false;
+          attempts.back().elastic_first = false;
         }
     }
   } // namespace
 
-  std::vector<Try>
+  std::vector<Attempt>
   plan(const StepTraits &step, const PlanOptions &options)
   {
-    std::vector<Try> tries;
-    const auto       add = [&](const Method       method,
+    std::vector<Attempt> attempts;
+    const auto           add = [&](const Method       method,
                          const bool         natural_map,
                          const unsigned int iterations) {
-      Try law;
+      Attempt law;
       law.globalisation = method;
       law.natural_map   = natural_map;
       law.iterations    = iterations;
-      add_tries(law, step, options, tries);
+      add_attempts(law, step, options, attempts);
     };
     const auto add_lag = [&](const Method method) {
       const unsigned int most = options.max_iterations;
-      Try                lag;
+      Attempt            lag;
       lag.globalisation = method;
       lag.iterations    = most > 0 ? most : 60;
       lag.with_one_lag  = most > 0 ? most : 40;
-      tries.push_back(lag);
+      attempts.push_back(lag);
     };
-    const LawTraits  &law        = step.law;
-    const bool        associated = law.non_associativity == 0.;
-    const bool        hard       = law.non_associativity > Material::hard_flow;
+    const LawTraits &law        = step.law;
+    const bool       associated = law.non_associativity == 0.;
+    const bool       hard =
+      law.non_associativity > Material::strong_non_associativity;
     const Formulation formulation =
       step.needs_return_map() ? Formulation::return_map : options.formulation;
     const bool by_itself = formulation == Formulation::automatic;
@@ -132,7 +137,7 @@ namespace geocone::GEOCONE_DIM
         add(chosen,
             formulation == Formulation::natural_map,
             associated ? 150 : 60);
-        return tries;
+        return attempts;
       }
     if (chosen == Method::automatic && law.has_friction_memory() && by_itself)
       {
@@ -146,7 +151,7 @@ namespace geocone::GEOCONE_DIM
           add_lag(Method::explicit_friction);
         else
           add(Method::elastic_blend, true, 30);
-        return tries;
+        return attempts;
       }
     if (chosen == Method::automatic)
       {
@@ -165,13 +170,13 @@ namespace geocone::GEOCONE_DIM
       }
     if (!associated && formulation != Formulation::natural_map)
       add_lag(Method::lag_continuation);
-    return tries;
+    return attempts;
   }
 
   namespace
   {
     std::string
-    text_of(const Try &line)
+    text_of(const Attempt &line)
     {
       if (line.globalisation == Method::lag_continuation)
         return format("lag continuation: %u iterations on its path, %u with "
@@ -193,13 +198,13 @@ namespace geocone::GEOCONE_DIM
                 ? ", frictionless contact"
                 : "";
       text += line.start == Start::iterate ? ", from the last iterate"
-              : line.start == Start::flowing_iterate
+              : line.start == Start::yielding_iterate
                 ? ", from the last iterate if points yield"
                 : "";
       text += format(": %u iterations", line.iterations);
-      if (line.iterations_if_far != Try::unlimited)
+      if (line.iterations_if_far != Attempt::unlimited)
         text += format(", %u if far", line.iterations_if_far);
-      if (line.iterations_without_flow != Try::unlimited)
+      if (line.iterations_without_flow != Attempt::unlimited)
         text += format(", %u without flow", line.iterations_without_flow);
       return text;
     }
@@ -208,7 +213,7 @@ namespace geocone::GEOCONE_DIM
   std::string
   text_of_plans()
   {
-    const double mild = Material::hard_flow / 2., hard = 1.;
+    const double mild = Material::strong_non_associativity / 2., hard = 1.;
     std::vector<std::pair<std::string, StepTraits>> steps;
     const auto add = [&](const std::string &name, const double flow) -> auto &
     {
@@ -247,14 +252,14 @@ namespace geocone::GEOCONE_DIM
             mild)
           .contact;
       contact.exists = contact.has_friction = true;
-      contact.moves_obstacles = contact.obstacles_loaded = true;
+      contact.has_free_obstacles = contact.obstacles_loaded = true;
     }
     std::string text;
     for (const auto &[name, step] : steps)
       {
         text += (text.empty() ? "" : "\n") + name + "\n";
         unsigned int n = 0;
-        for (const Try &line : plan(step))
+        for (const Attempt &line : plan(step))
           text += format("  %u. ", ++n) + text_of(line) + "\n";
       }
     return text;

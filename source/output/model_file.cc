@@ -275,7 +275,7 @@ namespace geocone::GEOCONE_DIM
     bool
     is_on_body(const BoundaryCondition &condition)
     {
-      return condition.moves() || condition.is_traction();
+      return condition.moves_with_body() || condition.is_traction();
     }
 
     /** Sides of a box on which a condition acts. */
@@ -335,7 +335,7 @@ namespace geocone::GEOCONE_DIM
         }
     model.faces_of = [&, of_particles](const BoundaryCondition &condition) {
       if (of_particles && is_on_body(condition))
-        return panels_of_body(condition, scene.geometry);
+        return segments_of_body(condition, scene.geometry);
       std::vector<SidePart> faces;
       for (const Face &face : mesh.faces_of(condition))
         faces.push_back({face});
@@ -368,7 +368,7 @@ namespace geocone::GEOCONE_DIM
           }
     model.faces_of = [box = model.box,
                       &scene](const BoundaryCondition &condition) {
-      return is_on_body(condition) ? panels_of_body(condition, scene.geometry)
+      return is_on_body(condition) ? segments_of_body(condition, scene.geometry)
                                    : sides_of(box, condition);
     };
     return model;

@@ -151,9 +151,9 @@ namespace geocone::GEOCONE_DIM
           [this](const Record &) { return balance.removed(); });
     add_loss_columns();
     if (scene->materials.traits().has_friction_memory())
-      add_work("work of friction memory (J/m)", &Works::of_excess);
+      add_work("work of friction memory (J/m)", &Works::excess_work);
     if (points_move)
-      add_work("work of ghost stiffness (J/m)", &Works::of_ghosts);
+      add_work("work of ghost stiffness (J/m)", &Works::ghost_work);
   }
 
   void

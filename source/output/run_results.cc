@@ -166,7 +166,7 @@ namespace geocone::GEOCONE_DIM
     Json         delay;
     const auto   n           = records.size();
     const double tau         = scene->materials.traits().friction_memory;
-    const double work        = balance.works().of_excess;
+    const double work        = balance.works().excess_work;
     const double dissipation = balance.works().dissipation;
     if (n > 1 && scene->observation.has_load())
       {
@@ -207,12 +207,12 @@ namespace geocone::GEOCONE_DIM
       {"points_put_back_max", worst.points_returned},
       {"put_back_max_m", worst.returned_by},
       {"empty_functions", worst.light_functions},
-      {"light_share_max", worst.light_share},
+      {"light_share_max", worst.low_mass_share},
       {"front_x_m", front[0]},
       {"front_y_m", front[1]},
-      {unit("ghost_work_J_per_m"), works.of_ghosts},
+      {unit("ghost_work_J_per_m"), works.ghost_work},
       {"ghost_work_relative",
-       works.external > 0. ? Json(works.of_ghosts / works.external) : Json()}};
+       works.external > 0. ? Json(works.ghost_work / works.external) : Json()}};
   }
 
   void
@@ -341,7 +341,7 @@ namespace geocone::GEOCONE_DIM
                       {"cone_excess_max_Pa", quality.cone_excess},
                       {"excess_work_step_max", quality.excess_share},
                       {"excess_work_relative",
-       dissipation > 0. ? balance.works().of_excess / dissipation : 0.}};
+       dissipation > 0. ? balance.works().excess_work / dissipation : 0.}};
     if (scene->materials.traits().can_yield)
       of_state.update(
         Json{{"natural_map_error_max", quality.natural_map},

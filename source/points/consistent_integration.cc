@@ -186,7 +186,7 @@ namespace geocone::GEOCONE_DIM
         if (rooms[c].filled > least_fill)
           filled.push_back(points.cells[c]);
       const auto             &tria      = mesh.triangulation();
-      const std::vector<bool> is_filled = mesh.is_among(filled);
+      const std::vector<bool> is_filled = mesh.marked_cells(filled);
       std::vector<bool>       result(tria.n_vertices(), true);
       for (const Space::Cell &cell : tria.active_cell_iterators())
         if (!cell->is_artificial() && !is_filled[cell->active_cell_index()])
@@ -266,7 +266,7 @@ namespace geocone::GEOCONE_DIM
     const std::vector<Room> rooms = rooms_of_cells(mesh, limits, points);
     const std::vector<bool> is_surrounded =
       surrounded_vertices(mesh, limits, rooms, points);
-    const std::vector<bool> has_points = mesh.is_among(points.cells);
+    const std::vector<bool> has_points = mesh.marked_cells(points.cells);
     const QGauss<dim>       quadrature(space.degree() / 2 + 1 +
                                  (mesh.is_axisymmetric() ? 1 : 0));
     std::vector<types::global_dof_index> nodes, nodes_beside;

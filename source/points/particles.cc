@@ -132,7 +132,7 @@ namespace geocone::GEOCONE_DIM
                   seed.position,
                   set.history_of(p));
         for (unsigned int c = 0; c < conditions.size(); ++c)
-          if (conditions[c]->holds() == Imposition::On::particles &&
+          if (conditions[c]->imposed_on() == Imposition::On::particles &&
               in_first_row(
                 *conditions[c], scene.geometry, seed.position, seed.volume))
             {

@@ -356,7 +356,7 @@ namespace geocone::GEOCONE_DIM
     double volume = 1.;
     for (unsigned int d = 0; d < dim; ++d)
       volume *= grid.axes[d].size;
-    const double size = length_of(volume);
+    const double size = side_length(volume);
     if (points_per_direction() == 0)
       {
         visit_all(scene, [&](Block &block, const Given &given) {
@@ -425,7 +425,7 @@ namespace geocone::GEOCONE_DIM
               if (mesh.n_layers() > 1)
                 {
                   describe(seed, scene, given, Detail::material);
-                  place->cell = mesh.twin(
+                  place->cell = mesh.cell_in_layer(
                     place->cell, scene.contacts.body_of(seed.material));
                 }
               if (cells.owner(place->cell) != rank)

@@ -47,7 +47,7 @@ namespace geocone::GEOCONE_DIM
             if (material.is_spatial())
               {
                 sum += points.weight[p] *
-                       material.power_beyond_strength(
+                       material.excess_work_density(
                          plastic, whole_stress(p), points.history_of(p));
                 continue;
               }

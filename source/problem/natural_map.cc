@@ -36,7 +36,7 @@ namespace geocone::GEOCONE_DIM
 
   NaturalMap::NaturalMap(const MaterialPoints      &points,
                          const Materials           &materials,
-                         const StepLaw             &step,
+                         const StepData            &step,
                          const double               rho,
                          const std::vector<Mandel> &start)
     : points(points)

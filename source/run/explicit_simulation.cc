@@ -34,7 +34,8 @@ namespace geocone::GEOCONE_DIM
     for (const auto &stage : scene.loading.list)
       stage->check_explicit();
     std::vector<std::string> remarks = stepper.prepare(scene, method);
-    if (const std::string warning = scene.warn_of_records(); !warning.empty())
+    if (const std::string warning = scene.warn_of_time_histories();
+        !warning.empty())
       remarks.push_back(warning);
     const BoundingBox<dim> body(scene.geometry.bounding_box());
     log.print(options.name + ": " + text_of_magnitudes(scene, body));

@@ -68,7 +68,8 @@ namespace geocone::GEOCONE_DIM
     {
       for (unsigned int m = 0; m < materials.size(); ++m)
         if (const Elasticity &elastic = materials[m].elasticity();
-            materials[m].non_associativity() > Material::hard_flow &&
+            materials[m].non_associativity() >
+              Material::strong_non_associativity &&
             elastic.normal_stiffness() >
               50. * elastic.stiffness()(2, 2)) // 1/(1 - 2 nu)
           return true;
@@ -209,7 +210,7 @@ namespace geocone::GEOCONE_DIM
     // The exact law is easy with particles unless the soil is nearly incompressible.
     if ((!method.is_mpm() || is_nearly_incompressible(scene.materials)) &&
         !newton.wants_exact_friction() &&
-        scene.materials.traits().has_hard_flow)
+        scene.materials.traits().strongly_non_associated)
       scene.materials.set_friction_memory(time_of_small_motion(
         scene, mesh.bounding_box(), [&](const BoundaryCondition &condition) {
           return mesh.faces_of(condition);
@@ -233,7 +234,8 @@ namespace geocone::GEOCONE_DIM
     remember_friction();
     if (const std::string text = text_of_memory(scene); !text.empty())
       log.print(options.name + ": " + text);
-    space.prepare(mesh, method, scene.materials.traits().has_hard_flow);
+    space.prepare(
+      mesh, method, scene.materials.traits().strongly_non_associated);
     if (method.is_mpm())
       stepper = &implicit_mpm;
     else
@@ -249,13 +251,13 @@ namespace geocone::GEOCONE_DIM
           return std::string();
         },
         "Initial stress/Run");
-    warnings.push_back(scene.warn_of_records());
+    warnings.push_back(scene.warn_of_time_histories());
     const BoundingBox<dim> body(scene.geometry.shape == Geometry::Shape::file
                                   ? mesh.bounding_box()
                                   : scene.geometry.bounding_box());
     log.print(options.name + ": " + text_of_magnitudes(scene, body));
     for (const auto &more : {warn_of_magnitudes(scene, body),
-                             warn_of_held_width(scene, mesh, space)})
+                             warn_of_partial_coverage(scene, mesh, space)})
       warnings.insert(warnings.end(), more.begin(), more.end());
     warnings.push_back(outside_strength(points, scene.materials, comm));
     for (const auto &more : {space.warnings(scene.materials.traits(), method),
@@ -418,7 +420,7 @@ namespace geocone::GEOCONE_DIM
         if (!report.converged)
           {
             ++present.failures;
-            halved_for_excess += report.newton.exceeds;
+            halved_for_excess += report.newton.lag_error_too_large;
             cut(step, t + done, h, size, report.newton);
             continue;
           }

@@ -194,7 +194,7 @@ namespace geocone::GEOCONE_DIM
       is_box = is_box && box[0][c] <= box[1][c];
     if (!where_text.empty())
       {
-        check_formula(where_text, parameter("Where"), FormulaOf::place);
+        check_formula(where_text, parameter("Where"), FormulaVariables::place);
         where.emplace().prepare(where_text, parameter("Where"));
       }
     if (!is_box)
@@ -306,7 +306,7 @@ namespace geocone::GEOCONE_DIM
   }
 
   std::optional<std::array<dealii::Point<dim>, 2>>
-  BoundaryPart::reach(
+  BoundaryPart::bounding_box(
     const std::vector<std::vector<dealii::Point<dim>>> &faces) const
   {
     using dealii::Point;

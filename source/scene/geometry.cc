@@ -333,7 +333,7 @@ namespace geocone::GEOCONE_DIM
     sides_of_hole.clear();
     if (!where_text.empty())
       {
-        check_formula(where_text, "Geometry/Where", FormulaOf::place);
+        check_formula(where_text, "Geometry/Where", FormulaVariables::place);
         where.emplace().prepare(where_text, "Geometry/Where");
       }
     if (shape == Shape::box)

@@ -61,7 +61,7 @@ namespace geocone::GEOCONE_DIM
                     const std::string &text,
                     const std::string &parameter)
     {
-      check_formula(text, parameter, FormulaOf::place);
+      check_formula(text, parameter, FormulaVariables::place);
       formula.prepare(text, parameter);
     }
 

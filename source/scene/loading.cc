@@ -287,8 +287,9 @@ namespace geocone::GEOCONE_DIM
       check_polygon(removed_polygon, section + "Removed polygon");
     if (!removed_where_text.empty())
       {
-        check_formula(
-          removed_where_text, section + "Removed where", FormulaOf::place);
+        check_formula(removed_where_text,
+                      section + "Removed where",
+                      FormulaVariables::place);
         removed_where.emplace().prepare(removed_where_text,
                                         section + "Removed where");
       }
@@ -535,7 +536,7 @@ namespace geocone::GEOCONE_DIM
   }
 
   bool
-  LoadingProgramme::makes(const std::string &material) const
+  LoadingProgramme::replaces_by(const std::string &material) const
   {
     for (const auto &stage : list)
       for (const auto &[from, to] : stage->changed_materials)

@@ -165,7 +165,7 @@ namespace geocone::GEOCONE_DIM
         const auto prepare = [&](Expression        &formula,
                                  const std::string &text,
                                  const std::string &entry) {
-          check_formula(text, parameter(entry), FormulaOf::time);
+          check_formula(text, parameter(entry), FormulaVariables::time);
           formula.prepare(text, parameter(entry));
         };
         if (!free[k])
@@ -344,17 +344,17 @@ namespace geocone::GEOCONE_DIM
       body->nearest(own_place(x, moved), moved.turned(approach, true), cover);
     found.normal = moved.turned(found.normal);
     if (found.is_edge && cover.covers &&
-        beside->go_on_from(x - found.distance * found.normal, x))
+        beside->continue_beyond(x - found.distance * found.normal, x))
       found.distance = std::numeric_limits<double>::infinity();
     return found;
   }
 
   double
-  Obstacle::reach(const Tensor<1, dim> &n, const RigidMotion &moved) const
+  Obstacle::extent(const Tensor<1, dim> &n, const RigidMotion &moved) const
   {
     const Point<dim>     X     = centre();
     const Tensor<1, dim> n_own = moved.turned(n, true);
-    return (X + moved.centre) * n - X * n_own + body->reach(n_own);
+    return (X + moved.centre) * n - X * n_own + body->extent(n_own);
   }
 
   double
@@ -397,7 +397,7 @@ namespace geocone::GEOCONE_DIM
               directions.push_back(sign / n.norm() * n);
     double most = -std::numeric_limits<double>::infinity();
     for (const auto &n : directions)
-      most = std::max(most, -other.reach(-n, its_moved) - reach(n, moved));
+      most = std::max(most, -other.extent(-n, its_moved) - extent(n, moved));
     return most;
   }
 
@@ -429,7 +429,8 @@ namespace geocone::GEOCONE_DIM
   }
 
   bool
-  Neighbours::go_on_from(const Point<dim> &vertex, const Point<dim> &x) const
+  Neighbours::continue_beyond(const Point<dim> &vertex,
+                              const Point<dim> &x) const
   {
     const double own_distance = vertex.distance(x);
     for (unsigned int o = 0; o < list.size(); ++o)
@@ -457,8 +458,8 @@ namespace geocone::GEOCONE_DIM
     for (unsigned int o = 0; o < list.size(); ++o)
       all.emplace_back(list,
                        o,
-                       list[o]->slides_little() ? std::vector<RigidMotion>()
-                                                : moved,
+                       list[o]->has_small_sliding() ? std::vector<RigidMotion>()
+                                                    : moved,
                        margin);
     return all;
   }

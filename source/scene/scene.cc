@@ -162,7 +162,7 @@ namespace geocone::GEOCONE_DIM
     for (const std::string &name : materials.names())
       {
         stage_that_adds.push_back(loading.stage_that_adds(name));
-        is_made.push_back(loading.makes(name));
+        is_made.push_back(loading.replaces_by(name));
       }
     loading.prepare(materials.names(), tractions.names());
     regions.prepare(geometry, is_made);
@@ -348,13 +348,13 @@ namespace geocone::GEOCONE_DIM
   }
 
   std::string
-  Scene::warn_of_records() const
+  Scene::warn_of_time_histories() const
   {
     for (const auto *conditions : {&dirichlet, &tractions, &absorbing})
       for (const auto &condition : conditions->list)
         for (unsigned int d = 0; d < dim; ++d)
           if (const auto &component = condition->components[d])
-            if (const double end = component->stays_from();
+            if (const double end = component->constant_from();
                 end < (1. - 1e-9) * loading.duration())
               return format(
                 "the record of '%s' ends at t = %g s with %g, which "

@@ -198,10 +198,10 @@ namespace geocone::GEOCONE_DIM
     {
       PushedPart part;
       std::tie(part.low, part.high) = body.get_boundary_points();
-      if (!condition.moves())
+      if (!condition.moves_with_body())
         {
           part.faces       = faces_of(condition);
-          const auto reach = condition.reach(part.faces);
+          const auto reach = condition.bounding_box(part.faces);
           if (!reach)
             return {};
           part.cut(*reach);
@@ -210,7 +210,7 @@ namespace geocone::GEOCONE_DIM
         part.cut(*box);
       // Vertical sides are as long as the part is high.
       part.is_upright =
-        condition.moves()
+        condition.moves_with_body()
           ? std::any_of(condition.sides.begin(),
                         condition.sides.end(),
                         [](const std::string &side) {
@@ -224,7 +224,7 @@ namespace geocone::GEOCONE_DIM
     SmallMotion::extent_on(const EndPlane          &plane,
                            const BoundaryCondition &condition) const
     {
-      if (condition.moves())
+      if (condition.moves_with_body())
         {
           const char *const side = plane.along == 1
                                      ? (plane.is_first ? "bottom" : "top")
@@ -245,7 +245,7 @@ namespace geocone::GEOCONE_DIM
                                      face.begin(), face.end(), is_away);
                                  }),
                   faces.end());
-      const auto held = condition.reach(faces);
+      const auto held = condition.bounding_box(faces);
       if (!held)
         return Extent::none;
       for (const auto &face : faces)

@@ -158,7 +158,7 @@ namespace geocone::GEOCONE_DIM
   }
 
   std::vector<double>
-  Water::parts(const double t) const
+  Water::interpolation_weights(const double t) const
   {
     // Only the last of those that are complete counts, and what has begun since.
     std::size_t first = later.size();
@@ -211,8 +211,8 @@ namespace geocone::GEOCONE_DIM
       {
         double sum = 0.;
         for (std::size_t i = 0; i < all_flows.size(); ++i)
-          if (initial_parts[i] != 0.)
-            sum += initial_parts[i] * all_flows[i].pressure.value(x);
+          if (initial_weights[i] != 0.)
+            sum += initial_weights[i] * all_flows[i].pressure.value(x);
         return sum;
       }
     return table.empty()

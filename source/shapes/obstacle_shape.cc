@@ -52,7 +52,7 @@ namespace geocone::GEOCONE_DIM
   }
 
   double
-  HalfSpace::reach(const Vector &n) const
+  HalfSpace::extent(const Vector &n) const
   {
     return (n - normal).norm() < same_direction ? place * normal : infinity;
   }
@@ -71,7 +71,7 @@ namespace geocone::GEOCONE_DIM
   }
 
   double
-  Ball::reach(const Vector &n) const
+  Ball::extent(const Vector &n) const
   {
     return middle * n + radius;
   }
@@ -134,7 +134,7 @@ namespace geocone::GEOCONE_DIM
   }
 
   double
-  Cylinder::reach(const Vector &n) const
+  Cylinder::extent(const Vector &n) const
   {
     const double along = n * axis;
     return middle * n + std::abs(along) * half_height +
@@ -396,7 +396,7 @@ namespace geocone::GEOCONE_DIM
   }
 
   double
-  Polytope::reach(const Vector &n) const
+  Polytope::extent(const Vector &n) const
   {
     double most = -infinity;
     for (const Point &vertex : vertices)

@@ -96,12 +96,12 @@ namespace geocone::GEOCONE_DIM
   Space::automatic_element(const bool    simplicial,
                            const bool    has_grid,
                            const Method &method,
-                           const bool    hard_flow)
+                           const bool    strongly_non_associated)
   {
     if (simplicial)
-      return dim == 3 || (hard_flow && !method.is_mpm()) ? "P2"
-             : method.is_explicit()                      ? "P1"
-                                                         : "P3";
+      return dim == 3 || (strongly_non_associated && !method.is_mpm()) ? "P2"
+             : method.is_explicit()                                    ? "P1"
+                                                                       : "P3";
     if (!method.is_mpm())
       return dim == 3 ? "Q2" : "Q3";
     if (!has_grid)
@@ -118,7 +118,7 @@ namespace geocone::GEOCONE_DIM
                     " cannot everywhere: loads come out too high; take "
                     "quadrilaterals with Discretisation/B-bar = true" +
                     (method.is_mpm() ? "" : ", or a cubic element"));
-    if (!method.is_mpm() && element() == "P3" && law.has_hard_flow)
+    if (!method.is_mpm() && element() == "P3" && law.strongly_non_associated)
       all.push_back(
         "cubic triangles and the exact law of soil with little dilatancy: "
         "where "
@@ -133,10 +133,11 @@ namespace geocone::GEOCONE_DIM
   Space::choose_element(const bool    simplicial,
                         const bool    has_grid,
                         const Method &method,
-                        const bool    hard_flow)
+                        const bool    strongly_non_associated)
   {
     if (kind == Element::automatic)
-      kind.set(automatic_element(simplicial, has_grid, method, hard_flow));
+      kind.set(automatic_element(
+        simplicial, has_grid, method, strongly_non_associated));
     const bool on_simplices = kind <= Element::p3;
     if (on_simplices != simplicial || (dim == 3 && kind == Element::p3) ||
         (kind >= Element::spline_2 && !has_grid))
@@ -176,11 +177,12 @@ namespace geocone::GEOCONE_DIM
   void
   Space::prepare(const BackgroundMesh &background,
                  const Method         &method,
-                 const bool            hard_flow)
+                 const bool            strongly_non_associated)
   {
     mesh                  = &background;
     const bool simplicial = mesh->is_simplicial();
-    choose_element(simplicial, !mesh->grid()[0].empty(), method, hard_flow);
+    choose_element(
+      simplicial, !mesh->grid()[0].empty(), method, strongly_non_associated);
 
     n_nodes_per_cell = simplicial ? (p + 1) * (p + 2) / 2 : (p + 1) * (p + 1);
     if (dim == 3)
@@ -208,13 +210,13 @@ namespace geocone::GEOCONE_DIM
         for (unsigned int layer = 0; layer < mesh->n_layers(); ++layer)
           if (layer != mesh->layer_of(cell))
             {
-              cell_nodes(mesh->twin(cell, layer), nodes);
+              cell_nodes(mesh->cell_in_layer(cell, layer), nodes);
               active.add_indices(nodes.begin(), nodes.end());
             }
       }
     // Contact can occur anywhere: each rank stores the boundaries of such
     // bodies.
-    if (mesh->is_parted())
+    if (mesh->is_split())
       for (const auto &cell : mesh->triangulation().active_cell_iterators())
         if (cell->at_boundary())
           {
@@ -252,12 +254,12 @@ namespace geocone::GEOCONE_DIM
           for (unsigned int i = 0; i < nodes.size(); ++i)
             if (layout->in_local_range(dim * nodes[i]) ||
                 layout->is_ghost_entry(dim * nodes[i]))
-              positions[local_node(nodes[i])] = index_of_node(cell, i);
+              positions[local_node(nodes[i])] = position_of_node(cell, i);
         }
   }
 
   Point<dim>
-  Space::index_of_node(const Cell &cell, const unsigned int i) const
+  Space::position_of_node(const Cell &cell, const unsigned int i) const
   {
     Point<dim> x;
     if (is_spline())
@@ -295,7 +297,7 @@ namespace geocone::GEOCONE_DIM
             untied_nodes(cell, nodes);
             for (unsigned int i = 0; i < nodes.size(); ++i)
               if (is_on_face(i, f))
-                places[nodes[i]] = index_of_node(cell, i);
+                places[nodes[i]] = position_of_node(cell, i);
           }
     return {places.begin(), places.end()};
   }

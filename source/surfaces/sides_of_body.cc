@@ -111,7 +111,7 @@ namespace geocone::GEOCONE_DIM
   } // namespace
 
   std::vector<SidePart>
-  panels_of_body(const BoundaryCondition &condition, const Geometry &geometry)
+  segments_of_body(const BoundaryCondition &condition, const Geometry &geometry)
   {
     return dim == 3 ? panels_of_box(condition, geometry)
                     : panels_of_outline(condition, geometry);

@@ -262,7 +262,7 @@ namespace geocone::GEOCONE_DIM
         const double                   h = problem.time_step();
         const ObstacleMotions::Kinetic of_obstacles =
           problem.contact().motions().kinetic();
-        parts.kinetic += h * of_obstacles.change;
+        parts.kinetic += h * of_obstacles.work;
         parts.kinetic_energy += h * of_obstacles.energy;
       }
     // Decaying waves and creep are negligible compared with the elastic energy.

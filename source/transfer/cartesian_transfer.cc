@@ -378,7 +378,7 @@ namespace geocone::GEOCONE_DIM
         to.first                        = stored[d].begin;
         to.type                         = from.type.data();
         to.coefficients                 = from.coefficients.data();
-        to.places                       = from.places.data();
+        to.greville                     = from.places.data();
       }
     g.stride[dim - 1] = 1;
     for (unsigned int d = dim - 1; d-- > 0;)
@@ -561,7 +561,7 @@ namespace geocone::GEOCONE_DIM
   }
 
   bool
-  CartesianTransfer::reaches(const Point<dim> &x) const
+  CartesianTransfer::covers(const Point<dim> &x) const
   {
     bool inside = grid.contains(x, 0.);
     for (unsigned int d = 0; d < dim; ++d)

@@ -56,7 +56,7 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
-  MeshTransfer::hand_over(const std::vector<PointArrays> &groups)
+  MeshTransfer::redistribute(const std::vector<PointArrays> &groups)
   {
     std::vector<unsigned int> n_in_cell(mesh.triangulation().n_active_cells());
     for (const PointArrays &group : groups)
@@ -99,7 +99,7 @@ namespace geocone::GEOCONE_DIM
             }
         }
     if (balance.is_due(n_here, comm))
-      hand_over(groups);
+      redistribute(groups);
 
     lost.clear();
     functions.resize(groups.size());
@@ -236,17 +236,18 @@ namespace geocone::GEOCONE_DIM
   {
     for (unsigned int k = 0; k < points.n; ++k)
       {
-        const PointFunctions at    = functions_at(points, k);
-        const double *const  given = scratch.given + BlockScratch::n_given * k;
+        const PointFunctions at = functions_at(points, k);
+        const double *const  scattered =
+          scratch.scattered + BlockScratch::n_scattered * k;
         if constexpr (dim == 2)
-          at.scatter<4, with_gradients>(given, write.data());
+          at.scatter<4, with_gradients>(scattered, write.data());
         else
           {
-            at.scatter<4, false, node_size>(given, write.data());
+            at.scatter<4, false, node_size>(scattered, write.data());
             if constexpr (with_gradients)
               {
                 double forces[4 + 4 * dim] = {};
-                std::copy_n(given + 4, 4 * dim, forces + 4);
+                std::copy_n(scattered + 4, 4 * dim, forces + 4);
                 at.scatter<4, true, node_size>(forces,
                                                write.data() + change_of_node);
               }

@@ -19,10 +19,10 @@ namespace cone_cut_off_01
   using geocone::Mode;
 
   FlowCone
-  cone_of(const double a, const double b, const double opening)
+  cone_of(const double a, const double b, const double cut_off)
   {
     FlowCone cone{a, b, 1.};
-    cone.opening = opening;
+    cone.cut_off = cut_off;
     return cone;
   }
 
@@ -82,7 +82,7 @@ namespace cone_cut_off_01
           }
       }
     std::cout << "a = " << cone.a << ", b = " << cone.b
-              << ", opening = " << cone.opening << ", h = " << cone.hardening
+              << ", opening = " << cone.cut_off << ", h = " << cone.hardening
               << ": " << counts[0] << " within, " << counts[1] << " cone, "
               << counts[2] << " cut-off, " << counts[3] << " both, "
               << counts[4] << " tip" << std::endl;

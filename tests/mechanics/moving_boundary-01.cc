@@ -157,7 +157,8 @@ namespace mechanics_moving_boundary_01
     try
       {
         const MovingSurface surface(
-          panels_of_body(*setup.scene.dirichlet.list[2], setup.scene.geometry),
+          segments_of_body(*setup.scene.dirichlet.list[2],
+                           setup.scene.geometry),
           longest);
         const std::vector<SidePart> lines  = surface.facets();
         double                      length = 0., covered = 0.;

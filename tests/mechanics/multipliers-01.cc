@@ -105,8 +105,8 @@ namespace mechanics_multipliers_01
             "  row %u of condition %u asks for %g m/s, but %g m/s is left\n",
             refusal->key.number,
             refusal->key.condition,
-            refusal->asked,
-            refusal->left);
+            refusal->prescribed,
+            refusal->implied);
         else if (speaks())
           std::printf("  row %u of condition %u has no function with mass\n",
                       refusal->key.number,

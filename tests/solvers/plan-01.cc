@@ -25,17 +25,17 @@ namespace solvers_plan_01
   {
     const auto bit = [&](const unsigned int i) { return (bits >> i & 1U) > 0; };
     StepTraits step;
-    step.law.can_yield            = bit(0);
-    step.law.non_associativity    = bit(1) ? (bit(2) ? 1. : 0.3) : 0.;
-    step.law.frictionless         = bit(3);
-    step.law.has_natural_map      = bit(4);
-    step.points_move              = bit(5);
-    step.has_inertia              = bit(6);
-    step.has_constraints          = bit(7);
-    step.contact.exists           = bit(8);
-    step.contact.has_friction     = bit(8) && bit(9);
-    step.contact.moves_obstacles  = bit(8) && bit(10);
-    step.contact.obstacles_loaded = bit(8) && bit(10) && bit(11);
+    step.law.can_yield              = bit(0);
+    step.law.non_associativity      = bit(1) ? (bit(2) ? 1. : 0.3) : 0.;
+    step.law.frictionless           = bit(3);
+    step.law.has_natural_map        = bit(4);
+    step.points_move                = bit(5);
+    step.has_inertia                = bit(6);
+    step.has_constraints            = bit(7);
+    step.contact.exists             = bit(8);
+    step.contact.has_friction       = bit(8) && bit(9);
+    step.contact.has_free_obstacles = bit(8) && bit(10);
+    step.contact.obstacles_loaded   = bit(8) && bit(10) && bit(11);
     if (bit(12))
       step.law.friction_memory = 1.;
     return step;
@@ -56,7 +56,7 @@ namespace solvers_plan_01
     PlanOptions options;
     options.max_iterations = 7;
     bool limited           = true;
-    for (const Try &line : plan(step_of((1U << 13) - 1), options))
+    for (const Attempt &line : plan(step_of((1U << 13) - 1), options))
       limited = limited && line.iterations == 7;
     std::printf("limits that are asked for: %s\n", limited ? "yes" : "NO");
 
@@ -70,9 +70,9 @@ namespace solvers_plan_01
     unsigned int n_wrong = 0;
     for (unsigned int bits = 0; bits < 1U << 13; ++bits)
       {
-        const auto tries = plan(step_of(bits));
-        n_wrong += tries.empty() || tries.back().prepares ||
-                   tries.front().start != Try::Start::of_step;
+        const auto attempts = plan(step_of(bits));
+        n_wrong += attempts.empty() || attempts.back().prepares ||
+                   attempts.front().start != Attempt::Start::of_step;
       }
     std::printf("plans that cannot be: %u of %u\n", n_wrong, 1U << 13);
   }

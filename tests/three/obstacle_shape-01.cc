@@ -43,12 +43,14 @@ namespace three_obstacle_shape_01
         return v / v.norm();
   }
 
-  /** The largest n.x - reach(n), from the best ones of some directions by smaller and smaller
+  /** The largest n.x - extent(n), from the best ones of some directions by smaller and smaller
    *  changes. */
   double
   searched_distance(const ObstacleShape &shape, const Point &x)
   {
-    const auto beyond = [&](const Vector &n) { return x * n - shape.reach(n); };
+    const auto beyond = [&](const Vector &n) {
+      return x * n - shape.extent(n);
+    };
     std::vector<Vector> starts = shape.side_normals();
     for (unsigned int i = 0; i < 500; ++i)
       starts.push_back(random_direction());
@@ -119,7 +121,7 @@ namespace three_obstacle_shape_01
             (at.distance < 0. ? n_inside : n_outside) += 1;
             n_edges += at.is_edge;
             // No direction parts them farther, and the normal does just that.
-            const double along = x * at.normal - shape->reach(at.normal);
+            const double along = x * at.normal - shape->extent(at.normal);
             worst              = std::max(
               {worst, searched - at.distance, std::abs(along - at.distance)});
             // Along the normal the distance grows at one, across it not at all.

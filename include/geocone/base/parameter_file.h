@@ -33,7 +33,8 @@ namespace geocone
     /** For each section and parameter name, the object types (e.g. constitutive
      *  laws) that declare the parameter. If the file uses no object of these
      *  types, parse() skips the parameter. */
-    using OfOthers = std::map<std::string, std::map<std::string, std::string>>;
+    using ParametersOfOtherKinds =
+      std::map<std::string, std::map<std::string, std::string>>;
 
     /** A parameter whose value is set in the parameter file. If the parameter
      *  is set repeatedly, the last value applies. */
@@ -99,7 +100,7 @@ namespace geocone
      * known name) and on inadmissible values
      */
     std::vector<Setting>
-    parse(const OfOthers &of_others = {}) const;
+    parse(const ParametersOfOtherKinds &of_others = {}) const;
 
     /** Absolute path of the parameter file. The file name without folder and
      *  extension is returned by name(). */

@@ -125,7 +125,7 @@ namespace geocone::GEOCONE_DIM
 
   /** Side length (m) of a square of given area or a cube of given volume. */
   inline double
-  length_of(const double volume)
+  side_length(const double volume)
   {
     return dim == 2 ? std::sqrt(volume) : std::cbrt(volume);
   }

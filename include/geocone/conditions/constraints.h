@@ -78,7 +78,7 @@ namespace geocone::GEOCONE_DIM
      *  Such velocities are only as accurate as with linear shape functions. Empty
      *  otherwise. Collective. */
     std::string
-    warn_of_bent_values() const;
+    warn_of_nonlinear_values() const;
 
     /** Sets the prescribed components of the velocity vector v to their values at
      *  time t. */
@@ -183,12 +183,12 @@ namespace geocone::GEOCONE_DIM
     {
       std::vector<unsigned int> conditions; ///< the last one governs
       std::vector<double>       size;       ///< int N_i, by condition (m)
-      unsigned int              first = 0;  ///< offset of Part::place
+      unsigned int              first = 0;  ///< offset of FaceIntegral::place
     };
 
     /** Integral int N_i n dA of shape function times normal, over those faces
-     *  of a cell on which a boundary condition acts. */
-    struct Part
+     *  of a cell on which a boundary condition is_active. */
+    struct FaceIntegral
     {
       unsigned int           place; ///< number, starts at Shared::first
       unsigned int           component;
@@ -196,7 +196,7 @@ namespace geocone::GEOCONE_DIM
     };
 
     /** Computes the mean unit normal at each node of the boundary on which a
-     *  boundary condition acts. Collective.
+     *  boundary condition is_active. Collective.
      *  @throws InputError if faces of the condition meet in a sharp corner */
     std::map<unsigned int, dealii::Tensor<1, dim>>
     normals_of(const BoundaryCondition         &condition,
@@ -237,7 +237,7 @@ namespace geocone::GEOCONE_DIM
     /** Computes the nodal forces on boundary faces due to the stresses in the
      *  adjacent cells, at nodes shared by several boundary conditions. Nodes
      *  are shared if several conditions prescribe the same component. The
-     *  forces are ordered by Part::place. Collective. */
+     *  forces are ordered by FaceIntegral::place. Collective. */
     std::vector<double>
     exerted_on_faces(const MaterialPoints      &points,
                      const std::vector<Mandel> &stress) const;
@@ -278,7 +278,7 @@ namespace geocone::GEOCONE_DIM
     const MPI_Comm                         comm;
     std::vector<PrescribedNode>            prescribed;
     std::vector<Oblique>                   oblique;
-    std::vector<bool>                      acts;        ///< per condition
+    std::vector<bool>                      is_active;   ///< per condition
     std::vector<std::vector<unsigned int>> nodes;       ///< per condition
     std::vector<std::vector<unsigned int>> owned_nodes; ///< per condition
     std::vector<unsigned int>              n_nodes;     ///< over all ranks
@@ -290,10 +290,10 @@ namespace geocone::GEOCONE_DIM
     std::map<dealii::types::global_dof_index, Shared> shared;
     unsigned int                                      n_shares = 0;
 
-    /** Integrals over boundary faces (Part), ordered by active cell index. The
+    /** Integrals over boundary faces (FaceIntegral), ordered by active cell index. The
      *  integrals of cell c begin at first_part[c]. */
     std::vector<unsigned int> first_part;
-    std::vector<Part>         parts;
+    std::vector<FaceIntegral> parts;
   };
 } // namespace geocone::GEOCONE_DIM
 

@@ -17,9 +17,9 @@ namespace geocone::GEOCONE_DIM
    *  the selected boundary segment. The velocity is then prescribed on a narrower
    *  strip. Collective. */
   std::vector<std::string>
-  warn_of_held_width(const Scene          &scene,
-                     const BackgroundMesh &mesh,
-                     const Space          &space);
+  warn_of_partial_coverage(const Scene          &scene,
+                           const BackgroundMesh &mesh,
+                           const Space          &space);
 } // namespace geocone::GEOCONE_DIM
 
 #endif

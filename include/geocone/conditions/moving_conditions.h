@@ -33,14 +33,14 @@ namespace geocone::GEOCONE_DIM
     void
     begin_stage(const std::string &stage)
     {
-      acts = scene.dirichlet.acting_in(stage);
+      is_active = scene.dirichlet.acting_in(stage);
     }
 
     /** Returns true if a boundary condition is active in the current stage. */
     bool
     is_acting(const unsigned int condition) const
     {
-      return acts[condition];
+      return is_active[condition];
     }
 
     /** Checks that each boundary condition on particles selects at least one
@@ -126,7 +126,7 @@ namespace geocone::GEOCONE_DIM
      *  normal velocity, summed over all ranks. Penetrations below a tenth of the
      *  point size are ignored. Collective. */
     unsigned int
-    n_behind(const MaterialPoints &points) const;
+    n_penetrated(const MaterialPoints &points) const;
 
     /** Saves the positions of the boundary segments to a checkpoint, or
      *  restores them from one. */
@@ -135,7 +135,7 @@ namespace geocone::GEOCONE_DIM
 
   private:
     /** A boundary condition with prescribed velocity, and its boundary segments. */
-    struct HeldSide
+    struct PrescribedSide
     {
       unsigned int          condition;
       std::vector<SidePart> panels;
@@ -153,7 +153,7 @@ namespace geocone::GEOCONE_DIM
      *  In axisymmetric problems, the sum of the circumferences of the particles
      *  (m). Collective. */
     std::vector<double>
-    sum_held(const MaterialPoints &points) const;
+    sum_prescribed(const MaterialPoints &points) const;
 
     /** Shortens the boundary segments of a condition by the value of the
      *  parameter 'Segment shortening'. */
@@ -219,12 +219,12 @@ namespace geocone::GEOCONE_DIM
                   const std::vector<dealii::Point<dim>> &middles,
                   std::vector<double>                    in_mesh) const;
 
-    const Scene            &scene;
-    const BackgroundMesh   &mesh;
-    const Space            &space;
-    std::vector<bool>       acts; ///< per condition of Scene::dirichlet
-    std::vector<HeldSide>   supports;
-    std::vector<LoadedSide> loads;
+    const Scene          &scene;
+    const BackgroundMesh &mesh;
+    const Space          &space;
+    std::vector<bool>     is_active; ///< per condition of Scene::dirichlet
+    std::vector<PrescribedSide> supports;
+    std::vector<LoadedSide>     loads;
   };
 } // namespace geocone::GEOCONE_DIM
 

@@ -40,9 +40,9 @@ namespace geocone::GEOCONE_DIM
     struct Refusal
     {
       Key    key;
-      bool   is_supported; ///< whether a basis function of the row has mass
-      double asked = 0.;   ///< prescribed right-hand side q (m/s)
-      double left  = 0.;   ///< q implied by the independent rows (m/s)
+      bool   is_supported;    ///< whether a basis function of the row has mass
+      double prescribed = 0.; ///< prescribed right-hand side q (m/s)
+      double implied    = 0.; ///< q implied by the independent rows (m/s)
     };
 
     Multipliers() = default;
@@ -211,7 +211,9 @@ namespace geocone::GEOCONE_DIM
      * and above 1 if spurious velocities satisfy the row. Collective.
      */
     LowMassShare
-    light_share(const Vector &v, const Vector &mass, const Space &space) const;
+    low_mass_share(const Vector &v,
+                   const Vector &mass,
+                   const Space  &space) const;
 
     /** Mean velocity component prescribed by a boundary condition (m/s). Zero if
      *  none is prescribed. */

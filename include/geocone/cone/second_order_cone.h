@@ -119,17 +119,17 @@ namespace geocone::GEOCONE_DIM
     double hardening = 0.;
 
     /**
-     * Strength parameter in the Rankine tension cut-off |s_t| <= s_n + opening
+     * Strength parameter in the Rankine tension cut-off |s_t| <= s_n + cut_off
      * (Pa). The cut-off applies in addition to the cone and has associated
      * flow. In plane strain it limits the largest principal stress to
-     * opening/sqrt2.
+     * cut_off/sqrt2.
      */
-    double opening = infinite_tension;
+    double cut_off = infinite_tension;
 
     bool
     is_cut() const
     {
-      return opening < infinite_tension;
+      return cut_off < infinite_tension;
     }
 
     /** Returns the hardened cone at the end of a step with plastic shear strain
@@ -157,7 +157,7 @@ namespace geocone::GEOCONE_DIM
     double
     beyond_cut_off(const V &s) const
     {
-      return tangential_norm(s) - s[0] - opening;
+      return tangential_norm(s) - s[0] - cut_off;
     }
 
     /** De Saxce's change of variable Psi(z) = z + (a - b) |z_t| n, with the
@@ -352,7 +352,7 @@ namespace geocone::GEOCONE_DIM
    * the cut-off after the return mapping to the cone. The stress is returned to
    * the cut-off, which is an associated cone of aperture 1, or, if that stress
    * is outside the cone, to the circle in which cone and cut-off intersect,
-   *   s_n = (k + q T - (1 + q) opening)/(1 - a + q),  |s_t| = s_n + opening,
+   *   s_n = (k + q T - (1 + q) cut_off)/(1 - a + q),  |s_t| = s_n + cut_off,
    * with q = h/2G.
    */
   template <typename V, typename M>
@@ -366,15 +366,15 @@ namespace geocone::GEOCONE_DIM
   {
     constexpr int n_tangential = V::RowsAtCompileTime - 1;
     const Mode    mode =
-      return_map_uncut(FlowCone{1., 1., cone.opening}, K, two_G, t, s, tangent);
+      return_map_uncut(FlowCone{1., 1., cone.cut_off}, K, two_G, t, s, tangent);
     const double T = FlowCone::tangential_norm(t);
     const double q = cone.hardening / two_G;
     const double r = FlowCone::tangential_norm(s);
     if (r <= cone.a * s[0] + cone.k + q * (T - r))
       return mode;
     const auto u = (t.template tail<n_tangential>() / T).eval();
-    s[0] = (cone.k + q * T - (1. + q) * cone.opening) / (1. - cone.a + q);
-    const double radius             = s[0] + cone.opening;
+    s[0] = (cone.k + q * T - (1. + q) * cone.cut_off) / (1. - cone.a + q);
+    const double radius             = s[0] + cone.cut_off;
     s.template tail<n_tangential>() = radius * u;
     if (tangent != nullptr)
       {

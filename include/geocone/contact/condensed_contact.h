@@ -72,18 +72,21 @@ namespace geocone
       Contact contact = Contact::open;
 
       /** Unit vector in the direction of the tangential contact force during
-       *  slip. The matrix `turn` is the derivative of d with respect to r_T -
+       *  slip. The matrix `direction_derivative` is the derivative of d with respect to r_T -
        *  rho u_T, times the friction bound; it is zero for one tangent. */
       Eigen::VectorXd direction;
-      Eigen::MatrixXd turn;
+      Eigen::MatrixXd direction_derivative;
 
       /** Returns true if two contact states lead to the same linear
        *  equations. */
       bool
       operator==(const State &other) const
       {
-        return contact == other.contact && turn.size() == other.turn.size() &&
-               direction == other.direction && turn == other.turn;
+        return contact == other.contact &&
+               direction_derivative.size() ==
+                 other.direction_derivative.size() &&
+               direction == other.direction &&
+               direction_derivative == other.direction_derivative;
       }
     };
 

@@ -28,7 +28,7 @@ namespace geocone::GEOCONE_DIM
   /** Tolerance for adjacent obstacles: their boundaries form one continuous
    *  boundary if the distance between them is smaller than this fraction of the
    *  cell size. */
-  constexpr double meeting = 1e-3;
+  constexpr double continuity_tolerance = 1e-3;
 
   /** Threshold for parallel normals: cosine of the largest angle (10 degrees)
    *  between two normals that are treated as one. */
@@ -37,7 +37,7 @@ namespace geocone::GEOCONE_DIM
   /** Threshold for contact at a partially supported node: cosine of the largest
    *  angle (10 degrees) between the contact normal and the free directions of
    *  the node. If the angle is larger, the node has no contact. */
-  const double along_support = std::cos(radians(10.));
+  const double least_free_component = std::cos(radians(10.));
 
   /** Potential contact node, which may be in contact with an obstacle or another
    *  body in a step. */
@@ -222,14 +222,14 @@ namespace geocone::GEOCONE_DIM
     {
       double of_errors = 0.; ///< sum of |F|^2 of the nodes ((N/m)^2)
       double of_bodies = 0.; ///< the same for free obstacles ((N/m)^2)
-      double of_sizes  = 0.; ///< sum of the references Touch::size (N/m)
+      double of_sizes  = 0.; ///< sum of the references NodalContact::size (N/m)
     };
     Sums
     sums() const
     {
       Sums sums;
       sums.of_bodies = body_error * body_error;
-      for (const Touch &at : touch)
+      for (const NodalContact &at : nodal_contact)
         {
           sums.of_errors += at.error * at.error;
           sums.of_sizes += at.size;
@@ -246,7 +246,7 @@ namespace geocone::GEOCONE_DIM
 
     /** Contact force and state of an owned node, computed by the last call to
      *  replace(). */
-    struct Touch
+    struct NodalContact
     {
       dealii::Tensor<1, dim> force; ///< r, obstacle on body (N/m)
       State                  state = State::open;
@@ -307,10 +307,10 @@ namespace geocone::GEOCONE_DIM
 
     /** Contact forces and states, in the order of nodes(). Undefined for nodes
      *  that are not owned. */
-    const std::vector<Touch> &
-    touches() const
+    const std::vector<NodalContact> &
+    nodal_contacts() const
     {
-      return touch;
+      return nodal_contact;
     }
 
     /** Returns true if a contact is closed or can carry tension. Tension requires
@@ -318,7 +318,7 @@ namespace geocone::GEOCONE_DIM
     bool
     carries_load(const unsigned int i) const
     {
-      return touch[i].state != State::open || list[i].tension > 0.;
+      return nodal_contact[i].state != State::open || list[i].tension > 0.;
     }
 
     /** Features of the contact problem that determine the solution strategy,
@@ -419,17 +419,17 @@ namespace geocone::GEOCONE_DIM
     LowRank
     low_rank(const SparseMatrix &matrix) const;
 
-    const Unknowns          &unknowns;
-    std::vector<ContactNode> list;
-    std::vector<Touch>       touch;
-    std::vector<Matrix>      rho_Q; ///< rho Q of owned nodes
-    std::array<Vector, dim>  row_A; ///< A by component of F, at the node's dofs
-    ObstacleMotions          obstacles;
-    bool                     has_pairs     = false; ///< ContactStep::has_pairs
-    double                   body_error    = 0.;    ///< out of balance (N/m)
-    bool                     with_friction = true;  ///< in the last replace()
-    bool                     holds         = false; ///< in the last replace()
-    bool                     relaxed       = false; ///< relax() since replace()
+    const Unknowns           &unknowns;
+    std::vector<ContactNode>  list;
+    std::vector<NodalContact> nodal_contact;
+    std::vector<Matrix>       rho_Q; ///< rho Q of owned nodes
+    std::array<Vector, dim> row_A; ///< A by component of F, at the node's dofs
+    ObstacleMotions         obstacles;
+    bool                    has_pairs     = false; ///< ContactStep::has_pairs
+    double                  body_error    = 0.;    ///< out of balance (N/m)
+    bool                    with_friction = true;  ///< in the last replace()
+    bool                    holds         = false; ///< in the last replace()
+    bool                    relaxed       = false; ///< relax() since replace()
   };
 } // namespace geocone::GEOCONE_DIM
 

@@ -10,11 +10,11 @@ namespace geocone
    *  strategy. */
   struct ContactTraits
   {
-    bool exists           = false; ///< contact is possible
-    bool of_bodies        = false; ///< contact between deformable bodies
-    bool has_friction     = false; ///< friction or adhesion at some node
-    bool moves_obstacles  = false; ///< motions of obstacles are unknowns
-    bool obstacles_loaded = false; ///< loads act on free obstacles
+    bool exists             = false; ///< contact is possible
+    bool of_bodies          = false; ///< contact between deformable bodies
+    bool has_friction       = false; ///< friction or adhesion at some node
+    bool has_free_obstacles = false; ///< motions of obstacles are unknowns
+    bool obstacles_loaded   = false; ///< loads act on free obstacles
   };
 } // namespace geocone
 

@@ -86,7 +86,7 @@ namespace geocone::GEOCONE_DIM
      * @throws InputError if an obstacle overlaps with the cells
      */
     void
-    take_body(const std::vector<BackgroundMesh::Cell> &cells);
+    set_body_cells(const std::vector<BackgroundMesh::Cell> &cells);
 
     /** Returns true if the scene contains obstacles or contacts between bodies. */
     bool
@@ -172,7 +172,7 @@ namespace geocone::GEOCONE_DIM
     double
     margin() const
     {
-      return meeting * size;
+      return continuity_tolerance * size;
     }
 
     /** Displacements of the obstacles since the start of the run. */
@@ -193,7 +193,7 @@ namespace geocone::GEOCONE_DIM
     Vector &
     displacement_of_nodes()
     {
-      return path;
+      return nodal_displacement;
     }
 
     /** Returns true if any interface has tensile strength, so that contacts can
@@ -228,8 +228,8 @@ namespace geocone::GEOCONE_DIM
     /** Returns true if boundary conditions prescribe the velocity component of
      *  a node along a given normal. */
     bool
-    is_held(const unsigned int            node,
-            const dealii::Tensor<1, dim> &normal) const;
+    is_prescribed(const unsigned int            node,
+                  const dealii::Tensor<1, dim> &normal) const;
 
     /** Position of a node: current position in a body-fitted mesh, fixed position
      *  in a background mesh. */
@@ -245,18 +245,18 @@ namespace geocone::GEOCONE_DIM
     }
 
     /** A potential contact of a node and its gap (m). */
-    struct Near
+    struct PotentialContact
     {
       ContactNode contact;
       double      gap;
-      double      reach; ///< largest gap that the step can close (m)
+      double      closable_gap; ///< largest gap that the step can close (m)
     };
-    /** Largest gap that can close during a step (m), see Near::reach.
+    /** Largest gap that can close during a step (m), see PotentialContact::closable_gap.
      *  @param u_n relative normal velocity at the beginning of the step h */
     double
-    reach(const double h, const double u_n) const;
+    closable_gap(const double h, const double u_n) const;
 
-    using NearBodies = std::map<unsigned int, Near>; ///< by node
+    using NearBodies = std::map<unsigned int, PotentialContact>; ///< by node
 
     /** Computes the distance and the normal from a node to the nearest part of an
      *  obstacle's boundary.
@@ -287,9 +287,9 @@ namespace geocone::GEOCONE_DIM
      *  is appended if it has another normal and can also close.
      *  @param[in,out] refusal reason if that is impossible */
     void
-    add_nearest(std::vector<Near> &near,
-                std::string       &refusal,
-                ContactStep       &step) const;
+    add_nearest(std::vector<PotentialContact> &near,
+                std::string                   &refusal,
+                ContactStep                   &step) const;
 
     /** Finds the potential contact nodes between bodies in a body-fitted mesh.
      *  Collective. */
@@ -312,11 +312,11 @@ namespace geocone::GEOCONE_DIM
     force(const Contact &contact, const unsigned int i);
 
     std::vector<unsigned int> candidates; ///< local nodes, with ghosts
-    std::vector<bool> had_cells;    ///< nodes of the body, before take_body()
-    std::optional<NodeSides> sides; ///< for a body-fitted mesh only
+    std::vector<bool> had_cells; ///< nodes of the body, before set_body_cells()
+    std::optional<NodeSides> sides;     ///< for a body-fitted mesh only
     double                   size = 0.; ///< cell size (m)
     std::vector<RigidMotion> displacement, velocity;
-    Vector                   path;  ///< nodal displacements (m)
+    Vector                   nodal_displacement; ///< nodal displacements (m)
     Vector                   bonds; ///< bonds_of_nodes(), with ghosts
 
     std::optional<BodyContact> bodies; ///< empty without contact pairs

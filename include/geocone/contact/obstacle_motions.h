@@ -105,7 +105,7 @@ namespace geocone::GEOCONE_DIM
     double
     error() const
     {
-      return lack_of_all;
+      return out_of_balance_norm;
     }
 
     /** Calls f(motion, number) for each free rigid-body motion of an obstacle,
@@ -124,14 +124,14 @@ namespace geocone::GEOCONE_DIM
      *  out-of-balance forces M/h (y - y_0), with mass M and step size h.
      *  Contact forces are not included. */
     void
-    balance(Eigen::VectorXd &inertia, Eigen::VectorXd &lack) const;
+    balance(Eigen::VectorXd &inertia, Eigen::VectorXd &out_of_balance) const;
 
     /** Kinetic energy and work of the free obstacle motions, both divided by the
      *  step size h (W/m). The energy is y'M y/2, the work done on the motions is
      *  y'M (y - y_n). */
     struct Kinetic
     {
-      double change = 0., energy = 0.;
+      double work = 0., energy = 0.;
     };
     Kinetic
     kinetic() const;
@@ -146,8 +146,8 @@ namespace geocone::GEOCONE_DIM
     std::vector<RigidMotion>  motion;
     std::vector<Matrix>       inverse_E;
     std::vector<unsigned int> first_free; ///< first free motion, by obstacle
-    unsigned int              n_free_motions = 0;
-    double                    lack_of_all    = 0.;
+    unsigned int              n_free_motions      = 0;
+    double                    out_of_balance_norm = 0.;
   };
 } // namespace geocone::GEOCONE_DIM
 

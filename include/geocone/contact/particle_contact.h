@@ -85,32 +85,33 @@ namespace geocone::GEOCONE_DIM
 
     /** A particle in the support of the shape functions of a pair of coincident
      *  nodes, one on each body. */
-    struct Share
+    struct SupportParticle
     {
-      unsigned int       place;    ///< number of the position
-      bool               is_first; ///< belongs to the first body
+      unsigned int       position_index; ///< number of the position
+      bool               is_first;       ///< belongs to the first body
       dealii::Point<dim> x;
       double             half; ///< half the side of the particle's square (m)
     };
 
     /** Lists the particles in the support of each pair of coincident nodes that
      *  both have mass. */
-    std::vector<Share>
-    shares_of(const Pair           &pair,
-              const MaterialPoints &points,
-              const Unknowns       &unknowns) const;
+    std::vector<SupportParticle>
+    support_particles(const Pair           &pair,
+                      const MaterialPoints &points,
+                      const Unknowns       &unknowns) const;
 
     /** Computes the contact normal at each pair of coincident nodes. Zero if no
      *  plane separates the bodies. Each rank receives the corners of all convex
      *  hulls, which are few. Collective. */
     std::vector<dealii::Tensor<1, dim>>
-    normals(const Pair &pair, const std::vector<Share> &shares) const;
+    normals(const Pair                         &pair,
+            const std::vector<SupportParticle> &particles) const;
 
     /** Computes the gap along the contact normal at each pair of coincident nodes
      *  (m). Collective. */
     std::vector<double>
     gaps(const Pair                                &pair,
-         const std::vector<Share>                  &shares,
+         const std::vector<SupportParticle>        &particles,
          const std::vector<dealii::Tensor<1, dim>> &normal) const;
 
     /** Checks that the displacements of fixed quadrature points are smaller

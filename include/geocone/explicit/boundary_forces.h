@@ -61,13 +61,13 @@ namespace geocone::GEOCONE_DIM
      * other nodal forces must be included already. The work is computed from
      * the nodal velocities gathered by the points.
      * @param least_mass nodes with this mass or less are skipped (kg/m)
-     * @param is_held whether the velocity is prescribed, per node and component
+     * @param is_prescribed whether the velocity is prescribed, per node and component
      */
     Done
     add_dashpots(GridTransfer                     &nodes,
                  const double                      dt,
                  const double                      least_mass,
-                 const std::vector<unsigned char> &is_held) const;
+                 const std::vector<unsigned char> &is_prescribed) const;
 
     /** Moves the loaded boundary segments with the nodal velocities during a
      *  time step dt. Collective. */

@@ -250,7 +250,7 @@ namespace geocone::GEOCONE_DIM
     };
 
     /** Data scattered from the points to the nodes in one pass over the points. */
-    enum class Gives
+    enum class ScatteredData
     {
       nothing,
       momentum,
@@ -299,25 +299,25 @@ namespace geocone::GEOCONE_DIM
     /** Performs one pass over all points: gathers from the nodes, updates the
      *  points and scatters to the nodes. */
     void
-    pass(const Update update, const Gives gives, const double dt);
+    pass(const Update update, const ScatteredData scattered, const double dt);
 
     /** Gathers velocities and strain increments from the nodes for a block of
      *  points. Stresses and positions are then updated. */
     void
-    take(const Update update, const double dt, const TransferBlock &points);
+    gather(const Update update, const double dt, const TransferBlock &points);
     void
-    follow_law(const Update         update,
-               const double         dt,
-               const TransferBlock &points);
+    update_stresses(const Update         update,
+                    const double         dt,
+                    const TransferBlock &points);
 
     /** Updates the bounding box of the point positions. Points outside the
-     *  region of stored nodes are treated by mend_positions(). */
+     *  region of stored nodes are treated by correct_positions(). */
     void
     bound_positions(const TransferBlock &points);
 
     /** Scatters the data of a block of points to the nodes. */
     void
-    give(const Gives gives, const TransferBlock &points);
+    scatter(const ScatteredData scattered, const TransferBlock &points);
 
     void
     for_each_block(const std::function<void(const TransferBlock &)> &action);
@@ -359,12 +359,12 @@ namespace geocone::GEOCONE_DIM
 
     /** Error message for a point that has left the mesh. */
     std::string
-    has_left(const PointArrays &group, const unsigned int p) const;
+    lost_point_message(const PointArrays &group, const unsigned int p) const;
 
     /** Corrects the positions of points outside the region of stored nodes, or
      *  records an error message. */
     void
-    mend_positions(const TransferBlock &points);
+    correct_positions(const TransferBlock &points);
 
     /** Returns true if the scene has tractions or absorbing boundaries. Boundary
      *  forces require a transfer on a mesh with boundary segments. */
@@ -417,7 +417,7 @@ namespace geocone::GEOCONE_DIM
     /** Removes a point: sets its mass to zero and adds its mass, momentum and
      *  energy to the removed totals. */
     void
-    take_away(PointArrays &group, const unsigned int p);
+    remove_point(PointArrays &group, const unsigned int p);
 
     /** Deletes points without mass from the arrays. */
     void
@@ -473,7 +473,7 @@ namespace geocone::GEOCONE_DIM
     double                 body_mass    = 0.; ///< mass of this rank (kg/m)
     double                 hoop_force   = 0.; ///< last force, this rank (N)
     double                 least_radius = 0.;
-    double                 fade         = 1.; ///< mass ratio, last pass
+    double                 mass_ratio   = 1.; ///< of the last pass
     double                 fade_end     = 0.;
     double                 last_step    = 0.;
     PassSums               sums; ///< last pass; global after gather_sums()
@@ -481,7 +481,7 @@ namespace geocone::GEOCONE_DIM
     unsigned int           since_refresh = 0;
     bool                   some_left     = false; ///< points without mass exist
     int         asked_to_stop = 0; ///< signal or 0, after gather_sums()
-    std::string obstacle;          ///< error message of this rank
+    std::string error_message;     ///< of this rank
 
     /** Progress within a step of the loading programme. */
     struct Progress

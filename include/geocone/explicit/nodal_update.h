@@ -166,7 +166,7 @@ namespace geocone::GEOCONE_DIM
      *  momentum transferred to the points in excess of the momentum due to
      *  the nodal forces. */
     void
-    hold_prescribed(const Step &step);
+    impose_prescribed(const Step &step);
 
     /** Adds a nodal impulse to the reaction of the boundary condition at the
      *  node. */
@@ -185,7 +185,7 @@ namespace geocone::GEOCONE_DIM
     /** Adds the local damping forces to the nodal forces (array
      *  GridTransfer::write). */
     void
-    damp(const Step &step);
+    add_damping(const Step &step);
 
     /** Resets the nodal values scattered from the points (array
      *  GridTransfer::write) to zero. The nodal masses are also reset unless
@@ -201,15 +201,15 @@ namespace geocone::GEOCONE_DIM
 
     /** A nodal velocity component with a prescribed value in the current
      *  step. */
-    struct HeldNode
+    struct PrescribedComponent
     {
       unsigned int node, component;
       double       velocity, change;
     };
-    std::vector<HeldNode>      held;
-    std::vector<unsigned char> is_held;         ///< per nodal component
-    std::vector<Reaction>      support_impulse; ///< per boundary condition
-    double                     unbalanced = 0.;
+    std::vector<PrescribedComponent> held;
+    std::vector<unsigned char>       is_prescribed; ///< per nodal component
+    std::vector<Reaction> support_impulse;          ///< per boundary condition
+    double                unbalanced = 0.;
   };
 } // namespace geocone::GEOCONE_DIM
 

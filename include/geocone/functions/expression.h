@@ -20,7 +20,7 @@ namespace geocone::GEOCONE_DIM
    * Scalar function of position (m) and time (s), given by a formula or by a
    * time history. A formula is written in muParser's language with the constant
    * pi; where files are allowed, a time history is given as "record FILE.csv"
-   * (Record).
+   * (TimeHistory).
    */
   class Expression
   {
@@ -51,12 +51,12 @@ namespace geocone::GEOCONE_DIM
     /** Time (s) after which a time history stays at a constant non-zero value;
      *  infinite for other expressions. */
     double
-    stays_from() const;
+    constant_from() const;
 
   private:
     std::optional<double>                        number; ///< if constant
     std::unique_ptr<dealii::FunctionParser<dim>> function;
-    std::unique_ptr<Record>                      record;
+    std::unique_ptr<TimeHistory>                 record;
   };
 } // namespace geocone::GEOCONE_DIM
 

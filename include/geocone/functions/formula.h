@@ -11,7 +11,7 @@
 namespace geocone::GEOCONE_DIM
 {
   /** Variables that a formula may contain. */
-  enum class FormulaOf
+  enum class FormulaVariables
   {
     place_and_time,
     place,
@@ -20,7 +20,7 @@ namespace geocone::GEOCONE_DIM
 
   /** Description of the formula syntax, for error messages. */
   std::string
-  allowed_formula(const FormulaOf variables);
+  allowed_formula(const FormulaVariables variables);
 
   /**
    * Checks the syntax of a formula before muParser parses the formula. The
@@ -35,9 +35,10 @@ namespace geocone::GEOCONE_DIM
    * @throws InputError with the position of the error
    */
   void
-  check_formula(const std::string &text,
-                const std::string &parameter,
-                const FormulaOf    variables = FormulaOf::place_and_time);
+  check_formula(
+    const std::string     &text,
+    const std::string     &parameter,
+    const FormulaVariables variables = FormulaVariables::place_and_time);
 } // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -55,7 +55,7 @@ namespace geocone::GEOCONE_DIM
     struct At
     {
       std::size_t i;
-      double      part, length;
+      double      relative_position, length;
     };
     static At
     locate(const std::vector<double> &places, const double x);

@@ -17,7 +17,7 @@ namespace geocone
    * from an accelerogram). The value is constant before the first and after the
    * last row.
    */
-  class Record
+  class TimeHistory
   {
   public:
     /**
@@ -25,9 +25,9 @@ namespace geocone
      * @param text,parameter value and name of the parameter, for messages
      * @throws InputError naming the faulty line
      */
-    Record(const std::string &file,
-           const std::string &text,
-           const std::string &parameter);
+    TimeHistory(const std::string &file,
+                const std::string &text,
+                const std::string &parameter);
 
     double
     value(const double t) const;

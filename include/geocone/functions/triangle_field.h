@@ -48,7 +48,7 @@ namespace geocone::GEOCONE_DIM
     struct At
     {
       unsigned int          cell;
-      std::array<double, 3> parts;
+      std::array<double, 3> barycentric;
     };
 
     /** Locates the point x in the mesh. No value is returned for a point

@@ -136,7 +136,7 @@ namespace geocone::GEOCONE_DIM
     /** Redistributes the mesh cells over the MPI ranks. Must be followed by
      *  set_up(). Collective. */
     void
-    hand_over(MaterialPoints &points);
+    redistribute(MaterialPoints &points);
 
     /** Redistributes the mesh cells and all state variables over the MPI ranks
      *  during a run. Collective. */
@@ -339,12 +339,13 @@ namespace geocone::GEOCONE_DIM
 
     /** Largest coordinate of all particles along each axis (m). */
     dealii::Point<dim>
-    front_of(const MaterialPoints &points) const;
+    largest_coordinates(const MaterialPoints &points) const;
 
     /** Boundary condition imposed on an individual particle; null if there is
      *  none. */
     const BoundaryCondition *
-    holder_of(const MaterialPoints &points, const unsigned int p) const;
+    condition_of_particle(const MaterialPoints &points,
+                          const unsigned int    p) const;
 
     void
     check_parameters();

@@ -282,11 +282,11 @@ namespace geocone::GEOCONE_DIM
      *  included, the plastic dissipation is not; the points are still at
      *  t_n. */
     void
-    take_works(const TimeStep       &step,
-               const MaterialPoints &points,
-               const Vector         &v,
-               const Vector         &residual,
-               StepReport           &report) const;
+    add_works(const TimeStep       &step,
+              const MaterialPoints &points,
+              const Vector         &v,
+              const Vector         &residual,
+              StepReport           &report) const;
 
     /** Updates the support displacements and the reactions of the boundary
      *  conditions. */

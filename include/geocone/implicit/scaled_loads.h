@@ -44,10 +44,10 @@ namespace geocone::GEOCONE_DIM
      * @return the load factor; 1 without load stepping
      */
     double
-    take(const Constraints     &constraints,
-         const Eigen::VectorXd &lambda,
-         Vector                &force,
-         Vector                &residual) const;
+    add_scaled_loads(const Constraints     &constraints,
+                     const Eigen::VectorXd &lambda,
+                     Vector                &force,
+                     Vector                &residual) const;
 
   private:
     Vector scaled; ///< loads F; empty without load stepping

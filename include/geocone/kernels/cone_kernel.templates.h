@@ -11,7 +11,7 @@
 namespace geocone::GEOCONE_DIM
 {
   /** Material constants of the kernel advance_cone() in d dimensions. */
-  struct ConeNumbers
+  struct ConeConstants
   {
     double a, b;
     double radius; ///< k/sqrt(d) (Pa)
@@ -22,8 +22,8 @@ namespace geocone::GEOCONE_DIM
 
     /** @name Friction with memory */
     /** @{ */
-    double   part  = 0.; ///< memory factor lambda of the step
-    unsigned place = 0;  ///< index of p in the history; 0: no memory
+    double   memory_factor = 0.; ///< memory factor lambda of the step
+    unsigned place         = 0;  ///< index of p in the history; 0: no memory
     /** @} */
   };
 
@@ -134,11 +134,12 @@ namespace geocone::GEOCONE_DIM
    *  with or without friction memory. */
   template <typename Arch, bool has_memory>
   void
-  advance_cone_block(const ConeNumbers &cone, const PointBlock &block)
+  advance_cone_block(const ConeConstants &cone, const PointBlock &block)
   {
     using P = Pack<Arch>;
     // With memory: aperture and radius of the delayed cone.
-    const double     lagging  = has_memory ? cone.part * (cone.a - cone.b) : 0.;
+    const double lagging =
+      has_memory ? cone.memory_factor * (cone.a - cone.b) : 0.;
     const double     aperture = cone.a - lagging;
     double *const    memory = has_memory ? block.history[cone.place] : nullptr;
     const P          one(1.), half(0.5), zero(0.), tiny(1e-300);
@@ -146,7 +147,7 @@ namespace geocone::GEOCONE_DIM
     constexpr double root = dim == 2 ? sqrt2 : 1.73205080756887729353;
     // s_n = -sqrt2 m, of which lambda mu/sqrt2 contributes to the radius.
     const P least(-root * cone.apex), part_of_p(lagging / root),
-      part(cone.part), kept(root * (1. - cone.part));
+      part(cone.memory_factor), kept(root * (1. - cone.memory_factor));
     const P K(cone.K), G2(cone.two_G), K_part(cone.K / dim);
     const P per_H(1. / (cone.two_G + aperture * cone.b * cone.K));
     const P per_K(1. / cone.K), per_G2(1. / cone.two_G), M(cone.wave_modulus);
@@ -210,7 +211,7 @@ namespace geocone::GEOCONE_DIM
    *  required. */
   template <typename Arch>
   void
-  advance_cone_block(const ConeNumbers &cone, const PointBlock &block)
+  advance_cone_block(const ConeConstants &cone, const PointBlock &block)
   {
     if (cone.place > 0)
       advance_cone_block<Arch, true>(cone, block);

@@ -100,7 +100,7 @@ namespace geocone::GEOCONE_DIM
      *  edge 0 if positive, otherwise edge 1. */
     template <typename V>
     P
-    side(const V &t) const
+    edge_indicator(const V &t) const
     {
       return flow_less * t[0] - (t[1] + t[1]) + flow_more * t[2];
     }
@@ -121,7 +121,7 @@ namespace geocone::GEOCONE_DIM
       const P in_order = min(plane[0] - plane[1], plane[1] - plane[2]);
       for (int e = 0; e < 2; ++e)
         to_edge(e, t, f, size, edge[e]);
-      const P at  = side(t);
+      const P at  = edge_indicator(t);
       const P end = where_greater(at, zero, edge[0][0], edge[1][0]) +
                     where_greater(at, zero, edge[0][2], edge[1][2]);
       for (int i = 0; i < 3; ++i)

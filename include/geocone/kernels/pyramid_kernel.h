@@ -9,7 +9,7 @@
 namespace geocone::GEOCONE_DIM
 {
   /** Material constants of the kernel advance_pyramid(). */
-  struct PyramidNumbers
+  struct PyramidConstants
   {
     double sine; ///< sin(phi) of f_ij = s_i - s_j + (s_i + s_j) sine - size
     double flow; ///< sin(theta), theta the dilatancy angle
@@ -21,10 +21,10 @@ namespace geocone::GEOCONE_DIM
      *  parameters */
     /** @{ */
     static constexpr unsigned int no_place = -1;
-    unsigned int memory  = no_place; ///< index of p, friction with memory (Pa)
-    double       part    = 0.;       ///< memory factor lambda of the step
-    double       lagging = 0.;       ///< part of sin(phi) multiplied by p
-    unsigned int growth  = no_place; ///< index of the cohesion increment (Pa)
+    unsigned int memory = no_place;  ///< index of p, friction with memory (Pa)
+    double       memory_factor = 0.; ///< memory factor lambda of the step
+    double       delayed_sine  = 0.; ///< part of sin(phi) multiplied by p
+    unsigned int growth = no_place;  ///< index of the cohesion increment (Pa)
     double       size_per_cohesion = 0.;
     /** @} */
   };
@@ -38,7 +38,7 @@ namespace geocone::GEOCONE_DIM
    * inscribed in the pyramid.
    */
   void
-  advance_pyramid(const PyramidNumbers &pyramid, const PointBlock &block);
+  advance_pyramid(const PyramidConstants &pyramid, const PointBlock &block);
 } // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -197,7 +197,8 @@ namespace geocone::GEOCONE_DIM
   /** Implements advance_pyramid() for one SIMD instruction set. */
   template <typename Arch>
   void
-  advance_pyramid_block(const PyramidNumbers &pyramid, const PointBlock &block)
+  advance_pyramid_block(const PyramidConstants &pyramid,
+                        const PointBlock       &block)
   {
     using P = Pack<Arch>;
     using T = std::array<P, n_spatial>;
@@ -210,17 +211,18 @@ namespace geocone::GEOCONE_DIM
     const P bulk(pyramid.lambda /
                  (pyramid.two_G * (3. * pyramid.lambda + pyramid.two_G)));
     const P wave_modulus(pyramid.lambda + pyramid.two_G);
-    const P twice_lagging(2. * pyramid.lagging);
+    const P twice_lagging(2. * pyramid.delayed_sine);
     // Apex stress of a pyramid, per size.
     const auto apex_of_size = [](const double sine) {
       return sine > 0. ? P(0.5 / sine) : P(1e100);
     };
     const P apex(apex_of_size(pyramid.sine)),
-      exact_apex(apex_of_size(pyramid.sine + pyramid.lagging));
+      exact_apex(apex_of_size(pyramid.sine + pyramid.delayed_sine));
     const PyramidReturn<P> returns(
       pyramid.sine, pyramid.flow, pyramid.lambda, pyramid.two_G);
     const auto history = [&](const unsigned int place) {
-      return place == PyramidNumbers::no_place ? nullptr : block.history[place];
+      return place == PyramidConstants::no_place ? nullptr
+                                                 : block.history[place];
     };
     double *const memory = history(pyramid.memory);
     double *const growth = history(pyramid.growth);
@@ -278,8 +280,8 @@ namespace geocone::GEOCONE_DIM
             (P::load(block.plastic_strain + p) + sqrt(plastic))
               .store(block.plastic_strain + p);
             if (memory != nullptr)
-              (P(pyramid.part) * P::load(memory + p) -
-               P(0.5 * (1. - pyramid.part)) * (values[0] + values[2]))
+              (P(pyramid.memory_factor) * P::load(memory + p) -
+               P(0.5 * (1. - pyramid.memory_factor)) * (values[0] + values[2]))
                 .store(memory + p);
           }
 

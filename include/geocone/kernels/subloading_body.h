@@ -25,7 +25,7 @@ namespace geocone
     using Vector = decltype(State::stress);
     using Number = decltype(State::pcb);
 
-    explicit SubloadingBody(const SubloadingNumbers &c)
+    explicit SubloadingBody(const DerivedSubloadingConstants &c)
       : c(c)
     {}
 
@@ -379,7 +379,8 @@ namespace geocone
       return Number(1. / 3.) * (a[0] + a[1] + a[2]);
     }
 
-    const SubloadingNumbers c; ///< copied, so that stores do not alias it
+    const DerivedSubloadingConstants
+      c; ///< copied, so that stores do not alias it
 
   private:
     /** Largest root of a x^2 + b x + c = 0 for a < 0 <= c, computed without

@@ -45,10 +45,10 @@ namespace geocone
   };
 
   /** Material constants of the subloading model, with derived constants. */
-  struct SubloadingNumbers : SubloadingConstants
+  struct DerivedSubloadingConstants : SubloadingConstants
   {
-    SubloadingNumbers() = default;
-    explicit SubloadingNumbers(const SubloadingConstants &c)
+    DerivedSubloadingConstants() = default;
+    explicit DerivedSubloadingConstants(const SubloadingConstants &c)
       : SubloadingConstants(c)
       , shear_ratio(3. * (1. - 2. * c.nu) / (2. * (1. + c.nu)))
       , slope(1.5 / (c.M * c.M))

@@ -67,9 +67,11 @@ namespace geocone
    * other points are left to integrate().
    */
   void
-  take_single_substeps(const SubloadingNumbers &, SubloadingLanes<4> &);
+  take_single_substeps(const DerivedSubloadingConstants &,
+                       SubloadingLanes<4> &);
   void
-  take_single_substeps(const SubloadingNumbers &, SubloadingLanes<6> &);
+  take_single_substeps(const DerivedSubloadingConstants &,
+                       SubloadingLanes<6> &);
 } // namespace geocone
 
 #endif

@@ -26,7 +26,7 @@ namespace geocone
   class SubloadingSubstep
   {
   public:
-    explicit SubloadingSubstep(const SubloadingNumbers &c)
+    explicit SubloadingSubstep(const DerivedSubloadingConstants &c)
       : body(c)
     {}
 
@@ -93,7 +93,7 @@ namespace geocone
     P
     is_good(const typename Body::Substep &next, const P &R) const
     {
-      const SubloadingNumbers &c = body.c;
+      const DerivedSubloadingConstants &c = body.c;
       return next.possible *
              Body::is_less(next.error2, P(c.tolerance * c.tolerance)) *
              Body::is_less(P(c.smallest_size), next.end.pcb) *
@@ -109,24 +109,24 @@ namespace geocone
     }
 
     /** Stores the results of the SIMD lanes whose substep is accepted (mask
-     *  @p good = 1). */
+     *  @p accepted = 1). */
     static void
-    store(const P &good, const P &end, double (&to)[4])
+    store(const P &accepted, const P &end, double (&to)[4])
     {
-      where_greater(good, P(0.), end, P::load(to)).store(to);
+      where_greater(accepted, P(0.), end, P::load(to)).store(to);
     }
 
     static void
-    store(const P &good, const State &end, SubloadingLanes<n> &lanes)
+    store(const P &accepted, const State &end, SubloadingLanes<n> &lanes)
     {
       for (int i = 0; i < n; ++i)
         {
-          store(good, end.stress[i], lanes.stress[i]);
-          store(good, end.a[i], lanes.a[i]);
-          store(good, end.beta[i], lanes.beta[i]);
+          store(accepted, end.stress[i], lanes.stress[i]);
+          store(accepted, end.a[i], lanes.a[i]);
+          store(accepted, end.beta[i], lanes.beta[i]);
         }
-      store(good, end.pcb, lanes.pcb);
-      store(good, end.Rb, lanes.Rb);
+      store(accepted, end.pcb, lanes.pcb);
+      store(accepted, end.Rb, lanes.Rb);
     }
 
     const Body body;
@@ -135,7 +135,8 @@ namespace geocone
   /** Implements take_single_substeps() for one SIMD instruction set. */
   template <typename Arch, int n>
   void
-  take_single_substeps_by(const SubloadingNumbers &c, SubloadingLanes<n> &lanes)
+  take_single_substeps_by(const DerivedSubloadingConstants &c,
+                          SubloadingLanes<n>               &lanes)
   {
     SubloadingSubstep<Pack<Arch>, n>{c}(lanes);
   }

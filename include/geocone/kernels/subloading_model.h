@@ -88,7 +88,7 @@ namespace geocone
       : c(constants)
     {}
 
-    const SubloadingNumbers &
+    const DerivedSubloadingConstants &
     constants() const
     {
       return c;
@@ -142,7 +142,7 @@ namespace geocone
     }
 
   private:
-    SubloadingNumbers c;
+    DerivedSubloadingConstants c;
   };
 
   extern template class SubloadingModel<4>;

@@ -87,7 +87,7 @@ namespace geocone::GEOCONE_DIM
 
   /** Result of a replay (repeated solution): summary for comparisons, and stresses
    *  (Pa). */
-  struct Outcome
+  struct ReplayResult
   {
     nlohmann::json      summary;
     std::vector<Mandel> stress;
@@ -100,7 +100,7 @@ namespace geocone::GEOCONE_DIM
 
   /** Reads a reduced problem (cone complementarity problem) from a file and solves
    *  it. */
-  Outcome
+  ReplayResult
   replay_reduced(const std::string              &file_name,
                  const std::vector<std::string> &overrides,
                  ResultFolder                   &folder);

@@ -93,7 +93,7 @@ namespace geocone
 
       /** Performs the symbolic factorisation without reordering the rows. */
       void
-      analyse_as_it_is(const Eigen::SparseMatrix<double> &matrix);
+      analyse_natural_order(const Eigen::SparseMatrix<double> &matrix);
     };
     mutable Factors factors;
   };

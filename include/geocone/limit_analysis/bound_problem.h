@@ -18,15 +18,15 @@
 namespace geocone::GEOCONE_DIM
 {
   /** Yield cone |s_t| <= a s_n + k of a point, in scaled units. With tensile strength
-   *  there is a second cone |s_t| <= s_n + opening (FlowCone::opening). */
+   *  there is a second cone |s_t| <= s_n + cut_off (FlowCone::cut_off). */
   struct PointCone
   {
-    double a = 0., k = 0., opening = infinite_tension;
+    double a = 0., k = 0., cut_off = infinite_tension;
 
     bool
     is_cut() const
     {
-      return opening < infinite_tension;
+      return cut_off < infinite_tension;
     }
 
     /** Returns true if the yield cone is a cylinder, as for the Tresca
@@ -63,11 +63,11 @@ namespace geocone::GEOCONE_DIM
    *
    * After the triangles come the faces of the interfaces, as cells of the same form: V is
    * a part of the length of an edge, B q the velocity of the body relative to the
-   * obstacle. The velocities of the obstacles and then the opening rates of the
+   * obstacle. The velocities of the obstacles and then the cut_off rates of the
    * interfaces (Interface::opens()) follow the other dofs.
    *
    * The last cells are the tension cut-offs of triangles. Their points have the stress of
-   * the triangle, in the cone |s_t| <= s_n + opening, and a strain rate w; the strain
+   * the triangle, in the cone |s_t| <= s_n + cut_off, and a strain rate w; the strain
    * rate of the triangle's points is then B q - w. Equilibrium for w states that both
    * stresses are the same, and the total dissipation is the infimal convolution of the
    * dissipation functions of cone and cut-off.
@@ -157,7 +157,7 @@ namespace geocone::GEOCONE_DIM
 
     /** Increase of the strength k with depth, for each material (scaled units of stress,
      *  per m). */
-    std::vector<Material::Growth> growth;
+    std::vector<Material::StrengthGradient> growth;
 
     PointCone
     cone_at(const unsigned int material, const dealii::Point<dim> &x) const

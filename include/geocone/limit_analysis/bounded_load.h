@@ -94,7 +94,7 @@ namespace geocone::GEOCONE_DIM
 
     std::vector<FlowCone> flow_cones;
     /** Increase of the strength k with depth, for each material (Pa/m). */
-    std::vector<Material::Growth> growth;
+    std::vector<Material::StrengthGradient> growth;
   };
 } // namespace geocone::GEOCONE_DIM
 

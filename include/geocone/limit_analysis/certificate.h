@@ -88,7 +88,7 @@ namespace geocone::GEOCONE_DIM
    * Returns the dissipation per unit volume at a point for a strain rate in cone axes.
    * With a cut-off it is the infimal convolution of the dissipation functions of cone and
    * cut-off,
-   *   opening (-e_n) + (k - a opening) (|e_t| + e_n)^+/(1 - a).
+   *   cut_off (-e_n) + (k - a cut_off) (|e_t| + e_n)^+/(1 - a).
    */
   double
   dissipation(const PointCone &cone, const Eigen::Vector3d &rate);

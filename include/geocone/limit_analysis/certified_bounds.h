@@ -40,7 +40,7 @@ namespace geocone::GEOCONE_DIM
      * the internal power of the lower bound times the size of the triangle. The
      * power marks stresses at yield away from the upper bound's mechanism.
      */
-    std::vector<double> uneven;
+    std::vector<double> refinement_indicator;
 
     /** Sum of the contributions of all triangles to the gap, relative to the
      *  gap (1 if both fields are exact). */
@@ -81,7 +81,7 @@ namespace geocone::GEOCONE_DIM
   certified_bounds(const BoundScene &bound, const double tolerance);
 
   /** Returns the refinement indicator of each triangle
-   *  (CertifiedBounds::uneven).
+   *  (CertifiedBounds::refinement_indicator).
    *  @param gap contribution of each triangle to the gap
    *  @param lower solution of the lower bound */
   std::vector<double>

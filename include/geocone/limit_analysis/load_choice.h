@@ -50,7 +50,7 @@ namespace geocone::GEOCONE_DIM
     /** Returns the load that corresponds to the load factor 1 of a problem. It is in
      *  unit() for a reaction, otherwise 1. */
     double
-    value_of_unit() const
+    load_of_unit_factor() const
     {
       return load_unit;
     }

@@ -91,11 +91,11 @@ namespace geocone
      *  group, for the current iterate. */
     struct Sums
     {
-      double product = 0.; ///< X.Z
-      double gap     = 0.; ///< V/w X.Z
-      double miss    = 0.; ///< V |flow residual/w|^2
-      double size    = 0.; ///< V |B q|^2
-      double most    = 0.; ///< largest X over k
+      double product              = 0.; ///< X.Z
+      double gap                  = 0.; ///< V/w X.Z
+      double flow_residual        = 0.; ///< V |flow residual/w|^2
+      double size                 = 0.; ///< V |B q|^2
+      double largest_stress_ratio = 0.; ///< largest X over k
     };
 
     /** Computes the residuals of the conic problem, and their sums over the
@@ -205,7 +205,7 @@ namespace geocone
     has_free_direction() const override
     {
       return std::any_of(law.begin(), law.end(), [&](const unsigned int l) {
-        return laws[l].free.squaredNorm() > 0.;
+        return laws[l].null_vector.squaredNorm() > 0.;
       });
     }
 
@@ -315,9 +315,10 @@ namespace geocone
           const double xz = x[p].dot(z[p]);
           sums.product += xz;
           sums.gap += volume[p] / w[p] * xz;
-          sums.miss += volume[p] * (residual[p] / w[p]).squaredNorm();
+          sums.flow_residual += volume[p] * (residual[p] / w[p]).squaredNorm();
           sums.size += volume[p] * rate[p].squaredNorm();
-          sums.most = std::max(sums.most, x[p].norm() / k[p]);
+          sums.largest_stress_ratio =
+            std::max(sums.largest_stress_ratio, x[p].norm() / k[p]);
         }
       return sums;
     }
@@ -341,7 +342,7 @@ namespace geocone
           for (int j = 0; j < n_y; ++j)
             scaled.col(j).template head<size>() = W.x_hat(own.A.col(j));
           scaled.template bottomRows<1>() =
-            std::sqrt(w[p] / bulk) * own.free.transpose();
+            std::sqrt(w[p] / bulk) * own.null_vector.transpose();
           small_matrices::factorise(
             size + 1, n_y, scaled.data(), here.Q.data(), here.T_inverse.data());
           const Eigen::Matrix<double, rows, n_y> upper =
@@ -422,7 +423,8 @@ namespace geocone
           dy[p] = g[p] + here.T_inverse * (here.T_inverse.transpose() * de);
           dx[p] = -(own.A * dy[p]);
           const Y goal =
-            residual[p] + de - w[p] / bulk * own.free * own.free.dot(dy[p]);
+            residual[p] + de -
+            w[p] / bulk * own.null_vector * own.null_vector.dot(dy[p]);
           // Flow exactly, whatever the accuracy of C; the rest from complementarity.
           const X least = own.pseudo_inverse * goal;
           dz[p]         = least + here.from_null * (d[p] - W.z_hat(least));
@@ -541,7 +543,7 @@ namespace geocone
     Eigen::Matrix<double, rows, rows>
     elastic(const unsigned int p, const double stiffness) const
     {
-      const S free = laws[law[p]].free.template head<rows>();
+      const S free = laws[law[p]].null_vector.template head<rows>();
       Eigen::Matrix<double, rows, rows> C =
         Eigen::Matrix<double, rows, rows>::Identity();
       if (free.squaredNorm() > 0.)

@@ -50,8 +50,8 @@ namespace geocone::GEOCONE_DIM
      *  certified. */
     std::optional<Mechanism> mechanism;
 
-    /** Refinement indicator of an undecided sample (CertifiedBounds::uneven). */
-    std::vector<double> uneven;
+    /** Refinement indicator of an undecided sample (CertifiedBounds::refinement_indicator). */
+    std::vector<double> refinement_indicator;
   };
 
   /**

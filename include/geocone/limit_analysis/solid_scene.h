@@ -24,7 +24,7 @@ namespace geocone::GEOCONE_DIM
     double a = 0., k = 0.;
 
     /** Increase of the strength k with depth (in scaled units, per m). */
-    Material::Growth growth;
+    Material::StrengthGradient growth;
 
     double
     k_at(const dealii::Point<dim> &x) const
@@ -47,7 +47,7 @@ namespace geocone::GEOCONE_DIM
   };
 
   /** Velocity prescribed on a boundary facet, in scaled units. */
-  struct HeldFacet
+  struct FacetCondition
   {
     enum class Kind
     {
@@ -65,12 +65,12 @@ namespace geocone::GEOCONE_DIM
   class SolidScene
   {
   public:
-    const Scene               *scene      = nullptr;
-    const Tetrahedra          *tetrahedra = nullptr;
-    LoadFactor                 factor     = LoadFactor::automatic;
-    BoundUnits                 units;
-    std::vector<SolidStrength> strengths; ///< strength of each material
-    std::vector<HeldFacet>     held;      ///< prescribed velocity of each facet
+    const Scene                *scene      = nullptr;
+    const Tetrahedra           *tetrahedra = nullptr;
+    LoadFactor                  factor     = LoadFactor::automatic;
+    BoundUnits                  units;
+    std::vector<SolidStrength>  strengths; ///< strength of each material
+    std::vector<FacetCondition> facet_conditions; ///< prescribed velocity of each facet
 
     /** Body force of a cell or traction at a vertex of a facet, in scaled units. The dead
      *  part is constant; the live part is multiplied by the load factor. */
@@ -128,15 +128,15 @@ namespace geocone::GEOCONE_DIM
     void
     take_strengths(const Scene &scene);
     void
-    check_loads(const Scene                  &scene,
-                const Tetrahedra             &tetrahedra,
-                const std::vector<HeldFacet> &held);
-    std::vector<HeldFacet>
-    held_facets(const Scene &scene, const Tetrahedra &tetrahedra) const;
+    check_loads(const Scene                       &scene,
+                const Tetrahedra                  &tetrahedra,
+                const std::vector<FacetCondition> &held);
+    std::vector<FacetCondition>
+    facet_conditions(const Scene &scene, const Tetrahedra &tetrahedra) const;
     /** Returns the prescribed non-zero velocity of the body, or no value.
      *  @throws InputError for several different velocities */
     static std::optional<dealii::Tensor<1, dim>>
-    prescribed_velocity(const std::vector<HeldFacet> &held);
+    prescribed_velocity(const std::vector<FacetCondition> &held);
     void
     choose_units(const Scene &scene, const Tetrahedra &tetrahedra);
 

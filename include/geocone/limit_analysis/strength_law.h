@@ -36,7 +36,7 @@ namespace geocone
 
     /** Unit vector in the null space of the matrix A; zero if A has full column
      *  rank. X does not depend on this component of y. */
-    Y free = Y::Zero();
+    Y null_vector = Y::Zero();
 
     Y start  = Y::Zero(); ///< y with X inside the cone
     S inside = S::Zero(); ///< strain rate inside the flow cone, or zero
@@ -96,9 +96,9 @@ namespace geocone
       }
     else
       {
-        law.free.head<6>() = m / 2.;
-        law.free[6]        = 1. / 2.;
-        law.start[6]       = -1. / 2.;
+        law.null_vector.head<6>() = m / 2.;
+        law.null_vector[6]        = 1. / 2.;
+        law.start[6]              = -1. / 2.;
       }
     law.finish();
     return law;
@@ -131,7 +131,7 @@ namespace geocone
         law.inside = -n;
       }
     else
-      law.free = n;
+      law.null_vector = n;
     law.finish();
     return law;
   }
@@ -155,7 +155,7 @@ namespace geocone
         law.inside[0]  = 1.;
       }
     else
-      law.free[0] = 1.;
+      law.null_vector[0] = 1.;
     law.finish();
     return law;
   }

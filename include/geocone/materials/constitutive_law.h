@@ -189,7 +189,7 @@ namespace geocone::GEOCONE_DIM
 
     /** Full stress tensor of a point (Pa). */
     Stress
-    whole(const Components &stress, const double *history) const;
+    full_stress(const Components &stress, const double *history) const;
 
     /** Elastic P-wave modulus M (Pa); the wave speed is sqrt(M/rho). */
     virtual double

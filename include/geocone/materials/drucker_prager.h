@@ -59,14 +59,14 @@ namespace geocone::GEOCONE_DIM
     std::optional<FlowCone>
     flow_cone(const double *history) const override
     {
-      return dim == 3 ? std::optional(cone_with(grown_cohesion(history)))
+      return dim == 3 ? std::optional(cone_with(cohesion_increase(history)))
                       : std::nullopt;
     }
 
     std::optional<FlowCone>
-    step_cone(const Mandel  &stress_n,
-              const double  *history_n,
-              const StepLaw &step) const override;
+    step_cone(const Mandel   &stress_n,
+              const double   *history_n,
+              const StepData &step) const override;
 
     bool
     has_natural_map() const override
@@ -75,9 +75,9 @@ namespace geocone::GEOCONE_DIM
     }
 
     double
-    power_beyond_strength(const SpatialMandel &plastic_strain,
-                          const SpatialMandel &stress,
-                          const double        *history) const override;
+    excess_work_density(const SpatialMandel &plastic_strain,
+                        const SpatialMandel &stress,
+                        const double        *history) const override;
 
     std::optional<double>
     yield_function(const SpatialMandel &stress,

@@ -58,8 +58,9 @@ namespace geocone::GEOCONE_DIM
                          profile_text,
                          "empty with a 'Cohesion gradient'",
                          "give one of them");
-      check_formula(
-        profile_text, this->parameter("Cohesion formula"), FormulaOf::place);
+      check_formula(profile_text,
+                    this->parameter("Cohesion formula"),
+                    FormulaVariables::place);
       profile.emplace().prepare(profile_text,
                                 this->parameter("Cohesion formula"));
     }
@@ -166,7 +167,7 @@ namespace geocone::GEOCONE_DIM
      *  'Cohesion'.
      *  @param history of the point; null: no increase */
     double
-    grown_cohesion(const double *history) const
+    cohesion_increase(const double *history) const
     {
       return cohesion_grows() && history != nullptr ? history[index_of_growth()]
                                                     : 0.;

@@ -73,10 +73,10 @@ namespace geocone::GEOCONE_DIM
     flow_cone(const double *history) const override;
 
     std::optional<FlowCone>
-    end_cone(const Mandel  &stress_n,
-             const double  *history_n,
-             const StepLaw &step,
-             const double   slip) const override;
+    end_cone(const Mandel   &stress_n,
+             const double   *history_n,
+             const StepData &step,
+             const double    slip) const override;
 
     std::optional<FlowCone>
     exact_end_cone(const double *history_n, const double slip) const override;

@@ -20,8 +20,8 @@ namespace geocone
     bool dilates         = false; ///< any law has plastic dilatancy
     bool undrained       = false; ///< any soil is undrained
     /** True if any law without friction memory is strongly non-associated
-     *  (degree above Material::hard_flow). */
-    bool has_hard_flow = false;
+     *  (degree above Material::strong_non_associativity). */
+    bool strongly_non_associated = false;
 
     double non_associativity = 0.; ///< largest degree, from 0 to 1
     /** Shortest relaxation time of friction with memory over all laws (s);

@@ -17,7 +17,7 @@
 namespace geocone::GEOCONE_DIM
 {
   /** Time step data for a material update, in addition to the state at t_n. */
-  struct StepLaw
+  struct StepData
   {
     double size = 0.; ///< step size h (s)
 
@@ -41,7 +41,7 @@ namespace geocone::GEOCONE_DIM
     const double *history_n = nullptr;
     unsigned int  n_history = 0;
 
-    StepLaw step;
+    StepData step;
 
     /** Out-of-plane strain increments in axisymmetric problems; null in other
      *  problems. */
@@ -224,9 +224,9 @@ namespace geocone::GEOCONE_DIM
      * @param stress_n,history_n state of the point at t_n
      */
     virtual std::optional<FlowCone>
-    step_cone(const Mandel  &stress_n,
-              const double  *history_n,
-              const StepLaw &step) const;
+    step_cone(const Mandel   &stress_n,
+              const double   *history_n,
+              const StepData &step) const;
 
     /**
      * Yield cones at the end of a step, after hardening by the plastic shear
@@ -234,10 +234,10 @@ namespace geocone::GEOCONE_DIM
      * flow_cone() for exact_end_cone().
      */
     virtual std::optional<FlowCone>
-    end_cone(const Mandel  &stress_n,
-             const double  *history_n,
-             const StepLaw &step,
-             const double   slip) const;
+    end_cone(const Mandel   &stress_n,
+             const double   *history_n,
+             const StepData &step,
+             const double    slip) const;
     virtual std::optional<FlowCone>
     exact_end_cone(const double *history_n, const double slip) const;
 
@@ -245,7 +245,7 @@ namespace geocone::GEOCONE_DIM
      *  of update(). Cone laws are checked by flow_cone(); no value for laws
      *  without de Saxce's change of variable. */
     virtual std::optional<FlowCheck>
-    check_flow(const PointStep &point, const StepLaw &step) const;
+    check_flow(const PointStep &point, const StepData &step) const;
 
     /** @name Formulation of the law as a root of its natural map, see
      *  NaturalMap */
@@ -274,7 +274,7 @@ namespace geocone::GEOCONE_DIM
                         const double /*rho*/,
                         const Mandel & /*stress_n*/,
                         const double * /*history_n*/,
-                        const StepLaw & /*step*/) const
+                        const StepData & /*step*/) const
     {
       return std::nullopt;
     }
@@ -295,9 +295,9 @@ namespace geocone::GEOCONE_DIM
      *  difference can be negative.
      *  @param history of the point */
     virtual double
-    power_beyond_strength(const SpatialMandel & /*plastic_strain*/,
-                          const SpatialMandel & /*stress*/,
-                          const double * /*history*/) const
+    excess_work_density(const SpatialMandel & /*plastic_strain*/,
+                        const SpatialMandel & /*stress*/,
+                        const double * /*history*/) const
     {
       return 0.;
     }
@@ -342,7 +342,7 @@ namespace geocone::GEOCONE_DIM
 
     /** Linear increase of the cone strength k with depth, equal to slope (level
      *  - y). */
-    struct Growth
+    struct StrengthGradient
     {
       double slope = 0.; ///< (Pa/m)
       double level = 0.; ///< (m)
@@ -353,7 +353,7 @@ namespace geocone::GEOCONE_DIM
         return slope * (level - y);
       }
     };
-    virtual Growth
+    virtual StrengthGradient
     growth() const
     {
       return {};
@@ -374,7 +374,7 @@ namespace geocone::GEOCONE_DIM
      * and b of flow. Dilatancy angles theta >= phi/2 correspond to values up to
      * about 1/2.
      */
-    static constexpr double hard_flow = 0.51;
+    static constexpr double strong_non_associativity = 0.51;
 
     /**
      * Degree of non-associativity of the initial cone, from 0 (associated) to 1

@@ -42,7 +42,7 @@ namespace geocone::GEOCONE_DIM
    * declare the parameter. A file can thus contain parameters of laws other
    * than the selected law. To be called before any parameter is declared.
    */
-  ParameterFile::OfOthers
+  ParameterFile::ParametersOfOtherKinds
   parameters_of_laws();
 
   /**

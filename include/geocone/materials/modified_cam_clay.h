@@ -141,7 +141,7 @@ namespace geocone::GEOCONE_DIM
     respond(const SpatialMandel &strain,
             const SpatialMandel &stress_n,
             const double        *history_n,
-            const StepLaw       &step,
+            const StepData      &step,
             SpatialMandel       &stress,
             double              *history,
             SpatialMandelMatrix *tangent) const override;

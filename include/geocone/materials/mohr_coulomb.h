@@ -58,16 +58,16 @@ namespace geocone::GEOCONE_DIM
       return !cone.is_cut();
     }
 
-    Growth
+    StrengthGradient
     growth() const override
     {
       return {k_per_cohesion * given.gradient, given.level};
     }
 
     std::optional<FlowCone>
-    step_cone(const Mandel  &stress_n,
-              const double  *history_n,
-              const StepLaw &step) const override;
+    step_cone(const Mandel   &stress_n,
+              const double   *history_n,
+              const StepData &step) const override;
 
     void
     advance(const PointBlock &block, LawCounts &counts) const override;
@@ -137,7 +137,7 @@ namespace geocone::GEOCONE_DIM
     with_memory(const FlowCone &exact,
                 const Mandel   &stress_n,
                 const double   *history_n,
-                const StepLaw  &step) const;
+                const StepData &step) const;
 
     std::optional<FlowCone>
     strength(const double *history) const override;
@@ -165,7 +165,7 @@ namespace geocone::GEOCONE_DIM
                    const Mandel     &trial,
                    const Mandel     &stress_n,
                    const double     *history_n,
-                   const StepLaw    &step,
+                   const StepData   &step,
                    Mandel           &stress,
                    double           &slip,
                    MandelMatrix     *tangent) const;

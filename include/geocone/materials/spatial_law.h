@@ -46,7 +46,7 @@ namespace geocone::GEOCONE_DIM
     respond(const SpatialMandel &strain,
             const SpatialMandel &stress_n,
             const double        *history_n,
-            const StepLaw       &step,
+            const StepData      &step,
             SpatialMandel       &stress,
             double              *history,
             SpatialMandelMatrix *tangent) const = 0;
@@ -82,7 +82,7 @@ namespace geocone::GEOCONE_DIM
     virtual OwnStrength
     own_strength(const SpatialMandel & /*stress_n*/,
                  const double * /*history_n*/,
-                 const StepLaw & /*step*/) const
+                 const StepData & /*step*/) const
     {
       return {};
     }
@@ -90,7 +90,7 @@ namespace geocone::GEOCONE_DIM
     /** Updates the history variables of a point after a step. */
     virtual void
     remember(const SpatialMandel & /*stress*/,
-             const StepLaw & /*step*/,
+             const StepData & /*step*/,
              double * /*history*/) const
     {}
 
@@ -107,7 +107,7 @@ namespace geocone::GEOCONE_DIM
     respond(const SpatialMandel &strain,
             const SpatialMandel &stress_n,
             const double        *history_n,
-            const StepLaw       &step,
+            const StepData      &step,
             SpatialMandel       &stress,
             double              *history,
             SpatialMandelMatrix *tangent) const override
@@ -145,7 +145,7 @@ namespace geocone::GEOCONE_DIM
     earth_pressure_at_rest() const override;
 
     std::optional<FlowCheck>
-    check_flow(const PointStep &point, const StepLaw &step) const override;
+    check_flow(const PointStep &point, const StepData &step) const override;
 
   protected:
     /** Normal stress on which the strength depends (Pa), compression
@@ -163,11 +163,11 @@ namespace geocone::GEOCONE_DIM
     OwnStrength
     own_strength(const SpatialMandel &stress_n,
                  const double        *history_n,
-                 const StepLaw       &step) const override;
+                 const StepData      &step) const override;
 
     void
     remember(const SpatialMandel &stress,
-             const StepLaw       &step,
+             const StepData      &step,
              double              *history) const override;
 
     using Frictional::Frictional;

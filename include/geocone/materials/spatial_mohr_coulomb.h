@@ -69,17 +69,17 @@ namespace geocone::GEOCONE_DIM
     }
 
     std::optional<Projection>
-    project_natural_map(const Mandel  &s,
-                        const Mandel  &z,
-                        const double   rho,
-                        const Mandel  &stress_n,
-                        const double  *history_n,
-                        const StepLaw &step) const override;
+    project_natural_map(const Mandel   &s,
+                        const Mandel   &z,
+                        const double    rho,
+                        const Mandel   &stress_n,
+                        const double   *history_n,
+                        const StepData &step) const override;
 
     double
-    power_beyond_strength(const SpatialMandel &plastic_strain,
-                          const SpatialMandel &stress,
-                          const double        *history) const override;
+    excess_work_density(const SpatialMandel &plastic_strain,
+                        const SpatialMandel &stress,
+                        const double        *history) const override;
 
   protected:
     using FrictionalSpatialLaw::FrictionalSpatialLaw;

@@ -98,9 +98,9 @@ namespace geocone::GEOCONE_DIM
      *  without friction memory.
      *  @param s_n normal stress at the beginning of the step (Pa) */
     FrictionHistory
-    friction_history_of(const StepLaw &step,
-                        const double  *history_n,
-                        const double   s_n) const
+    friction_history_of(const StepData &step,
+                        const double   *history_n,
+                        const double    s_n) const
     {
       if (memory.time() == 0.)
         return {step.friction_lag, s_n};

@@ -47,7 +47,7 @@ namespace geocone::GEOCONE_DIM
       Base::prepare();
       if (text.empty())
         return;
-      check_formula(text, this->parameter(entry), FormulaOf::place);
+      check_formula(text, this->parameter(entry), FormulaVariables::place);
       formula.emplace().prepare(text, this->parameter(entry));
     }
 

@@ -94,7 +94,7 @@ namespace geocone::GEOCONE_DIM
     {
       const bool   is_simplex = cell->n_vertices() == dim + 1;
       const double parts      = !is_simplex ? 1. : dim == 2 ? 2. : 6.;
-      return length_of(cell->measure() * parts);
+      return side_length(cell->measure() * parts);
     }
 
     /** Range of the cells owned by this MPI rank, for iteration. */
@@ -123,7 +123,7 @@ namespace geocone::GEOCONE_DIM
      *  least one rank. The result includes owned and ghost cells.
      *  Collective. */
     std::vector<bool>
-    is_among(const std::vector<Cell> &cells) const;
+    marked_cells(const std::vector<Cell> &cells) const;
 
     /** Returns true if the problem is axisymmetric, with x as the radius. */
     bool
@@ -169,9 +169,9 @@ namespace geocone::GEOCONE_DIM
     /** Returns true if the mesh is split between bodies in contact. Each rank
      *  then stores the complete mesh. */
     bool
-    is_parted() const
+    is_split() const
     {
-      return parted;
+      return split_at_contacts;
     }
 
     /** Number of mesh layers (copies of the mesh): one per body for bodies of
@@ -193,7 +193,7 @@ namespace geocone::GEOCONE_DIM
     /** The coincident cell in another mesh layer (copy of the mesh for another
      *  body). The cell may be owned by another rank. */
     Cell
-    twin(const Cell &cell, const unsigned int layer) const
+    cell_in_layer(const Cell &cell, const unsigned int layer) const
     {
       const int n = tria->n_active_cells() / layers;
       return Cell(tria.get(), 0, cell->index() % n + int(layer) * n);
@@ -287,7 +287,7 @@ namespace geocone::GEOCONE_DIM
     std::unique_ptr<dealii::Mapping<dim>>                     map;
     std::map<std::string, dealii::types::boundary_id>         sides;
     std::array<std::vector<double>, dim>                      lines;
-    bool                      simplicial = false, parted = false;
+    bool                      simplicial = false, split_at_contacts = false;
     unsigned int              layers = 1;
     std::optional<CellSizes>  sizes;
     std::vector<unsigned int> owners; ///< owner_of_cell()

@@ -67,7 +67,7 @@ namespace geocone::GEOCONE_DIM
     /** Smallest distance between two vertices of the same cell in the mesh
      *  (m). */
     double
-    smallest_cell() const
+    smallest_vertex_distance() const
     {
       return smallest;
     }

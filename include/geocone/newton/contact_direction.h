@@ -96,7 +96,7 @@ namespace geocone::GEOCONE_DIM
     /** Nodes on this rank that were not selected as contact nodes but would
      *  penetrate an obstacle. */
     std::vector<unsigned int>
-    entered(Vector &direction) const;
+    penetrating_nodes(Vector &direction) const;
 
     /** Increment of the relative velocity between a contact node on this rank
      *  and its obstacle. @param direction with ghost values */

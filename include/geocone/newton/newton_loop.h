@@ -25,11 +25,11 @@ namespace geocone::GEOCONE_DIM
      * initial guess of the next attempt. Iterations beyond the allowed number
      * are then justified.
      */
-    static constexpr double near = 1e-3;
+    static constexpr double near_tolerance = 1e-3;
 
     /** Threshold of the relative residual above which an iterate is considered
      *  far from a solution. */
-    static constexpr double far = 0.1;
+    static constexpr double far_threshold = 0.1;
 
     LocalLaw     law;
     double       tolerance          = 1e-10; ///< relative, for |R_free|

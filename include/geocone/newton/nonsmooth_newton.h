@@ -164,7 +164,7 @@ namespace geocone::GEOCONE_DIM
      *  the step, from the current iterate.
      *  @param start_of_s initial stresses s of the natural map (Pa) */
     void
-    iterate(const Try                 &next,
+    iterate(const Attempt             &next,
             const bool                 elastic_first,
             const std::vector<Mandel> &start_of_s,
             const StepWorkspace       &work) const;
@@ -173,7 +173,7 @@ namespace geocone::GEOCONE_DIM
      *  friction law in one of the planned attempts at solving the step.
      *  @param accepted_excess see Hints */
     void
-    continue_from_lag(const Try           &next,
+    continue_from_lag(const Attempt       &next,
                       const bool           elastic_first,
                       const double         accepted_excess,
                       const StepWorkspace &work) const;

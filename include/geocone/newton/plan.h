@@ -47,16 +47,16 @@ namespace geocone::GEOCONE_DIM
 
   /** Attempt at solving a step by Newton's method, one entry in the sequence of
    *  attempts (the plan()). */
-  struct Try
+  struct Attempt
   {
     static constexpr unsigned int unlimited =
       std::numeric_limits<unsigned int>::max();
 
     enum class Start
     {
-      of_step,        ///< velocities at t_n, or the first iterate
-      iterate,        ///< last of the previous attempt, if finite
-      flowing_iterate ///< as iterate, if points yield there
+      of_step,         ///< velocities at t_n, or the first iterate
+      iterate,         ///< last of the previous attempt, if finite
+      yielding_iterate ///< as iterate, if points yield there
     };
 
     GlobalisationMethod globalisation = GlobalisationMethod::line_search;
@@ -68,10 +68,11 @@ namespace geocone::GEOCONE_DIM
     Start      start   = Start::of_step;
 
     unsigned int iterations_without_flow = unlimited; ///< if no point yields
-    unsigned int iterations_if_far = unlimited; ///< if above NewtonLoop::far
+    unsigned int iterations_if_far =
+      unlimited; ///< if above NewtonLoop::far_threshold
 
     bool prepares = false; ///< provides the next initial guess
-    bool is_rough = false; ///< only to residual NewtonLoop::near
+    bool is_rough = false; ///< only to residual NewtonLoop::near_tolerance
     /** True if the first iteration may use the elastic tangent, as requested by
      *  the time stepper (NonsmoothNewton::Hints). */
     bool elastic_first = true;
@@ -97,7 +98,7 @@ namespace geocone::GEOCONE_DIM
    * For non-associated flow the lag continuation is the last attempt.
    * doc/performance.md compares the attempts.
    */
-  std::vector<Try>
+  std::vector<Attempt>
   plan(const StepTraits &step, const PlanOptions &options = {});
 
   /** Text description of typical plans (sequences of attempts), one paragraph

@@ -42,7 +42,7 @@ namespace geocone::GEOCONE_DIM
 
     /** True if the solution with lagged friction differs too much from the
      *  solution with the exact friction law. */
-    bool exceeds = false;
+    bool lag_error_too_large = false;
 
     /** True if rounding prevents the residual from reaching the tolerance. */
     bool at_rounding_floor = false;
@@ -63,7 +63,7 @@ namespace geocone::GEOCONE_DIM
           residual,
           friction_lag,
           excess_share,
-          exceeds,
+          lag_error_too_large,
           at_rounding_floor);
     }
 

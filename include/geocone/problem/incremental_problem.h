@@ -33,7 +33,7 @@ namespace geocone::GEOCONE_DIM
     double local_error = 0.; ///< see InternalForces::local_error()
 
     /** Residual norm of the contact equations and sum of the reference forces
-     *  Contact::Touch::size (N/m), both over the potential contact nodes.
+     *  Contact::NodalContact::size (N/m), both over the potential contact nodes.
      *  Contact forces can be small compared with the internal forces of the
      *  soil. */
     double contact_norm = 0., contact_size = 0.;

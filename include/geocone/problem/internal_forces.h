@@ -247,7 +247,7 @@ namespace geocone::GEOCONE_DIM
     Increment
     increment_of(const Run &run) const;
 
-    StepLaw
+    StepData
     step_law() const
     {
       return {h, friction_lag};

@@ -36,7 +36,7 @@ namespace geocone::GEOCONE_DIM
      */
     NaturalMap(const MaterialPoints      &points,
                const Materials           &materials,
-               const StepLaw             &step,
+               const StepData            &step,
                const double               rho,
                const std::vector<Mandel> &start);
 
@@ -76,7 +76,7 @@ namespace geocone::GEOCONE_DIM
   private:
     const MaterialPoints                &points;
     const Materials                     &materials;
-    const StepLaw                        step;
+    const StepData                       step;
     const double                         rho;
     std::vector<std::optional<FlowCone>> cones;      ///< by material
     std::vector<char>                    varies;     ///< cone differs by point

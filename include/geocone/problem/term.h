@@ -16,7 +16,7 @@ namespace geocone::GEOCONE_DIM
   struct LocalLaw
   {
     /** Weight of the lagged normal stress (at t_n) in the yield condition of
-     *  the return mapping (StepLaw::friction_lag); 0: exact law. */
+     *  the return mapping (StepData::friction_lag); 0: exact law. */
     double friction_lag = 0.;
 
     /** Natural map that replaces the return mapping; null if the return mapping

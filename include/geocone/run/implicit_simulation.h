@@ -163,7 +163,7 @@ namespace geocone::GEOCONE_DIM
     bool           is_in_step = false; ///< whether a step has begun
     /** Number of consecutive times that the substep was halved because the
      *  solution with lagged friction differed too much from the exact law
-     *  (SolverReport::exceeds). */
+     *  (SolverReport::lag_error_too_large). */
     unsigned int   halved_for_excess = 0;
     ImplicitRecord present;      ///< record of the current or last step
     double         reached = 0.; ///< time of the last converged substep (s)

@@ -77,7 +77,8 @@ namespace geocone::GEOCONE_DIM
      *  selection.
      *  @param faces vertices of each boundary face */
     std::optional<std::array<dealii::Point<dim>, 2>>
-    reach(const std::vector<std::vector<dealii::Point<dim>>> &faces) const;
+    bounding_box(
+      const std::vector<std::vector<dealii::Point<dim>>> &faces) const;
 
     /** Returns the lower and the upper corner of the parameter 'Box', enlarged
      *  by a rounding tolerance. No value is returned without a box. */
@@ -177,7 +178,7 @@ namespace geocone::GEOCONE_DIM
     /** Returns the type of entity with a prescribed velocity: nodes of the
      *  mesh, particles or a side of the body. */
     Imposition::On
-    holds() const
+    imposed_on() const
     {
       return imposition.get()->on;
     }
@@ -192,9 +193,9 @@ namespace geocone::GEOCONE_DIM
     /** Returns true if the velocity is prescribed for particles or for a side
      *  of the body instead of nodes. */
     bool
-    moves() const
+    moves_with_body() const
     {
-      return holds() != Imposition::On::nodes;
+      return imposed_on() != Imposition::On::nodes;
     }
 
     /** Formulas of the Cartesian components of the prescribed vector, in terms

@@ -172,7 +172,7 @@ namespace geocone::GEOCONE_DIM
     double
     size_of_point(const dealii::Point<dim> &x, const double volume) const
     {
-      return length_of(volume / measure(symmetry, x));
+      return side_length(volume / measure(symmetry, x));
     }
 
     /** Converts a unit for plane strain to the unit for the current problem,

@@ -20,7 +20,7 @@ namespace geocone
     /** Returns true if the tensile strength is so large (at least 1 GPa) that
      *  the interface never separates. */
     bool
-    never_parts() const
+    never_opens() const
     {
       return tension >= 1e9;
     }

@@ -67,7 +67,7 @@ namespace geocone::GEOCONE_DIM
     /** Returns true if each step of an implicit run must reach static
      *  equilibrium, as in strength reduction until failure. */
     bool
-    seeks_equilibrium() const
+    requires_equilibrium() const
     {
       return strength_factor > 0. && until_failure;
     }
@@ -233,7 +233,7 @@ namespace geocone::GEOCONE_DIM
     /** Returns true if any stage replaces another material by the given
      *  material. */
     bool
-    makes(const std::string &material) const;
+    replaces_by(const std::string &material) const;
 
     /** Returns the strength reduction factor at time t, by which c and tan(phi)
      *  are divided. */

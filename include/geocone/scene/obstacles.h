@@ -57,8 +57,8 @@ namespace geocone::GEOCONE_DIM
      *  a vertex. The neighbour contains the vertex and is nearer to x than the
      *  vertex. */
     bool
-    go_on_from(const dealii::Point<dim> &vertex,
-               const dealii::Point<dim> &x) const;
+    continue_beyond(const dealii::Point<dim> &vertex,
+                    const dealii::Point<dim> &x) const;
 
     const double margin;
 
@@ -178,7 +178,7 @@ namespace geocone::GEOCONE_DIM
      *  retain their initial projection onto the boundary, because slip is small
      *  compared with the obstacle. */
     bool
-    slides_little() const
+    has_small_sliding() const
     {
       return sliding == Sliding::small;
     }
@@ -240,7 +240,7 @@ namespace geocone::GEOCONE_DIM
     /** Returns the support function of the displaced obstacle for a direction
      *  n: the maximum of n.x (m). */
     double
-    reach(const dealii::Tensor<1, dim> &n, const RigidMotion &moved) const;
+    extent(const dealii::Tensor<1, dim> &n, const RigidMotion &moved) const;
 
     enum class Shape
     {

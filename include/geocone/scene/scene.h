@@ -72,7 +72,7 @@ namespace geocone::GEOCONE_DIM
      *  programme with a non-zero value. This value then remains constant. The
      *  text is empty if there are none. */
     std::string
-    warn_of_records() const;
+    warn_of_time_histories() const;
 
     /** Returns the text of the warning that loads and reactions do not include
      *  the water pressure. The text is empty without water. */

@@ -92,7 +92,7 @@ namespace geocone::GEOCONE_DIM
     set_flows(std::vector<Flow> of_steps, const double time = 0.)
     {
       all_flows     = std::move(of_steps);
-      initial_parts = parts(time);
+      initial_weights = interpolation_weights(time);
     }
 
     const std::vector<Flow> &
@@ -127,7 +127,7 @@ namespace geocone::GEOCONE_DIM
     /** Returns the interpolation weights at time t for the pore pressures of
      *  all piezometric lines and flow problems. The weights sum to 1. */
     std::vector<double>
-    parts(const double t) const;
+    interpolation_weights(const double t) const;
 
     /**
      * Returns the line segments across which the seepage force is
@@ -168,7 +168,7 @@ namespace geocone::GEOCONE_DIM
     std::optional<PressureGrid> grid;
     Table                       table;
     std::vector<Flow>           all_flows;
-    std::vector<double>         initial_parts; ///< parts() at the initial time
+    std::vector<double> initial_weights; ///< parts() at the initial time
 
     /** Piezometric line at the end of a stage, or flow problem during the
      *  stage. */

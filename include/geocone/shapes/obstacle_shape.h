@@ -61,7 +61,7 @@ namespace geocone::GEOCONE_DIM
     /** Extent of the shape in the direction n: the maximum of n.x (m). It can
      *  be infinite. */
     virtual double
-    reach(const Vector &n) const = 0;
+    extent(const Vector &n) const = 0;
 
     /** @name Candidates for separating directions of two shapes */
     /** @{ */
@@ -115,7 +115,7 @@ namespace geocone::GEOCONE_DIM
     double
     width() const override;
     double
-    reach(const Vector &n) const override;
+    extent(const Vector &n) const override;
     std::vector<Triangle>
     triangles(const Point &body, const double size) const override;
     std::vector<Vector>
@@ -150,7 +150,7 @@ namespace geocone::GEOCONE_DIM
       return 2. * radius;
     }
     double
-    reach(const Vector &n) const override;
+    extent(const Vector &n) const override;
     std::vector<Triangle>
     triangles(const Point &body, const double size) const override;
 
@@ -183,7 +183,7 @@ namespace geocone::GEOCONE_DIM
     double
     width() const override;
     double
-    reach(const Vector &n) const override;
+    extent(const Vector &n) const override;
     std::vector<Triangle>
     triangles(const Point &body, const double size) const override;
     std::vector<Vector>
@@ -219,7 +219,7 @@ namespace geocone::GEOCONE_DIM
     double
     width() const override;
     double
-    reach(const Vector &n) const override;
+    extent(const Vector &n) const override;
     std::vector<Triangle>
     triangles(const Point &body, const double size) const override;
     std::vector<Vector>

@@ -73,11 +73,11 @@ namespace geocone::GEOCONE_DIM
     Space();
 
     /** Sets up shape functions and nodes on a mesh. Collective.
-     *  @param hard_flow see automatic_element() */
+     *  @param strongly_non_associated see automatic_element() */
     void
     prepare(const BackgroundMesh &mesh,
             const Method         &method,
-            const bool            hard_flow = false);
+            const bool            strongly_non_associated = false);
 
     /** Selects the element type and checks that it is available, without
      *  setting up nodes.
@@ -86,11 +86,11 @@ namespace geocone::GEOCONE_DIM
     choose_element(const bool    simplicial,
                    const bool    has_grid,
                    const Method &method,
-                   const bool    hard_flow = false);
+                   const bool    strongly_non_associated = false);
 
     /**
      * Returns the element type for the parameter value 'automatic'.
-     * @param hard_flow LawTraits::has_hard_flow: if true, triangles of the
+     * @param strongly_non_associated see LawTraits: if true, triangles of the
      * finite element method are quadratic, because cubic triangles yield a
      * localised solution that is too soft (doc/small_dilatancy.md)
      */
@@ -98,7 +98,7 @@ namespace geocone::GEOCONE_DIM
     automatic_element(const bool    simplicial,
                       const bool    has_grid,
                       const Method &method,
-                      const bool    hard_flow);
+                      const bool    strongly_non_associated);
 
     /** Returns warnings about constitutive laws for which the element type is
      *  unsuitable. */
@@ -278,7 +278,7 @@ namespace geocone::GEOCONE_DIM
 
     /** Returns the position (m) of a node of a cell. */
     dealii::Point<dim>
-    index_of_node(const Cell &cell, const unsigned int i) const;
+    position_of_node(const Cell &cell, const unsigned int i) const;
 
     /** Finds the nodes of a cell before the nodes of tied (periodic) sides are
      *  merged. The order is that of cell_nodes(). */

@@ -47,7 +47,7 @@ namespace geocone::GEOCONE_DIM
     /** Returns the signed distance of a position from the plane (m), positive
      *  outside the body. */
     double
-    ahead(const dealii::Point<dim> &x) const
+    signed_distance(const dealii::Point<dim> &x) const
     {
       return (x - origin) * normal;
     }

@@ -19,7 +19,8 @@ namespace geocone::GEOCONE_DIM
    * outside of the box
    */
   std::vector<SidePart>
-  panels_of_body(const BoundaryCondition &condition, const Geometry &geometry);
+  segments_of_body(const BoundaryCondition &condition,
+                   const Geometry          &geometry);
 
   /** Returns a side of a box normal to an axis, or a part of this side.
    *  @param low,high opposite corners of the side or part */

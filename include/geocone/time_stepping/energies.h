@@ -53,20 +53,20 @@ namespace geocone
     /** Excess plastic work due to friction with memory or lagged friction. It
      *  is caused by the difference between the exact and the regularised
      *  strength: sum V |z_t| ||s_t| - a s_n - k|. */
-    double of_excess = 0.;
+    double excess_work = 0.;
     /** Energy dissipated by friction and impact at contacts, -sum h r.u (step
      *  size h, contact force r, relative velocity u). */
     double contact_dissipation = 0.;
-    double of_ghosts           = 0.; ///< work of GhostStiffness
+    double ghost_work          = 0.; ///< work of GhostStiffness
 
     Works &
     operator+=(const Works &other)
     {
       external += other.external;
       dissipation += other.dissipation;
-      of_excess += other.of_excess;
+      excess_work += other.excess_work;
       contact_dissipation += other.contact_dissipation;
-      of_ghosts += other.of_ghosts;
+      ghost_work += other.ghost_work;
       return *this;
     }
 
@@ -80,7 +80,7 @@ namespace geocone
     void
     state(StateRow &row)
     {
-      row(external, dissipation, of_excess, contact_dissipation, of_ghosts);
+      row(external, dissipation, excess_work, contact_dissipation, ghost_work);
     }
   };
 } // namespace geocone

@@ -31,11 +31,11 @@ namespace geocone::GEOCONE_DIM
   struct Motion
   {
     unsigned int light_functions = 0;  ///< see GhostPlaces::n_light()
-    unsigned int points_behind   = 0;  ///< see MovingConditions::n_behind()
+    unsigned int points_behind   = 0;  ///< see MovingConditions::n_penetrated()
     unsigned int points_returned =
       0; ///< see MovingConditions::return_to_boundary()
     double       returned_by     = 0.; ///< largest distance (m)
-    double       light_share     = 0.; ///< see Multipliers::light_share()
+    double       low_mass_share  = 0.; ///< see Multipliers::low_mass_share()
 
     /** Largest coordinates of all points at the end of the step (m). */
     dealii::Point<dim> front;
@@ -47,7 +47,7 @@ namespace geocone::GEOCONE_DIM
       points_behind   = std::max(points_behind, other.points_behind);
       points_returned = std::max(points_returned, other.points_returned);
       returned_by     = std::max(returned_by, other.returned_by);
-      light_share     = std::max(light_share, other.light_share);
+      low_mass_share  = std::max(low_mass_share, other.low_mass_share);
     }
 
     void
@@ -57,7 +57,7 @@ namespace geocone::GEOCONE_DIM
           points_behind,
           points_returned,
           returned_by,
-          light_share,
+          low_mass_share,
           front);
     }
   };

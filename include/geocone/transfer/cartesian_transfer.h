@@ -67,7 +67,7 @@ namespace geocone::GEOCONE_DIM
     exchange(const bool with_mass) override;
 
     bool
-    reaches(const dealii::Point<dim> &x) const override;
+    covers(const dealii::Point<dim> &x) const override;
     dealii::Point<dim>
     stored_place() const override;
     dealii::Point<dim>

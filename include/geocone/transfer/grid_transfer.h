@@ -109,7 +109,7 @@ namespace geocone::GEOCONE_DIM
     /** Returns true if the position x is in the region covered by stored
      *  nodes. */
     virtual bool
-    reaches(const dealii::Point<dim> &x) const = 0;
+    covers(const dealii::Point<dim> &x) const = 0;
 
     /** Returns an arbitrary position in the region covered by stored nodes. */
     virtual dealii::Point<dim>

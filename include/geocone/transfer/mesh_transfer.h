@@ -93,7 +93,7 @@ namespace geocone::GEOCONE_DIM
     /** Returns true for any position, because the next sort() locates the
      *  points. */
     bool
-    reaches(const dealii::Point<dim> &) const override
+    covers(const dealii::Point<dim> &) const override
     {
       return true;
     }
@@ -108,7 +108,7 @@ namespace geocone::GEOCONE_DIM
     double
     cell_size() const override
     {
-      return search.smallest_cell();
+      return search.smallest_vertex_distance();
     }
     unsigned long
     n_all_nodes() const override
@@ -151,7 +151,7 @@ namespace geocone::GEOCONE_DIM
      *  @param groups of points with stored cells, or without any cell.
      *  Collective. */
     void
-    hand_over(const std::vector<PointArrays> &groups);
+    redistribute(const std::vector<PointArrays> &groups);
 
     /** Evaluates the basis functions at all points of a group, including
      *  padding points. */

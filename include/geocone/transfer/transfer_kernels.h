@@ -24,7 +24,7 @@ namespace geocone::GEOCONE_DIM
     int                  first        = 0; ///< first stored basis function
     const unsigned char *type         = nullptr;
     const double        *coefficients = nullptr;
-    const double        *places = nullptr; ///< Greville abscissae (m), APIC
+    const double        *greville = nullptr; ///< Greville abscissae (m), APIC
   };
 
   /**
@@ -66,8 +66,8 @@ namespace geocone::GEOCONE_DIM
     /** Values that each point scatters to the nodes. The first four, (m v, 0,
      *  ...), are multiplied by N. For each direction d four values follow,
      *  multiplied by dN/dx_d, with -V s_d at the position of the force. */
-    static constexpr unsigned int n_given = 4 + 4 * dim;
-    alignas(32) double given[n_given * size];
+    static constexpr unsigned int n_scattered = 4 + 4 * dim;
+    alignas(32) double scattered[n_scattered * size];
 
     alignas(32) double l[dim * dim][size];
 
@@ -173,7 +173,7 @@ namespace geocone::GEOCONE_DIM
 
     /**
      * Scatters the point values (a | b_x | b_y ...), stored in
-     * BlockScratch::given, to the nodes. Each node is incremented by
+     * BlockScratch::scattered, to the nodes. Each node is incremented by
      *   N a + sum_d dN/dx_d b_d,
      * and the nodal mass by N m, unless the pointer to the masses is null.
      */

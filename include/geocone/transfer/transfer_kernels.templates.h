@@ -148,7 +148,7 @@ namespace geocone::GEOCONE_DIM
                  const double       x,
                  ValuesAtFour<p>   &weights)
     {
-      const double *x_i    = grid.axes[d].places + at.lowest[d][m];
+      const double *x_i    = grid.axes[d].greville + at.lowest[d][m];
       const double  size   = grid.axes[d].inverse_size;
       double        second = 0.;
       for (int i = 0; i <= p; ++i)
@@ -226,7 +226,7 @@ namespace geocone::GEOCONE_DIM
       for (unsigned int k = 0; k < points.n; k += 4)
         {
           const Nodes<p> at(grid, points, k);
-          const double  *in = scratch.given + BlockScratch::n_given * k;
+          const double  *in = scratch.scattered + BlockScratch::n_scattered * k;
           P              masses[4];
           if (grid.mass != nullptr)
             {
@@ -257,13 +257,13 @@ namespace geocone::GEOCONE_DIM
     give(const GridView &grid,
          const Nodes<p> &at,
          const int       m,
-         const double   *given,
+         const double   *scattered,
          const P (&masses)[4])
     {
       P a[n], b[n][dim];
       for (int q = 0; q < n; ++q)
         {
-          const double *in = given + BlockScratch::n_given * (m + q);
+          const double *in = scattered + BlockScratch::n_scattered * (m + q);
           a[q]             = P::load(in);
           for (unsigned int d = 0; d < dim; ++d)
             b[q][d] = P::load(in + 4 + 4 * d);
@@ -346,7 +346,7 @@ namespace geocone::GEOCONE_DIM
       for (unsigned int d = 0; d < dim; ++d)
         for (int i = 0; i <= p; ++i)
           r[d][i] =
-            grid.axes[d].places[at.lowest[d][m] + i] - points.x[d][k + m];
+            grid.axes[d].greville[at.lowest[d][m] + i] - points.x[d][k + m];
       const double  mass = points.mass[k + m];
       double *const node = at.write(grid, m);
       for (int i = 0; i <= p; ++i)
@@ -549,12 +549,12 @@ namespace geocone::GEOCONE_DIM
       constexpr unsigned int forces = change_of_node % 4;
       for (unsigned int k = 0; k < points.n; k += 4)
         {
-          double *const out = scratch.given + BlockScratch::n_given * k;
+          double *const out = scratch.scattered + BlockScratch::n_scattered * k;
           // Stores four doubles of each of four points.
           const auto store = [&](P(&values)[4], const unsigned int place) {
             transpose(values[0], values[1], values[2], values[3]);
             for (unsigned int m = 0; m < 4; ++m)
-              values[m].store(out + BlockScratch::n_given * m + place);
+              values[m].store(out + BlockScratch::n_scattered * m + place);
           };
           const P m      = momentum ? P::load(points.mass + k) : P(0.);
           const P V      = force ? P(0.) - P::load(points.volume + k) : P(0.);
@@ -586,7 +586,7 @@ namespace geocone::GEOCONE_DIM
           double       change = -V * scratch.mean_stress[k];
           for (unsigned int d = 0; d < dim; ++d)
             change += V * points.s[index_of_component[d][d]][k] / dim;
-          double *out = scratch.given + BlockScratch::n_given * k;
+          double *out = scratch.scattered + BlockScratch::n_scattered * k;
           for (unsigned int d = 0; d < dim; ++d)
             out[4 + 4 * d + forces + d] += change;
         }
