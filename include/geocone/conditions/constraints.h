@@ -186,8 +186,8 @@ namespace geocone::GEOCONE_DIM
       unsigned int              first = 0;  ///< offset of FaceIntegral::place
     };
 
-    /** Integral int N_i n dA of shape function times normal, over those faces
-     *  of a cell on which a boundary condition is_active. */
+    /** Integral int N_i n dA of the shape function times the normal, over those
+     *  faces of a cell on which a boundary condition is active. */
     struct FaceIntegral
     {
       unsigned int           place; ///< number, starts at Shared::first
@@ -196,7 +196,7 @@ namespace geocone::GEOCONE_DIM
     };
 
     /** Computes the mean unit normal at each node of the boundary on which a
-     *  boundary condition is_active. Collective.
+     *  boundary condition is active. Collective.
      *  @throws InputError if faces of the condition meet in a sharp corner */
     std::map<unsigned int, dealii::Tensor<1, dim>>
     normals_of(const BoundaryCondition         &condition,

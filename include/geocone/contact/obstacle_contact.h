@@ -120,8 +120,8 @@ namespace geocone::GEOCONE_DIM
     ContactReport
     report(const Contact &contact, const Vector &v, const double h) const;
 
-    /** Resultant contact forces on the body: first of each obstacle, then of
-     *  each contact between bodies. For contacts between bodies, the force acts
+    /** Resultant contact forces on the body: first those from each obstacle,
+     *  then those of each contact between bodies. For contacts between bodies, the force acts
      *  on the first body. Moments are about the given centre, the centre of the
      *  obstacle, or the origin. Collective. */
     std::vector<Reaction>

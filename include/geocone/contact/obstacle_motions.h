@@ -109,7 +109,8 @@ namespace geocone::GEOCONE_DIM
     }
 
     /** Calls f(motion, number) for each free rigid-body motion of an obstacle,
-     *  with the index of the motion among all free motions. */
+     *  where number is the index of the motion among the free motions of all
+     *  obstacles. */
     template <typename Function>
     void
     for_free(const unsigned int obstacle, const Function &f) const

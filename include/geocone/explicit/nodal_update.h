@@ -128,8 +128,9 @@ namespace geocone::GEOCONE_DIM
       return unbalanced;
     }
 
-    /** Returns the contribution of this rank to the support impulse of each
-     *  boundary condition, accumulated since the last call (N s/m). Moments are
+    /** Returns the contribution of this rank to the impulse of the support
+     *  reaction at each boundary condition, accumulated since the last call
+     *  (N s/m). Moments are
      *  about GridTransfer::centres (N m s/m). */
     std::vector<Reaction>
     take_support_impulses();

@@ -283,8 +283,8 @@ namespace geocone::GEOCONE_DIM
                  Kinematics              &kinematics,
                  Vector                  &difference) const override;
 
-    /** Computes the initial nodal velocity vL from the nodal momentum with the
-     *  mass matrix M = (1 - c) M_lumped + c M_consistent. */
+    /** Solves M vL = (nodal momentum) for the initial nodal velocity vL, with
+     *  the mass matrix M = (1 - c) M_lumped + c M_consistent. */
     void
     solve_mass(Vector &velocity) const;
 

@@ -116,8 +116,9 @@ namespace geocone::GEOCONE_DIM
     mass_of_problem(const Vector &lumped_mass);
 
     /**
-     * Applies Newmark's predictor to the nodal velocities: v += h (1/2 - beta)
-     * a, with the acceleration a = M^-1 f. At prescribed dofs, a is the mean
+     * Applies Newmark's displacement predictor, written for the mean velocity
+     * of the step (displacement increment / h): v += h (1/2 - beta) a, with the
+     * acceleration a = M^-1 f at t_n. At prescribed dofs, a is the mean
      * acceleration in the step.
      * @param net_force f at t_n, external minus internal forces, in rotated
      * dofs
@@ -131,8 +132,7 @@ namespace geocone::GEOCONE_DIM
 
     /** Computes the nodal velocities at t + h from the solution v of the
      *  incremental problem. They are vL + e (v - vL) + h (1/2 - gamma + beta)
-     *  a, with e = TimeStep::extrapolation.
-     *  - gamma + beta) a, with e = TimeStep::extrapolation. */
+     *  a, with e = TimeStep::extrapolation. */
     Vector
     end_velocity(const TimeStep &step,
                  const Vector   &velocity_L,

@@ -30,8 +30,8 @@ namespace geocone
       : body(c)
     {}
 
-    /** Integrates the four points stored in the SIMD lanes; see
-     *  take_single_substeps(). */
+    /** Integrates the constitutive law in a single substep at the four points
+     *  stored in the SIMD lanes; see take_single_substeps(). */
     void
     operator()(SubloadingLanes<n> &lanes) const
     {

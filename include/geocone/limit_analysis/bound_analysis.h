@@ -100,7 +100,7 @@ namespace geocone::GEOCONE_DIM
              const unsigned int n_cells,
              const double       unit);
 
-    /** Checks that the sum of both bounds is finite.
+    /** Checks that the sum of the two bounds is finite.
      *  @param bounds sum of both bounds on the load @throws StepFailure if the sum is not
      *  finite */
     static void

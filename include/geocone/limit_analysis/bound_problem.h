@@ -172,8 +172,9 @@ namespace geocone::GEOCONE_DIM
     Eigen::VectorXd &
     loads(BoundProblem &problem, const LoadFactor kind) const;
 
-    /** Sets tan(phi) of a material and scales its cohesion k/cos(phi) and
-     *  tensile strength, each by its own factor. */
+    /** Sets tan(phi) of a material, sets its cohesion to k_factor times the
+     *  present k = c cos(phi), and multiplies its tensile strength by
+     *  tension_factor. */
     void
     change(const unsigned int material,
            const double       tan_phi,

@@ -48,8 +48,8 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Certifies a lower bound by checking equilibrium and yield condition of its
-   * stresses. The stresses must lie inside the yield cones at the points, hence
+   * Certifies a lower bound by checking that its stresses satisfy equilibrium and
+   * the yield condition. The stresses must lie inside the yield cones at the points, hence
    * everywhere since they are linear, and be in equilibrium with the loads to
    * rounding. If the strength is exceeded, all stresses are scaled by theta =
    * min k/(k + excess). This requires cohesion and no dead load; otherwise the

@@ -27,7 +27,7 @@ namespace geocone::GEOCONE_DIM
                        const ParameterFile &file,
                        Log                 &log);
 
-    /** Returns true if the scene is analysed by strict bounds instead of time steps. */
+    /** Returns true if strict bounds are computed instead of time steps. */
     bool
     is_chosen() const
     {

@@ -45,8 +45,7 @@ namespace geocone
     /** @{ */
     Eigen::Matrix<double, size, columns> pseudo_inverse; ///< of A'
 
-    /** Orthonormal basis (n_null columns) of the null space of A', where A is
-     *  the matrix in the admissibility condition X = k o - A y. */
+    /** Orthonormal basis of the null space of A', in the first n_null columns. */
     Eigen::Matrix<double, size, size> null;
     int                               n_null = 0;
     /** @} */

@@ -158,8 +158,8 @@ namespace geocone::GEOCONE_DIM
       return (dim == 2 && is_spatial()) || n_history() > Material::n_history();
     }
 
-    /** Returns true if yield condition and flow rule depend on all stress
-     *  components, including s_zz. */
+    /** Returns true if the yield condition and the flow rule depend on all
+     *  stress components, including s_zz. */
     virtual bool
     is_spatial() const
     {
@@ -241,8 +241,8 @@ namespace geocone::GEOCONE_DIM
     virtual std::optional<FlowCone>
     exact_end_cone(const double *history_n, const double slip) const;
 
-    /** Checks yield condition and flow rule at the end of a step, independently
-     *  of update(). Cone laws are checked by flow_cone(); no value for laws
+    /** Checks the yield condition and the flow rule at the end of a step,
+     *  independently of update(). Cone laws are checked by flow_cone(); no value for laws
      *  without de Saxce's change of variable. */
     virtual std::optional<FlowCheck>
     check_flow(const PointStep &point, const StepData &step) const;

@@ -131,7 +131,7 @@ namespace geocone::GEOCONE_DIM
     static FlowCone
     cone_of(const double cohesion, const double phi, const double theta);
 
-    /** Yield cone of a step with friction memory, see step_cone().
+    /** Yield cone of a step with friction memory; see step_cone().
      *  @param exact cone without memory */
     FlowCone
     with_memory(const FlowCone &exact,

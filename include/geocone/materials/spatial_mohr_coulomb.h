@@ -120,8 +120,8 @@ namespace geocone::GEOCONE_DIM
                          : std::numeric_limits<double>::infinity();
       }
 
-      /** Largest yield function f_13 (Pa) of principal stresses in decreasing
-       *  order. */
+      /** Largest of the Mohr-Coulomb yield functions, f_13 (Pa), for principal
+       *  stresses s sorted in decreasing order. */
       double
       yield_function(const Principal &s) const
       {
@@ -204,7 +204,7 @@ namespace geocone::GEOCONE_DIM
         Elasticity(1., 0.), pyramid, pyramid.sine, x, projected, slope);
     }
 
-    /** Return mapping in ordered principal stresses, see return_to().
+    /** Return mapping in ordered principal stresses; see return_to().
      *  @param flow sine of the dilatancy angle
      *  @param[out] tangent ds/de of principal values */
     static Mode

@@ -89,7 +89,7 @@ namespace geocone::GEOCONE_DIM
     }
   };
 
-  /** Globalisation by a line search, see line_search(). */
+  /** Globalisation by a line search; see line_search(). */
   class LineSearch : public Globalisation
   {
   public:

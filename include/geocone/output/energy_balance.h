@@ -43,9 +43,9 @@ namespace geocone
              const Energies &of_lost,
              const Works    &of_step);
 
-    /** Sets the current terms of the energy balance: energies of the body, work
-     *  since the start of the run, and total and potential energy of removed
-     *  parts. */
+    /** Sets the current terms of the energy balance: the energies of the body,
+     *  the work since the start of the run, and the total energy and potential
+     *  energy of the removed parts. */
     void
     set(const Energies &now,
         const Works    &since_start,

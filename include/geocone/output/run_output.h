@@ -225,8 +225,8 @@ namespace geocone::GEOCONE_DIM
     bool
     load_is_number() const;
 
-    /** Warns once if the load of a step differs by more than 50 % from the mean
-     *  load of the previous and the next step, if these two are about equal. */
+    /** Warns once if the loads before and after a step are about equal, but the
+     *  load of the step differs from their mean by more than 50 %. */
     void
     warn_of_jump();
 

@@ -129,9 +129,9 @@ namespace geocone::GEOCONE_DIM
     double
     local_error() const;
 
-    /** Returns true if the mean stress is polynomial in each cell
-     *  (CellPressures), as for B-bar with dilatant soil. The result is the same
-     *  on all ranks. */
+    /** Returns true if the mean stress is required to be a polynomial in each
+     *  cell (see CellPressures). This is the case for the B-bar method with
+     *  dilatant soil. The result is the same on all ranks. */
     bool
     has_cell_pressures() const
     {

@@ -29,7 +29,7 @@ namespace geocone::GEOCONE_DIM
      *  exposed to air. */
     std::optional<double> level;
 
-    /** Rainfall rate per horizontal area (m/s), the upper limit on the
+    /** Rainfall rate per unit horizontal area (m/s); upper limit on the
      *  infiltration rate. */
     double rain = 0.;
 

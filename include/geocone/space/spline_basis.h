@@ -49,8 +49,8 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * Evaluates the p + 1 non-zero basis functions of an interval, and their
-     * derivatives.
+     * Evaluates the p + 1 basis functions that are non-zero on an interval, and
+     * their derivatives.
      * @param xi local coordinate in the interval, 0 to 1
      * @param[out] N values
      * @param[out] dN derivatives with respect to xi

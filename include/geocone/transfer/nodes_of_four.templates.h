@@ -69,8 +69,8 @@ namespace geocone::GEOCONE_DIM
     }
   };
 
-  /** Basis functions that are non-zero at the four points k, ..., k + 3 of a
-   *  block. There are (p + 1)^dim of them per point. */
+  /** For each of the four points k, ..., k + 3 of a block, the basis functions
+   *  that are non-zero there. There are (p + 1)^dim of them per point. */
   template <typename P, int p>
   struct NodesOfFour
   {
