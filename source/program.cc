@@ -112,13 +112,16 @@ namespace geocone::GEOCONE_DIM
         }
       text =
         "subsection Materials\nset Names = " + names + "\n" + text + "end\n";
-      for (const char *list : {"Boundary conditions",
-                               "Tractions",
-                               "Absorbing boundaries",
-                               "Seepage",
-                               "Obstacles",
-                               "Contacts",
-                               "Structures"})
+      std::vector<const char *> lists = {"Boundary conditions",
+                                         "Tractions",
+                                         "Absorbing boundaries",
+                                         "Seepage",
+                                         "Obstacles",
+                                         "Contacts",
+                                         "Structures"};
+      if (dim == 2)
+        lists.push_back("Random fields");
+      for (const char *list : lists)
         text += std::string("subsection ") + list +
                 "\nset Names = " + any_name + "\nend\n";
       std::map<std::string, std::string> defaults;

@@ -52,6 +52,7 @@ namespace geocone
       {"Obstacles", "rigid bodies in contact with the soil"},
       {"Contacts", "contact between deformable bodies"},
       {"Structures", "anchors, struts, geogrids and plates"},
+      {"Random fields", "random strengths and unit weights of soils"},
       {"Absorbing boundaries", "boundaries that transmit waves"},
       {"Loading", "stages: duration, steps, excavation, fill, strength"},
       {"Path", "stages of a single material point"},
