@@ -43,7 +43,7 @@ refused() { # TOPIC SUGGESTION
   [ ! -s out ] && grep -q "did you mean '$2'?" err
   grep -q 'allowed: .*Analysis, Discretisation, Geometry' err
 }
-refused Material Materials
+refused Materialls Materials
 refused 'Newton/Tolerence' 'Newton/Tolerance'
 refused 'Friction angel' 'Friction angle'
 fails "$program" --help Tractions/Cohesion 2>err
