@@ -208,8 +208,11 @@ namespace geocone::GEOCONE_DIM
   {
     dealii::Timer mesh_time;
     if (!error.empty())
-      tetrahedra.emplace(bisected(
-        *tetrahedra, error, std::size_t(growth * tetrahedra->cells.size())));
+      {
+        tetrahedra.emplace(bisected(
+          *tetrahedra, error, std::size_t(growth * tetrahedra->cells.size())));
+        error.clear(); // a level that is stopped is repeated on this mesh
+      }
     const double  mesh_seconds = mesh_time.cpu_time();
     dealii::Timer time;
     BoundLevel    level = reduces_strength() ? bound_factor() : bound_load();

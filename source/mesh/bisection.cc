@@ -3,6 +3,8 @@
 
 #include <geocone/mesh/bisection.h>
 
+#include <deal.II/base/exceptions.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -97,6 +99,9 @@ namespace geocone::GEOCONE_DIM
       : points(tetrahedra.vertices)
       , cells_at(points.size())
     {
+      AssertThrow(error.size() == tetrahedra.cells.size(),
+                  dealii::ExcDimensionMismatch(error.size(),
+                                               tetrahedra.cells.size()));
       std::vector<double> mean(points.size(), 0.), n(points.size(), 0.);
       for (unsigned int c = 0; c < error.size(); ++c)
         for (const unsigned int v : tetrahedra.cells[c])
