@@ -72,6 +72,53 @@ for axes in axes_of:
     assert triangles in [len(c.get_paths()) for c in axes.collections] and not axes.texts
 PYTHON
 
+# A material that changes and changes back is there at the start and looks as at the start; what is
+# dug away stays away until it is filled, in the plane and in space.
+PYTHONPATH=$root/python /usr/bin/python3 -B - <<'PYTHON'
+from pathlib import Path
+
+import numpy as np
+
+from geocone.plots import model_solid
+from geocone.plots.model import Model, draw_stages, states_of, view_of
+from geocone.style import subplots
+
+
+def stage(name, **changes):
+    return {"name": name, "duration_s": 1., **changes}
+
+
+model = Model(Path("results/embankment-model"))
+pit = {"low": [0., -1.], "high": [1., 0.], "rows": ["1"]}
+model.data["stages"] = [
+    stage("grout", changed={"clay": "fill 1"}), stage("dig", removed_lattice=pit),
+    stage("weaken", changed={"fill 1": "clay"}), stage("fill", added=["fill 2"])]
+assert model.absent() == {"fill 2"}
+states = list(states_of(model, model.data["stages"]))
+assert [state.now["clay"] for state in states] == ["fill 1", "fill 1", "clay", "clay"]
+assert [state.done for state in states] == [[], [pit], [pit], [pit, "fill 2"]]
+assert [state.end for state in states] == [1., 2., 3., 4.]
+_, axes_of = subplots(1, 4, figsize=(4., 2.))
+draw_stages(axes_of, model, model.data["stages"], view_of(model))
+assert [len(axes.images) for axes in axes_of] == [0, 1, 1, 1]  # the pit
+# The fill is drawn above the pit.
+assert max(c.get_zorder() for c in axes_of[3].collections[:2]) > axes_of[3].images[0].get_zorder()
+
+model = Model(Path("space"))
+model.data["stages"] = []
+low, high = model.low, model.high
+middle = (low + high) / 2.
+box = [list(middle), list(high)]
+model.data["materials"] = [{"name": "soil"}, {"name": "fill", "region": box}]
+model.data["material_of_cell"] = []
+drawn = []
+model_solid.draw_grid = lambda axes, view, lines, colors: drawn.append(
+    int(np.isnan(colors[..., 0]).sum()))
+for absent, done in ((set(), []), ({"fill"}, []), (set(), [box]), (set(), [box, "fill"])):
+    model_solid.draw_body(None, model, model_solid.ABOVE, absent, {}, done)
+assert drawn == [0, 1, 1, 0], drawn
+PYTHON
+
 # The table of the report has soil without tension, and a cohesion that is a formula.
 PYTHONPATH=$root/python /usr/bin/python3 -B - <<'PYTHON'
 from geocone.plots.scene_tables import soils_of

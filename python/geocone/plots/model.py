@@ -5,6 +5,7 @@ water, obstacles, structures, observed points, and the stages that change the bo
 
 import json
 import math
+from typing import NamedTuple
 
 import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
@@ -72,10 +73,15 @@ class Model:
         return np.array(segments, dtype=float).reshape(-1, 2, 2)
 
     def absent(self):
-        """Names of the materials that a stage adds or makes of others, which are not there
-        at the start."""
-        return {name for stage in self.data["stages"]
-                for name in [*stage.get("added", ()), *stage.get("changed", {}).values()]}
+        """Names of the materials that are not there at the start: those that a stage adds, and
+        those without a region that a stage makes of others."""
+        names = [name for _, name in self.materials()]
+        there = {names[i] for i in self.data["material_of_cell"] or [0]} | {
+            material["name"] for material in self.data["materials"] if "region" in material}
+        added = {name for stage in self.data["stages"] for name in stage.get("added", ())}
+        made = {name for stage in self.data["stages"]
+                for name in stage.get("changed", {}).values()}
+        return added | (made - there)
 
     def properties(self, name):
         """A material in a line: its law and what describes its strength."""
@@ -113,6 +119,38 @@ def color_of(material):
     return SOILS[material % len(SOILS)]
 
 
+class State(NamedTuple):
+    """The body in a stage.
+
+    absent  names of the materials that are not there yet
+    now  {name: name} what each material has become
+    done  what has been taken away (polygons or lattices) and added (names), in this order
+    table, end  water table (n, 2) in it, and its end (s)"""
+
+    stage: dict
+    absent: set
+    now: dict
+    done: list
+    table: np.ndarray
+    end: float
+
+
+def states_of(model, stages):
+    """The states of the body in some of the stages, as those before have left it."""
+    absent, done, table, end = model.absent(), [], water_of(model), 0.
+    now = {name: name for _, name in model.materials()}
+    for stage in model.data["stages"]:
+        end += stage["duration_s"]
+        added, changed = stage.get("added", []), stage.get("changed", {})
+        absent = absent - {*added, *changed.values()}
+        now = {name: changed.get(last, last) for name, last in now.items()}
+        done = done + [stage[key] for key in ("removed", "removed_lattice")
+                       if key in stage] + added
+        table = np.array(stage.get("water_table", table), dtype=float)
+        if stage in stages:
+            yield State(stage, absent, now, done, table, end)
+
+
 def is_left_turning(polygon):
     """Whether the vertices (n, 2) of a polygon are counterclockwise."""
     x, y = np.array(polygon, dtype=float).T
@@ -145,53 +183,53 @@ def draw_lattice(axes, lattice, color, **options):
                        interpolation="nearest", **options)
 
 
-def draw_soils(axes, model, absent=(), changed=None, removed=()):
-    """Fills the materials.
-
-    @param absent names of those that are not there
-    @param changed {name: name} what has become another one
-    @param removed polygons that have been taken away"""
-    changed = changed or {}
+def draw_soils(axes, model, absent=(), now=None, done=()):
+    """Fills the materials. The parameters are as in State."""
+    now = now or {}
     names = [name for _, name in model.materials()]
     cells, of_cell = model.data["cells"], model.data["material_of_cell"] or []
-
-    def shown(material):
-        name = names[material]
-        while name in changed:
-            name = changed[name]
-        return names.index(name)
-
-    if of_cell:
-        there = [i for i, m in enumerate(of_cell) if names[m] not in absent]
-        axes.add_collection(PolyCollection(
-            [cells[i] for i in there], facecolors=[color_of(shown(of_cell[i])) for i in there],
-            edgecolors="face", linewidths=0.3, zorder=1))
-    else:
-        body = model.data["body"]
-        clip = None
-        if "lattice" in body:
-            draw_lattice(axes, body["lattice"], color_of(shown(0)), zorder=1)
-        outline = outline_of(model)
-        if outline is not None:
-            clip = PathPatch(outline, transform=axes.transData)
-            if "lattice" not in body:
-                axes.add_patch(PathPatch(outline, facecolor=color_of(shown(0)), linewidth=0.,
-                                         zorder=1))
-        for i, material in enumerate(model.data["materials"]):
-            if "region" in material:
-                there = names[i] not in absent
-                patch = Polygon(material["region"], linewidth=0., zorder=1.1,
-                                facecolor=color_of(shown(i)) if there else "white")
-                axes.add_patch(patch)
-                if clip is not None:
-                    patch.set_clip_path(clip)
     outline = outline_of(model)
-    for polygon in removed:
-        patch = Polygon(polygon, facecolor="white", edgecolor="#808080", hatch="//",
-                        linewidth=0.8, linestyle="--", zorder=1.4)
+
+    def clip(patch):
         axes.add_patch(patch)
         if outline is not None:
             patch.set_clip_path(PathPatch(outline, transform=axes.transData))
+
+    def shown(material):
+        return color_of(names.index(now.get(names[material], names[material])))
+
+    def fill_cells(there, zorder):
+        axes.add_collection(PolyCollection(
+            [cells[i] for i in there], facecolors=[shown(of_cell[i]) for i in there],
+            edgecolors="face", linewidths=0.3, zorder=zorder))
+
+    def fill_region(material, color, zorder):
+        region = model.data["materials"][material].get("region")
+        if region is not None:
+            clip(Polygon(region, linewidth=0., zorder=zorder, facecolor=color))
+
+    if of_cell:
+        fill_cells([i for i, m in enumerate(of_cell) if names[m] not in absent], 1)
+    else:
+        body = model.data["body"]
+        if "lattice" in body:
+            draw_lattice(axes, body["lattice"], shown(0), zorder=1)
+        elif outline is not None:
+            axes.add_patch(PathPatch(outline, facecolor=shown(0), linewidth=0., zorder=1))
+        for i, name in enumerate(names):
+            fill_region(i, "white" if name in absent else shown(i), 1.1)
+    is_dug = False
+    for zorder, what in zip(np.linspace(1.4, 1.5, len(done)), done):
+        if isinstance(what, dict):
+            draw_lattice(axes, what, "#ffffff", zorder=zorder)
+        elif not isinstance(what, str):
+            clip(Polygon(what, facecolor="white", edgecolor="#808080", hatch="//", linewidth=0.8,
+                         linestyle="--", zorder=zorder))
+        elif is_dug and of_cell:
+            fill_cells([i for i, m in enumerate(of_cell) if names[m] == what], zorder)
+        elif is_dug:
+            fill_region(names.index(what), shown(names.index(what)), zorder)
+        is_dug = is_dug or not isinstance(what, str)
 
 
 def draw_outlines(axes, model):
@@ -523,27 +561,16 @@ def frame(axes, view):
 
 def draw_stages(axes_of, model, stages, view):
     """A small picture of the body in each of some stages."""
-    absent, changed, removed, table = model.absent(), {}, [], water_of(model)
-    pictures, end = [], 0.
-    for stage in model.data["stages"]:
-        end += stage["duration_s"]
-        absent = absent - set(stage.get("added", ())) - set(stage.get("changed", {}).values())
-        changed = {**changed, **stage.get("changed", {})}
-        removed = removed + ([stage["removed"]] if "removed" in stage else [])
-        table = np.array(stage.get("water_table", table), dtype=float)
-        if stage in stages:
-            pictures.append((stage, absent, changed, removed, table, end))
-    for axes, (stage, absent, changed, removed, table, end) in zip(axes_of, pictures):
+    for axes, state in zip(axes_of, states_of(model, stages)):
+        stage = state.stage
         frame(axes, view)
-        draw_soils(axes, model, absent, changed, removed)
-        if "removed_lattice" in stage:
-            draw_lattice(axes, stage["removed_lattice"], "#ffffff", zorder=1.4)
+        draw_soils(axes, model, state.absent, state.now, state.done)
         draw_outlines(axes, model)
         draw_obstacles(axes, model, with_names=False)
         draw_structures(axes, model, stage["name"], with_names=False)
         draw_acting(axes, model, stage["name"])
-        draw_table(axes, table)
-        draw_free_surface(axes, model.free_surface(end))
+        draw_table(axes, state.table)
+        draw_free_surface(axes, model.free_surface(state.end))
         axes.set_title(words_of(stage), fontsize=8)
         axes.set(xticks=[], yticks=[])
 

@@ -9,8 +9,8 @@ from matplotlib.colors import to_rgb
 from matplotlib.patches import Patch
 
 from geocone.plots.model import (LOAD, MOST_STAGES, MOTION, add_legend, arrow_entry, color_of,
-                                 draw_arrows, frame, legend_of, notable_stages, value_text,
-                                 words_of)
+                                 draw_arrows, frame, legend_of, notable_stages, states_of,
+                                 value_text, words_of)
 from geocone.plots.solid import View, add_directions
 from geocone.style import plain, save, subplots
 
@@ -108,22 +108,16 @@ def draw_grid(axes, view, lines, colors):
         edgecolors="#50505080" if few else paint))
 
 
-def draw_body(axes, model, view, absent, changed=None, removed=()):
-    """Fills the materials that are there.
-
-    @param changed {name: name} what has become another one
-    @param removed boxes and lattices that have been taken away"""
-    changed = changed or {}
+def draw_body(axes, model, view, absent, now=None, done=()):
+    """Fills the materials that are there. The parameters are as in model.State."""
+    now = now or {}
     names = [material["name"] for material in model.data["materials"]]
 
     def shown(material):
-        name = names[material]
-        while name in changed:
-            name = changed[name]
-        return color_of(names.index(name))
+        return color_of(names.index(now.get(names[material], names[material])))
 
     of_cell, grid = model.data["material_of_cell"] or [], grid_of(model)
-    if of_cell and not (removed and grid):  # the boundary faces of the mesh, the nearest last
+    if of_cell and not (done and grid):  # the boundary faces of the mesh, the nearest last
         faces = [np.array(face, dtype=float) for face in model.data["cells"]]
         there = [i for i in np.argsort([face.mean(axis=0) @ view.towards for face in faces])
                  if names[of_cell[i]] not in absent]
@@ -134,13 +128,24 @@ def draw_body(axes, model, view, absent, changed=None, removed=()):
         lines, inside = grid
         centres = centres_of(lines)
         colors = np.full((*inside.shape, 3), np.nan)
-        for i, material in enumerate(model.data["materials"]):
-            its = inside if i == 0 else (
-                inside & in_box(centres, material["region"]) if "region" in material else None)
-            if its is not None:
-                colors[its] = np.nan if material["name"] in absent else to_rgb(shown(i))
-        for what in removed:
-            colors[selected(what) if isinstance(what, dict) else in_box(centres, what)] = np.nan
+
+        def cells_of(i):
+            region = model.data["materials"][i].get("region")
+            return (inside if i == 0 else np.zeros_like(inside) if region is None else
+                    inside & in_box(centres, region))
+
+        owner = np.full(inside.shape, -1)
+        for i, name in enumerate(names):
+            owner[cells_of(i)] = i
+        for i, name in enumerate(names):
+            if name not in absent:
+                colors[owner == i] = to_rgb(shown(i))
+        for what in done:
+            if isinstance(what, str):
+                colors[owner == names.index(what)] = to_rgb(shown(names.index(what)))
+            else:
+                colors[selected(what) if isinstance(what, dict) else
+                       in_box(centres, what)] = np.nan
         draw_grid(axes, view, lines, colors)
 
 
@@ -224,21 +229,12 @@ def box_of(model, view):
 
 def draw_stages(axes_of, model, stages):
     """A small picture of the body in each of some stages."""
-    absent, changed, removed = model.absent(), {}, []
-    pictures = []
-    for stage in model.data["stages"]:
-        absent = absent - set(stage.get("added", ())) - set(stage.get("changed", {}).values())
-        changed = {**changed, **stage.get("changed", {})}
-        removed = removed + [stage[key] for key in ("removed", "removed_lattice")
-                             if key in stage]
-        if stage in stages:
-            pictures.append((stage, absent, changed, removed))
     view = view_of_stages(model)
-    for axes, (stage, absent, changed, removed) in zip(axes_of, pictures):
+    for axes, state in zip(axes_of, states_of(model, stages)):
         frame(axes, box_of(model, view))
-        draw_body(axes, model, view, absent, changed, removed)
+        draw_body(axes, model, view, state.absent, state.now, state.done)
         draw_obstacles(axes, model, view)
-        axes.set_title(f"{words_of(stage)}\nseen from {view.name()}", fontsize=8)
+        axes.set_title(f"{words_of(state.stage)}\nseen from {view.name()}", fontsize=8)
         axes.set(xticks=[], yticks=[])
         axes.set_frame_on(False)
 
