@@ -117,6 +117,20 @@ model_solid.draw_grid = lambda axes, view, lines, colors: drawn.append(
 for absent, done in ((set(), []), ({"fill"}, []), (set(), [box]), (set(), [box, "fill"])):
     model_solid.draw_body(None, model, model_solid.ABOVE, absent, {}, done)
 assert drawn == [0, 1, 1, 0], drawn
+# Of the cells of a mesh, those of the boundary are drawn where nothing is missing, or where there
+# is no grid, which is said.
+drawn.clear()
+model.data["material_of_cell"] = [0, 1]
+model.data["cells"] = [[[*low[:2], z], [high[0], low[1], z], [*high[:2], z]]
+                       for z in (low[2], high[2])]
+_, axes = subplots(1, 1, figsize=(2., 2.))
+for absent, kind, faces in ((set(), "box", 2), ({"fill"}, "box", None), ({"fill"}, "file", 1)):
+    model.data["body"]["shape"] = kind
+    before = len(axes.collections)
+    model_solid.draw_body(axes, model, model_solid.ABOVE, absent)
+    assert [len(c.get_paths()) for c in axes.collections[before:]] == [faces] * (faces is not None)
+    assert bool(model_solid.remark_of(model, absent)) == (faces == 1)
+assert drawn == [1], drawn
 PYTHON
 
 # The table of the report has soil without tension, and a cohesion that is a formula.

@@ -40,7 +40,7 @@ def is_moved(condition):
 
 def grid_of(model):
     """Lines (x, y, z) of a grid that the body fills in part, and where it does (nx, ny, nz);
-    None for a body of a mesh file.
+    None for a body of a mesh file, or whose materials have no boxes.
 
     A body that a formula gives is on its lattice; a box is divided where regions of
     materials and of excavations end."""
@@ -49,7 +49,9 @@ def grid_of(model):
         inside = selected(body["lattice"])
         low, high = (np.array(body["lattice"][end]) for end in ("low", "high"))
         return [np.linspace(low[d], high[d], inside.shape[d] + 1) for d in range(3)], inside
-    if body["shape"] != "box":
+    without_box = {i for i, material in enumerate(model.data["materials"])
+                   if i > 0 and "region" not in material}
+    if body["shape"] != "box" or without_box & set(model.data["material_of_cell"] or []):
         return None
     boxes = [one[key] for kind, key in (("materials", "region"), ("stages", "removed"))
              for one in model.data[kind] if key in one]
@@ -75,6 +77,17 @@ def in_box(points, ends):
     """Which points lie in a box, whose corners are given."""
     ends = np.sort(np.array(ends, dtype=float), axis=0)
     return np.all((points > ends[0]) & (points < ends[1]), axis=-1)
+
+
+def selected_at(points, what):
+    """Which points are in a box, or in cells of a lattice that a formula selects; those on a
+    side of it, too."""
+    inside = selected(what) if isinstance(what, dict) else np.ones((1, 1, 1), dtype=bool)
+    low, high = np.sort(np.array([what["low"], what["high"]] if isinstance(what, dict) else what,
+                                 dtype=float), axis=0)
+    part = (points - low) / (high - low)
+    cells = np.clip((part * inside.shape).astype(int), 0, np.array(inside.shape) - 1)
+    return np.all((part > -1e-9) & (part < 1. + 1e-9), axis=1) & inside[tuple(cells.T)]
 
 
 def draw_grid(axes, view, lines, colors):
@@ -108,6 +121,19 @@ def draw_grid(axes, view, lines, colors):
         edgecolors="#50505080" if few else paint))
 
 
+def is_in_part(model, absent, done):
+    """Whether a part of the mesh is not there."""
+    names = [material["name"] for material in model.data["materials"]]
+    return (any(names[i] in absent for i in set(model.data["material_of_cell"] or []))
+            or any(not isinstance(what, str) for what in done))
+
+
+def remark_of(model, absent, done=()):
+    """What a picture of the body does not show, for its title."""
+    return ("\nwithout the faces inside of the mesh"
+            if is_in_part(model, absent, done) and not grid_of(model) else "")
+
+
 def draw_body(axes, model, view, absent, now=None, done=()):
     """Fills the materials that are there. The parameters are as in model.State."""
     now = now or {}
@@ -117,13 +143,20 @@ def draw_body(axes, model, view, absent, now=None, done=()):
         return color_of(names.index(now.get(names[material], names[material])))
 
     of_cell, grid = model.data["material_of_cell"] or [], grid_of(model)
-    if of_cell and not (done and grid):  # the boundary faces of the mesh, the nearest last
+    if of_cell and not (grid and is_in_part(model, absent, done)):
+        # The boundary faces of the mesh, the nearest last.
         faces = [np.array(face, dtype=float) for face in model.data["cells"]]
-        there = [i for i in np.argsort([face.mean(axis=0) @ view.towards for face in faces])
-                 if names[of_cell[i]] not in absent]
+        centres = np.array([face.mean(axis=0) for face in faces])
+        there = np.array([names[i] not in absent for i in of_cell])
+        for what in done:
+            if isinstance(what, str):
+                there |= np.array([names[i] == what for i in of_cell])
+            else:
+                there[selected_at(centres, what)] = False
+        order = [i for i in np.argsort(centres @ view.towards) if there[i]]
         axes.add_collection(PolyCollection(
-            [view.seen(faces[i]) for i in there], edgecolors="#50505060", linewidths=0.2,
-            facecolors=[shown(of_cell[i]) for i in there], zorder=1))
+            [view.seen(faces[i]) for i in order], edgecolors="#50505060", linewidths=0.2,
+            facecolors=[shown(of_cell[i]) for i in order], zorder=1))
     elif grid:
         lines, inside = grid
         centres = centres_of(lines)
@@ -234,7 +267,8 @@ def draw_stages(axes_of, model, stages):
         frame(axes, box_of(model, view))
         draw_body(axes, model, view, state.absent, state.now, state.done)
         draw_obstacles(axes, model, view)
-        axes.set_title(f"{words_of(state.stage)}\nseen from {view.name()}", fontsize=8)
+        remark = remark_of(model, state.absent, state.done)
+        axes.set_title(f"{words_of(state.stage)}\nseen from {view.name()}{remark}", fontsize=8)
         axes.set(xticks=[], yticks=[])
         axes.set_frame_on(False)
 
@@ -265,7 +299,7 @@ def draw(model, path):
         if not view.below:
             entries.update(draw_loads(axes, model, view))
         add_directions(axes, view, box)
-        axes.set_title(f"seen from {view.name()}", fontsize=10)
+        axes.set_title(f"seen from {view.name()}{remark_of(model, model.absent())}", fontsize=10)
     figure.suptitle(f"{plain(model.name)}: model")
     add_legend(axes_of[0, 0], entries, below=2., centre=1.1 if hidden else 0.5)
     if stages:
