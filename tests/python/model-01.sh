@@ -78,6 +78,7 @@ PYTHONPATH=$root/python /usr/bin/python3 -B - <<'PYTHON'
 from pathlib import Path
 
 import numpy as np
+from matplotlib.quiver import Quiver
 
 from geocone.plots import model_solid
 from geocone.plots.model import Model, draw_stages, states_of, view_of
@@ -131,6 +132,14 @@ for absent, kind, faces in ((set(), "box", 2), ({"fill"}, "box", None), ({"fill"
     assert [len(c.get_paths()) for c in axes.collections[before:]] == [faces] * (faces is not None)
     assert bool(model_solid.remark_of(model, absent)) == (faces == 1)
 assert drawn == [1], drawn
+# A load is drawn where its face is seen.
+top = {"name": "top", "faces": [[[0., 1., 0.], [0., 1., 1.], [1., 1., 1.], [1., 1., 0.]]],
+       "values": [[0., -1., 0.]]}
+model.data.update(tractions=[top], supports=[])
+for view, arrows in ((model_solid.ABOVE, 1), (model_solid.BELOW, 0)):
+    _, axes = subplots(1, 1, figsize=(2., 2.))
+    assert list(model_solid.draw_loads(axes, model, view)) == ["top: 1 Pa"]
+    assert sum(isinstance(one, Quiver) for one in axes.collections) == arrows
 PYTHON
 
 # The table of the report has soil without tension, and a cohesion that is a formula.

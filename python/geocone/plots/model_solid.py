@@ -1,7 +1,7 @@
 # Copyright (C) 2026 by the geocone authors
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """model.png of a scene in three dimensions: the body from above, from below where supports
-are hidden, and the stages that change it."""
+or loads are hidden, and the stages that change it."""
 
 import numpy as np
 from matplotlib.collections import PolyCollection
@@ -26,11 +26,16 @@ def normal_of(face):
     return np.cross(face[1] - face[0], face[2] - face[0])
 
 
+def is_seen(condition, view):
+    """Whether a view shows the outside of a face, of each one of a condition."""
+    normals = np.array([normal_of(np.array(face, dtype=float)) for face in condition["faces"]])
+    return normals @ view.towards > 1e-9 * np.linalg.norm(normals, axis=1)
+
+
 def seen_faces(condition, view):
     """The faces of a condition whose outside a view shows."""
-    faces = [np.array(face, dtype=float) for face in condition["faces"]]
-    return [face for face in faces
-            if normal_of(face) @ view.towards > 1e-9 * np.linalg.norm(normal_of(face))]
+    return [np.array(face, dtype=float)
+            for face, is_shown in zip(condition["faces"], is_seen(condition, view)) if is_shown]
 
 
 def is_moved(condition):
@@ -227,25 +232,30 @@ def draw_supports(axes, model, view):
     return entries
 
 
+def loads_of(model):
+    """Tractions and supports that move on faces, with their colours and units."""
+    kinds = (("supports", MOTION, "m/s"), ("tractions", LOAD, "Pa"))
+    return [(one, color, unit) for kind, color, unit in kinds for one in model.data[kind]
+            if one["faces"] and is_moved(one)]
+
+
 def draw_loads(axes, model, view):
-    """Arrows of tractions and of supports that move. @return entries of the legend"""
+    """Arrows of loads at faces that are seen. @return entries of the legend"""
     entries = {}
-    for kind, color, unit in (("supports", MOTION, "m/s"), ("tractions", LOAD, "Pa")):
-        for condition in model.data[kind]:
-            if not condition["faces"] or not is_moved(condition):
-                continue
-            values = np.array(condition["values"], dtype=float)
-            moved = np.linalg.norm(values, axis=1) > 0.
-            axes.add_collection(PolyCollection(
-                [view.seen(face) for face in seen_faces(condition, view)],
-                facecolors=color + "30", edgecolors="none", zorder=2))
-            places = np.array([np.mean(face, axis=0) for face in condition["faces"]])[moved]
-            every = max(1, len(places) // 40)
-            vectors = view.seen(values[moved][::every])
+    for condition, color, unit in loads_of(model):
+        axes.add_collection(PolyCollection(
+            [view.seen(face) for face in seen_faces(condition, view)],
+            facecolors=color + "30", edgecolors="none", zorder=2))
+        values = np.array(condition["values"], dtype=float)
+        shown = (np.linalg.norm(values, axis=1) > 0.) & is_seen(condition, view)
+        places = np.array([np.mean(face, axis=0) for face in condition["faces"]])[shown]
+        every = max(1, len(places) // 40)
+        if len(places):
+            vectors = view.seen(values[shown][::every])
             draw_arrows(axes, view.seen(places[::every]), vectors, -vectors, color,
                         0.1 * model.size)
-            text = f"{plain(condition['name'])}: {value_text(values, unit)}"
-            entries[text] = arrow_entry(color)
+        text = f"{plain(condition['name'])}: {value_text(values, unit)}"
+        entries[text] = arrow_entry(color)
     return entries
 
 
@@ -255,8 +265,7 @@ def box_of(model, view):
                         for y in (model.low[1], model.high[1])
                         for z in (model.low[2], model.high[2])])
     seen = view.seen(corners)
-    loads = any(is_moved(one) for kind in ("supports", "tractions") for one in model.data[kind])
-    margin = model.size * np.array([0.12, 0.15 if loads and not view.below else 0.05])
+    margin = model.size * np.array([0.12, 0.15 if loads_of(model) else 0.05])
     return np.array([seen.min(axis=0) - 0.12 * model.size, seen.max(axis=0) + margin])
 
 
@@ -274,10 +283,10 @@ def draw_stages(axes_of, model, stages):
 
 
 def draw(model, path):
-    """Draws the scene from above and a corner, from below where this view hides supports,
-    and its stages."""
-    hidden = any(len(seen_faces(condition, ABOVE)) < len(condition["faces"])
-                 for condition, _ in held_conditions(model))
+    """Draws the scene from above and a corner, from below where this view hides supports or
+    loads, and its stages."""
+    hidden = not all(np.all(is_seen(one, ABOVE))
+                     for one, *_ in held_conditions(model) + loads_of(model))
     views = [ABOVE, BELOW] if hidden else [ABOVE]
     boxes = [box_of(model, view) for view in views]
     size = np.max([np.ptp(box, axis=0) for box in boxes], axis=0)
@@ -296,8 +305,7 @@ def draw(model, path):
         draw_body(axes, model, view, model.absent())
         draw_obstacles(axes, model, view)
         entries.update(draw_supports(axes, model, view))
-        if not view.below:
-            entries.update(draw_loads(axes, model, view))
+        entries.update(draw_loads(axes, model, view))
         add_directions(axes, view, box)
         axes.set_title(f"seen from {view.name()}{remark_of(model, model.absent())}", fontsize=10)
     figure.suptitle(f"{plain(model.name)}: model")
