@@ -132,6 +132,10 @@ for absent, kind, faces in ((set(), "box", 2), ({"fill"}, "box", None), ({"fill"
     assert [len(c.get_paths()) for c in axes.collections[before:]] == [faces] * (faces is not None)
     assert bool(model_solid.remark_of(model, absent)) == (faces == 1)
 assert drawn == [1], drawn
+# A plane under the body is behind it from above, and before it from below.
+plane = np.array([[[0., -1., 0.], [1., -1., 0.], [0., -1., 1.]]])
+assert [model_solid.is_behind(plane, np.zeros(3), view)[0]
+        for view in (model_solid.ABOVE, model_solid.BELOW)] == [True, False]
 # A load is drawn where its face is seen.
 top = {"name": "top", "faces": [[[0., 1., 0.], [0., 1., 1.], [1., 1., 1.], [1., 1., 0.]]],
        "values": [[0., -1., 0.]]}

@@ -200,14 +200,23 @@ def view_of_stages(model):
     return max((View(x, z) for x in (1., -1.) for z in (1., -1.)), key=shown)
 
 
+def is_behind(triangles, centre, view):
+    """Whether triangles (n, 3, 3) are behind a body: its centre is on the eye's side of their
+    planes."""
+    normals = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+    return (normals @ view.towards) * np.sum(normals * (centre - triangles[:, 0]), axis=1) > 0.
+
+
 def draw_obstacles(axes, model, view):
-    """Fills the surfaces of obstacles."""
+    """Fills the surfaces of obstacles, those behind the body first."""
     for obstacle in model.data["obstacles"]:
         triangles = np.array(obstacle["triangles"], dtype=float).reshape(-1, 3, 3)
-        order = np.argsort(triangles.mean(axis=1) @ view.towards)
-        axes.add_collection(PolyCollection(view.seen(triangles.reshape(-1, 3)).reshape(
-            -1, 3, 2)[order], facecolors="#8c8c8cb0", edgecolors="#606060", linewidths=0.3,
-            zorder=3), autolim=False)
+        triangles = triangles[np.argsort(triangles.mean(axis=1) @ view.towards)]
+        behind = is_behind(triangles, (model.low + model.high) / 2., view)
+        for some, zorder in ((triangles[behind], 0.5), (triangles[~behind], 3)):
+            axes.add_collection(PolyCollection(
+                view.seen(some.reshape(-1, 3)).reshape(-1, 3, 2), facecolors="#8c8c8cb0",
+                edgecolors="#606060", linewidths=0.3, zorder=zorder), autolim=False)
 
 
 def held_conditions(model):
