@@ -136,6 +136,16 @@ assert drawn == [1], drawn
 plane = np.array([[[0., -1., 0.], [1., -1., 0.], [0., -1., 1.]]])
 assert [model_solid.is_behind(plane, np.zeros(3), view)[0]
         for view in (model_solid.ABOVE, model_solid.BELOW)] == [True, False]
+# Of a body on a lattice, supports are where its cells are: two of four, one on another.
+model.data.update(material_of_cell=[], body={"shape": "box", "lattice": {
+    "low": [0., 0., 0.], "high": [2., 2., 1.], "layers": [["10", "10"]]}})
+for side, number in (([[0., 0., 0.], [0., 0., 1.], [0., 3., 1.], [0., 3., 0.]], 2),
+                     ([[0., 0., 0.], [2., 0., 0.], [2., 0., 1.], [0., 0., 1.]], 1)):
+    found = model_solid.faces_on_body(model, [side])
+    assert len(found) == number
+    for face in found:
+        assert np.isclose(np.linalg.norm(model_solid.normal_of(face)), 1.)
+        assert model_solid.normal_of(face) @ model_solid.normal_of(np.array(side)) > 0.
 # A load is drawn where its face is seen.
 top = {"name": "top", "faces": [[[0., 1., 0.], [0., 1., 1.], [1., 1., 1.], [1., 1., 0.]]],
        "values": [[0., -1., 0.]]}

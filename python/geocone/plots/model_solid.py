@@ -28,7 +28,8 @@ def normal_of(face):
 
 def is_seen(condition, view):
     """Whether a view shows the outside of a face, of each one of a condition."""
-    normals = np.array([normal_of(np.array(face, dtype=float)) for face in condition["faces"]])
+    normals = np.array([normal_of(np.array(face, dtype=float))
+                        for face in condition["faces"]]).reshape(-1, 3)
     return normals @ view.towards > 1e-9 * np.linalg.norm(normals, axis=1)
 
 
@@ -95,6 +96,25 @@ def selected_at(points, what):
     return np.all((part > -1e-9) & (part < 1. + 1e-9), axis=1) & inside[tuple(cells.T)]
 
 
+def faces_of_grid(lines, there, d, sign):
+    """The faces normal to x, y or z (d) between cells that are there and what is not.
+
+    @param sign 1, -1: on the upper, lower side of the cells
+    @return cells (n, 3) and corners (n, 4, 3) of the faces, counterclockwise from outside"""
+    a, b = (d + 1) % 3, (d + 2) % 3
+    neighbour = np.roll(there, -sign, axis=d)
+    edge = [slice(None)] * 3
+    edge[d] = -1 if sign > 0 else 0
+    neighbour[tuple(edge)] = False
+    cells = np.argwhere(there & ~neighbour)
+    corners = np.empty((len(cells), 4, 3))
+    corners[:, :, d] = lines[d][cells[:, d] + (sign > 0)][:, None]
+    for corner, (u, v) in enumerate(((0, 0), (1, 0), (1, 1), (0, 1))):
+        corners[:, corner, a] = lines[a][cells[:, a] + u]
+        corners[:, corner, b] = lines[b][cells[:, b] + v]
+    return cells, corners[:, ::sign]
+
+
 def draw_grid(axes, view, lines, colors):
     """Draws the faces of a grid's cells that a view shows, the nearest last.
 
@@ -103,17 +123,7 @@ def draw_grid(axes, view, lines, colors):
     signs = np.sign(view.towards).astype(int)
     faces, paint, order = [], [], []
     for d in range(3):
-        a, b = (d + 1) % 3, (d + 2) % 3
-        behind = np.roll(there, -signs[d], axis=d)  # the neighbour towards the eye
-        edge = [slice(None)] * 3
-        edge[d] = -1 if signs[d] > 0 else 0
-        behind[tuple(edge)] = False
-        cells = np.argwhere(there & ~behind)
-        corners = np.empty((len(cells), 4, 3))
-        corners[:, :, d] = lines[d][cells[:, d] + (signs[d] > 0)][:, None]
-        for corner, (u, v) in enumerate(((0, 0), (1, 0), (1, 1), (0, 1))):
-            corners[:, corner, a] = lines[a][cells[:, a] + u]
-            corners[:, corner, b] = lines[b][cells[:, b] + v]
+        cells, corners = faces_of_grid(lines, there, d, signs[d])
         faces.append(view.seen(corners.reshape(-1, 3)).reshape(-1, 4, 2))
         paint.append(colors[tuple(cells.T)] * (0.94, 1., 0.86)[d])
         order.append(cells @ signs)
@@ -219,10 +229,33 @@ def draw_obstacles(axes, model, view):
                 edgecolors="#606060", linewidths=0.3, zorder=zorder), autolim=False)
 
 
+def faces_on_body(model, faces):
+    """The faces of a support where the body is. Those of a body on a lattice are faces of its
+    cells: the mesh of its particles reaches farther."""
+    if "lattice" not in model.data["body"] or model.data["material_of_cell"]:
+        return faces
+    lines, inside = grid_of(model)
+    steps = np.array([line[1] - line[0] for line in lines])
+    ends = np.array([[np.min(face, axis=0), np.max(face, axis=0)] for face in faces])
+    normals = np.array([normal_of(np.array(face)) for face in faces])
+    found = []
+    for d, sign in ((d, sign) for d in range(3) for sign in (1, -1)):
+        corners = faces_of_grid(lines, inside, d, sign)[1]
+        middles = corners.mean(axis=1)
+        is_across = np.ptp(ends[:, :, d], axis=1) < 1e-9 * model.size
+        held = np.zeros(len(corners), dtype=bool)
+        for low, high in ends[is_across & (normals[:, d] * sign > 0.)]:
+            reach = 0.5 * steps * (np.arange(3) == d)  # the lattice ends near the side
+            held |= np.all((middles >= low - reach) & (middles <= high + reach), axis=1)
+        found.extend(corners[held])
+    return found
+
+
 def held_conditions(model):
-    """Supports at rest on faces, with their colours."""
+    """Supports at rest on faces, with the faces on the body, and their colours."""
     held = [one for one in model.data["supports"] if one["faces"] and not is_moved(one)]
-    return [(one, SUPPORTS[i % len(SUPPORTS)]) for i, one in enumerate(held)]
+    return [({**one, "faces": faces_on_body(model, one["faces"])}, SUPPORTS[i % len(SUPPORTS)])
+            for i, one in enumerate(held)]
 
 
 def draw_supports(axes, model, view):
