@@ -9,6 +9,7 @@ import math
 import os
 import re
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 
 from geocone.dxf import text_of_scene, without_doubles
@@ -22,36 +23,74 @@ class TableError(Exception):
     """A table that holds no layers, with what is allowed and the remedy."""
 
 
+def rows_of(file: str | os.PathLike) -> Iterator[tuple[int, str, float, float, str]]:
+    """Reads the rows of a table that have any text: number of the line, borehole, x, top (m)
+    and soil."""
+    with open(file, newline="", encoding="utf-8-sig") as stream:
+        rows = csv.reader(stream, skipinitialspace=True)
+        columns = next(rows, [])
+        if columns != COLUMNS:
+            raise TableError(f"'{file}' has the columns {', '.join(columns) or '(none)'}\n"
+                             f"  allowed: {', '.join(COLUMNS)}" + (
+                                 "\n  remedy:  separate values by commas, and write numbers "
+                                 "with decimal points" if ";" in "".join(columns) else ""))
+        for row in rows:
+            values = [value.strip() for value in row]
+            if not any(values):
+                continue
+            where = f"line {rows.line_num} of '{file}'"
+            if len(values) != len(COLUMNS):
+                raise TableError(f"{where} has {len(values)} values\n"
+                                 f"  allowed: {len(COLUMNS)}: {', '.join(COLUMNS)}\n"
+                                 "  remedy:  write numbers with decimal points; commas separate "
+                                 "values")
+            name, x, top, soil = values
+            try:
+                numbers = float(x), float(top)
+            except ValueError:
+                numbers = (math.nan,)
+            if not all(map(math.isfinite, numbers)):
+                raise TableError(f"{where} has x = '{x}' and top = '{top}'\n"
+                                 "  allowed: finite numbers\n"
+                                 "  remedy:  write them with decimal points and without units")
+            yield rows.line_num, name, *numbers, soil
+
+
 def boreholes_of(file: str | os.PathLike) -> list[tuple[float, dict[str, float]]]:
     """Reads the boreholes of a table, by x: the levels (m) of the tops of the soils."""
     places, tops = {}, {}
+    spelling = {word: word for word in (END, WATER)}
     try:
-        with open(file, newline="", encoding="utf-8-sig") as stream:
-            rows = csv.DictReader(stream, skipinitialspace=True)
-            if rows.fieldnames != COLUMNS:
-                raise TableError(f"'{file}' has the columns {rows.fieldnames}\n"
-                                 f"  allowed: {', '.join(COLUMNS)}")
-            for row in rows:
-                name, soil = str(row["borehole"]).strip(), str(row["soil"]).strip()
-                x, top = float(row["x"]), float(row["top"])
-                if not (math.isfinite(x) and math.isfinite(top)):
-                    raise ValueError("a number is not finite")
-                if not re.fullmatch(r"[\w -]{1,60}", soil):
-                    raise ValueError(f"a soil may not be called {soil!r}")
-                if places.setdefault(name, x) != x or soil in tops.setdefault(name, {}):
-                    raise TableError(f"line {rows.line_num} of '{file}': the borehole '{name}' "
-                                     f"has another x, or '{soil}' a second time\n"
-                                     "  remedy:  give a lower layer of a soil its own name")
-                tops[name][soil] = top
-    except (OSError, UnicodeDecodeError, csv.Error, ValueError, TypeError) as error:
-        raise TableError(f"'{file}' is no table of boreholes: {error}") from error
+        for line, name, x, top, soil in rows_of(file):
+            where = f"line {line} of '{file}'"
+            if not re.fullmatch(r"[\w -]{1,60}", soil) or soil == "Names":
+                raise TableError(f"{where}: a soil may not be called {soil!r}\n"
+                                 "  allowed: up to 60 letters, digits, blanks, underscores and "
+                                 "hyphens; not 'Names'")
+            same = spelling.setdefault(soil.casefold(), soil)
+            if same != soil:
+                raise TableError(f"{where}: '{soil}' differs from '{same}' only in capitals\n"
+                                 f"  remedy:  write '{same}' if it is the same")
+            if places.setdefault(name, x) != x or soil in tops.setdefault(name, {}):
+                raise TableError(f"{where}: the borehole '{name}' has another x, or '{soil}' a "
+                                 "second time\n"
+                                 "  remedy:  give a lower layer of a soil its own name")
+            tops[name][soil] = top
+    except (OSError, UnicodeDecodeError, csv.Error) as error:
+        raise TableError(f"'{file}' is no table of boreholes: {error}" + (
+            "\n  remedy:  save it as UTF-8" if isinstance(error, UnicodeDecodeError) else
+            "")) from error
     boreholes = sorted((places[name], tops[name]) for name in places)
     if len({x for x, _ in boreholes}) < max(2, len(boreholes)):
         raise TableError(f"'{file}' has {len(boreholes)} boreholes\n"
                          "  allowed: two or more, at different x")
     for name, levels in tops.items():
-        if min(levels, key=levels.get) != END or len(levels.keys() - {WATER}) < 2:
+        soils = [level for soil, level in levels.items() if soil not in (END, WATER)]
+        if END not in levels or not soils or max(soils) <= levels[END]:
             raise TableError(f"the borehole '{name}' has no soil above the row '{END}'\n"
+                             f"  remedy:  give the depth that was reached as the soil '{END}'")
+        if min(soils) < levels[END]:
+            raise TableError(f"the borehole '{name}' has a soil below the row '{END}'\n"
                              f"  remedy:  give the depth that was reached as the soil '{END}'")
     return boreholes
 

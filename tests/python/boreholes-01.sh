@@ -42,6 +42,30 @@ refused order.csv 'different orders'
 grep -v 'B[23]' table.csv >one.csv
 refused one.csv 'two or more'
 sed 's/, 8, fill/, eight, fill/' table.csv >word.csv
-refused word.csv 'no table of boreholes'
+refused word.csv "line 5 of 'word.csv' has x = '0' and top = 'eight'"
 sed 's/fill/"fill\nend"/' table.csv >name.csv
 refused name.csv 'may not be called'
+sed 's/, 8, fill/, 8,5, fill/' table.csv >comma.csv
+refused comma.csv "line 5 of 'comma.csv' has 5 values"
+grep -q 'decimal points' said
+sed 's/, 8, fill/, fill/' table.csv >missing.csv
+refused missing.csv "line 5 of 'missing.csv' has 3 values"
+tr , ';' <table.csv >semicolons.csv
+refused semicolons.csv 'separate values by commas'
+sed 's/fill/Names/' table.csv >names.csv
+refused names.csv "not 'Names'"
+sed 's/fill/Clay/' table.csv >capitals.csv
+refused capitals.csv "line 5 of 'capitals.csv': 'Clay' differs from 'clay' only in capitals"
+sed 's/B3, 40, -8, end/B3, 40, -1, end/' table.csv >below.csv
+refused below.csv "'B3' has a soil below the row 'end'"
+# Rows without text are skipped; water may be below the depth that was reached; a soil that is
+# met at this depth counts, before and after its row.
+{ sed 's/B3, 40, 0, water/B3, 40, -9, water/' table.csv; echo; echo ' , ,,'; } >dry.csv
+boreholes dry.csv dry.prm
+grep -qF 'Table = 0, 1; 40, -9' dry.prm
+for rows in 'B3, 40, -2, sand\nB3, 40, -2, end' 'B3, 40, -2, end\nB3, 40, -2, sand'; do
+  { grep -v 'B3, 40, -' table.csv; printf "$rows\n"; } >met.csv
+  rm -f met.prm
+  boreholes met.csv met.prm
+  grep -qF '0, -3; 20, -2; 40, -2' met.prm
+done
