@@ -112,16 +112,16 @@ def order_of(boreholes: list[tuple[float, dict[str, float]]]) -> list[str]:
 
 def scene_of(file: str | os.PathLike) -> str:
     """Writes the parameter file of a table of boreholes. Where a borehole does not meet a
-    soil, its layer has no thickness there."""
+    soil, its layer has no thickness there; below its end, the last soil that it met goes on."""
     boreholes = boreholes_of(file)
     names = order_of(boreholes)
     lines = {name: [] for name in names}
+    bottom = min(levels[END] for _, levels in boreholes)
     for x, levels in boreholes:
-        below = levels[END]
+        below = bottom
         for name in reversed(names):
             below = levels.get(name, below)
             lines[name].append((x, below))
-    bottom = min(levels[END] for _, levels in boreholes)
     ground = lines[names[0]]
     size = max(boreholes[-1][0] - boreholes[0][0], max(y for _, y in ground) - bottom)
     outline = without_doubles([(ground[0][0], bottom), (ground[-1][0], bottom), *ground[::-1]],

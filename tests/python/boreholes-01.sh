@@ -29,6 +29,12 @@ done
   --set 'Analysis/Kind = steps' --set 'Discretisation/Method = FEM' \
   --set 'Loading/Stages = weight' --set 'Loading/weight/Duration = 1'
 grep -q '"sand"' model/model.json
+# Below the end of a borehole its last soil goes on to the bottom.
+sed '/B3, 40, -2, sand/d;s/B3, 40, -8, end/B3, 40, -5, end/' table.csv >short.csv
+boreholes short.csv short.prm
+for line in 'Region below = 0, 4; 20, 4; 40, 4' 'Region below = 0, -3; 20, -2; 40, -10'; do
+  grep -qF "$line" <(tr -s ' ' <short.prm) || { cat short.prm; exit 1; }
+done
 # Refused, and nothing is written.
 refused() { # TABLE WORDS
   if boreholes "$1" none.prm 2>said; then exit 1; fi
