@@ -145,7 +145,7 @@ def main(arguments: list[str], prog: str) -> int:
         if options.scene.exists():
             raise TableError(f"'{options.scene}' exists\n  remedy:  give another name")
         write_whole(options.scene, scene_of(options.table))
-    except TableError as error:
+    except (TableError, OSError) as error:
         print(f"error: {error}", file=sys.stderr)
         return 1
     return 0

@@ -289,10 +289,9 @@ def main(arguments: list[str], prog: str) -> int:
     try:
         if options.scene.exists():
             raise DrawingError(f"'{options.scene}' exists\n  remedy:  give another name")
-        text_of_scene = scene_of(options.drawing, UNITS.get(options.unit), options.body,
-                                 options.water, options.holes)
-        write_whole(options.scene, text_of_scene)
-    except DrawingError as error:
+        write_whole(options.scene, scene_of(options.drawing, UNITS.get(options.unit),
+                                            options.body, options.water, options.holes))
+    except (DrawingError, OSError) as error:
         print(f"error: {error}", file=sys.stderr)
         return 1
     return 0

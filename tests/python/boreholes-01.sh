@@ -75,3 +75,7 @@ for rows in 'B3, 40, -2, sand\nB3, 40, -2, end' 'B3, 40, -2, end\nB3, 40, -2, sa
   boreholes met.csv met.prm
   grep -qF '0, -3; 20, -2; 40, -2' met.prm
 done
+# What cannot be written is an error in a line.
+if boreholes table.csv nowhere/new.prm 2>said; then exit 1; fi
+grep -q '^error: .*nowhere' said
+[ "$(wc -l <said)" = 1 ]

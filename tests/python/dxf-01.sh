@@ -57,3 +57,6 @@ fails dxf metres.dxf metres.prm 2>said
 grep -q exists said
 fails dxf metres.prm none.prm 2>said
 grep -q 'no DXF file' said
+fails dxf metres.dxf nowhere/new.prm 2>said
+grep -q '^error: .*nowhere' said
+[ "$(wc -l <said)" = 1 ]
