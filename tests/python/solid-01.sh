@@ -85,7 +85,7 @@ vertices = vertices_of(points)
 first = np.unique(vertices, return_index=True)[1]
 nodes = vertices[cells]
 height = points[first][:, 1] / 8.
-fields = [(np.where(flows, 1., -1.), style.RATES), (height, style.STEPS)]
+fields = [("cell", np.where(flows, 1., -1.), style.RATES), ("point", height, style.STEPS)]
 images = rendered.images_of(points[first], nodes, fields, view, box, cut)
 assert len(images) == (2 if sys.argv[1] else len(images))
 if sys.argv[1]:
@@ -115,3 +115,21 @@ if sys.argv[1]:
 os.environ["DISPLAY"] = ":12345"
 assert len(rendered.images_of(points[first], nodes, fields, view, box)) in (0, 2)
 PYTHON
+# Why VTK has drawn nothing is said in a line: of a module that ends the process, and of one that
+# takes too long.
+mkdir -p broken/vtkmodules slow/vtkmodules
+echo 'raise SystemExit("no such renderer")' >broken/vtkmodules/__init__.py
+echo 'import time; time.sleep(60)' >slow/vtkmodules/__init__.py
+for fake in broken slow; do
+  PYTHONPATH=$root/python:$fake /usr/bin/python3 -B - 2>said <<'PYTHON'
+import numpy as np
+from geocone import style
+from geocone.plots import rendered, solid
+rendered.TIME_LIMIT = 2.
+rendered.can_render = lambda: True
+assert rendered.images_of(np.eye(4, 3), np.array([[0, 1, 2, 3]]), [("cell", [1.], style.RATES)],
+                          solid.View(1., 1.), ([0., 0.], [1., 1.])) == []
+PYTHON
+  [ "$(wc -l <said)" = 1 ]
+  grep -q "$([ $fake = broken ] && echo 'exit code 1: no such renderer' || echo 'more than 2 s')" said
+done

@@ -3,14 +3,16 @@
 """Images of the cells of a body in space by VTK, where it is installed.
 
 VTK ends a process that finds no display, so it runs in one of its own: this file as a program,
-`rendered.py FOLDER`, which reads scene.npz there and writes images.npy."""
+`rendered.py TIME_LIMIT`, which reads a scene (npz) from its input and writes images (npy) to its
+output."""
 
 import os
+import re
+import signal
 import subprocess
 import sys
-import tempfile
 from importlib.util import find_spec
-from pathlib import Path
+from io import BytesIO
 
 import numpy as np
 
@@ -19,6 +21,7 @@ TIME_LIMIT = 120.  # s
 TYPES = {4: 10, 8: 12}  # of cells in VTK, by corners
 SHARP = 35.  # degrees between faces with an edge of the body in between
 WITHOUT_DISPLAY = 9, 4  # the first version that draws without a display
+NO_DISPLAY = 3  # exit code
 
 
 def can_render():
@@ -30,8 +33,8 @@ def images_of(points, cells, fields, view, box, cut=None):
     """The cells as seen in parallel projection, in the colours of each of some fields.
 
     @param points, cells  those with a common corner share its point
-    @param fields values, of each cell or each point, as parts of the scale of colours (below
-        0: the colour for what is below the scale), and colormaps
+    @param fields "cell" or "point", of which each has a value; the values as parts of the scale
+        of colours (below 0: the colour for what is below the scale); and colormaps
     @param view, box  projection (solid.View), and the corners (low, high) of the picture in it
     @param cut corner (3) of the quarter that is cut out, whose sides are normal to x and z, on
         the side of the eye; None: nothing is
@@ -40,30 +43,57 @@ def images_of(points, cells, fields, view, box, cut=None):
         return []
     arrays = {"points": points, "cells": cells, "box": np.array(box), "right": view.right,
               "up": view.up, "towards": view.towards, "signs": view.signs,
-              "cut": [] if cut is None else cut}
-    for i, (values, colors) in enumerate(fields):
+              "cut": [] if cut is None else cut, "kinds": [kind for kind, _, _ in fields]}
+    for i, (_, values, colors) in enumerate(fields):
         arrays[f"values{i}"] = values
         arrays[f"colors{i}"] = np.concatenate([colors(np.linspace(0., 1., 256)),
                                                [colors.get_under()]])
-    with tempfile.TemporaryDirectory(prefix="geocone-") as folder:
-        np.savez(Path(folder) / "scene.npz", **arrays)
-        try:
-            done = subprocess.run([sys.executable, "-B", __file__, folder], check=False,
-                                  stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
-                                  stderr=subprocess.DEVNULL, timeout=TIME_LIMIT)
-            return list(np.load(Path(folder) / "images.npy")) if done.returncode == 0 else []
-        except (OSError, ValueError, subprocess.TimeoutExpired):
-            return []
+    try:
+        scene = BytesIO()
+        np.savez(scene, **arrays)
+        # It ends by itself, even if this process has been ended; else a little later.
+        done = subprocess.run([sys.executable, "-B", __file__, str(TIME_LIMIT)], check=False,
+                              input=scene.getvalue(), capture_output=True,
+                              timeout=TIME_LIMIT + 10.)
+        if done.returncode == 0:
+            return list(np.load(BytesIO(done.stdout)))
+        why = why_not(done)
+    except subprocess.TimeoutExpired:
+        why = too_long()
+    except (OSError, EOFError, ValueError) as error:
+        why = str(error)
+    if why:
+        print(f"warning: pictures without VTK: {why}", file=sys.stderr)
+    return []
 
 
-def render(folder):
-    """Reads a scene in a folder and writes its images there."""
+def too_long():
+    """What is said of the time limit."""
+    return f"it took more than {TIME_LIMIT:g} s"
+
+
+def why_not(done):
+    """Why a process has drawn nothing; nothing where there is no display, as on servers."""
+    if done.returncode == NO_DISPLAY:
+        return ""
+    if done.returncode == -signal.SIGALRM:
+        return too_long()
+    colors = r"\x1b\[[0-9;]*m"  # of a terminal
+    said = re.sub(colors, "", done.stderr.decode(errors="replace")).split("\n")
+    last = next((line.strip() for line in reversed(said) if line.strip()), "")
+    how = (f"it ended with the exit code {done.returncode}" if done.returncode > 0 else
+           f"it was ended by the signal {-done.returncode}")
+    return f"{how}: {last}" if last else how
+
+
+def render(source):
+    """Reads a scene from a stream. @return its images (n, rows, columns, 3)"""
     # pylint: disable=import-outside-toplevel
     from vtkmodules.vtkCommonCore import vtkVersion
     version = vtkVersion()
     if not os.environ.get("DISPLAY") and (version.GetVTKMajorVersion(),
                                           version.GetVTKMinorVersion()) < WITHOUT_DISPLAY:
-        sys.exit("no display")
+        sys.exit(NO_DISPLAY)
     import vtkmodules.vtkRenderingOpenGL2  # noqa: F401 - registers the renderer
     from vtkmodules.util import numpy_support
     from vtkmodules.vtkCommonCore import vtkLookupTable, vtkPoints
@@ -77,7 +107,7 @@ def render(folder):
                                              vtkRenderer, vtkRenderWindow,
                                              vtkWindowToImageFilter)
 
-    scene = np.load(folder / "scene.npz")
+    scene = np.load(BytesIO(source.read()))
     places, cells = scene["points"], scene["cells"]
     grid, points, corners = vtkUnstructuredGrid(), vtkPoints(), vtkCellArray()
     points.SetData(numpy_support.numpy_to_vtk(places, deep=True))
@@ -85,12 +115,11 @@ def render(folder):
     corners.SetCells(len(cells), numpy_support.numpy_to_vtkIdTypeArray(numbers, deep=True))
     grid.SetPoints(points)
     grid.SetCells(TYPES[cells.shape[1]], corners)
-    n = sum(name.startswith("values") for name in scene.files)
-    for i in range(n):
+    kinds = scene["kinds"]
+    for i, kind in enumerate(kinds):
         values = numpy_support.numpy_to_vtk(scene[f"values{i}"].astype(float), deep=True)
         values.SetName(str(i))
-        (grid.GetCellData() if values.GetNumberOfTuples() == len(cells) else
-         grid.GetPointData()).AddArray(values)
+        (grid.GetCellData() if kind == "cell" else grid.GetPointData()).AddArray(values)
 
     def output(filter_, *inputs):
         for data in inputs:
@@ -220,9 +249,9 @@ def render(folder):
     window.SetSize(*map(int, pixels))
     window.AddRenderer(renderer)
     images = []
-    for i in range(n):
+    for i, kind in enumerate(kinds):
         painter.SetLookupTable(colors_of(i))
-        if surface.GetOutput().GetCellData().HasArray(str(i)):
+        if kind == "cell":
             painter.SetScalarModeToUseCellFieldData()
         else:
             painter.SetScalarModeToUsePointFieldData()
@@ -235,9 +264,14 @@ def render(folder):
         image = numpy_support.vtk_to_numpy(grab.GetOutput().GetPointData().GetScalars())
         columns, rows, _ = grab.GetOutput().GetDimensions()
         images.append(image.reshape(rows, columns, -1)[::-1, :, :3])
-    np.save(folder / "images.npy", images)
+    return np.array(images)
 
 
 if __name__ == "__main__":
+    signal.setitimer(signal.ITIMER_REAL, float(sys.argv[1]))
     sys.path.pop(0)  # the folder of this file, whose names are those of the package
-    render(Path(sys.argv[1]))
+    with os.fdopen(os.dup(1), "wb") as stream:
+        os.dup2(2, 1)  # what libraries print is none of the images
+        drawn = BytesIO()
+        np.save(drawn, render(sys.stdin.buffer))
+        stream.write(drawn.getvalue())

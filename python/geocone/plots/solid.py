@@ -172,9 +172,9 @@ def draw_cells(run, field, rates, motion, most, label):
     vertices = vertices_of(points)
     first = np.unique(vertices, return_index=True)[1]
     images = images_of(points[first], vertices[cells], [
-        (part_of(of_rates, per_cell(field, rates)), RATES),
-        (part_of(of_rates, recovered(field, rates)[first]), RATES),
-        (part_of(of_motion, speed[first]), STEPS)], view, box, cut)
+        ("cell", part_of(of_rates, per_cell(field, rates)), RATES),
+        ("point", part_of(of_rates, recovered(field, rates)[first]), RATES),
+        ("point", part_of(of_motion, speed[first]), STEPS)], view, box, cut)
     figure, axes_of = panels(3 if images else 2, box)
     for axes, image in zip(axes_of, images):
         add_image(axes, image, box)
