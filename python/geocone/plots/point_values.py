@@ -47,10 +47,12 @@ def vertices_of(points):
     return np.unique(places, axis=0, return_inverse=True)[1].ravel()
 
 
-def recovered(field, values):
+def recovered(field, values, vertices=None):
     """Values of the cells, recovered at the nodes: means over the cells of a node, weighted
-    by their areas or volumes."""
-    vertices = vertices_of(field.points)
+    by their areas or volumes.
+
+    @param vertices of the points (vertices_of), where they are known"""
+    vertices = vertices_of(field.points) if vertices is None else vertices
     weights = np.repeat(sizes_of(field), field.cells.shape[1])
     corners = field.cells.ravel()
     total = np.bincount(vertices[corners], weights)

@@ -14,7 +14,7 @@ from matplotlib.patheffects import withStroke
 from geocone.plots.answer import heading, moment
 from geocone.plots.point_values import (STRAIN, per_cell, recovered, values_of, vertices_of,
                                         view_of)
-from geocone.plots.rendered import images_of
+from geocone.plots.rendered import can_render, images_of
 from geocone.style import (RATES, SHOWN, STEPS, add_bar, areas_of, level, panels, save,
                            sizes_of)
 
@@ -77,13 +77,14 @@ def facing(faces, normals, view):
     return faces[shown], normals[shown]
 
 
-def chosen_view(points, cells, rates):
+def chosen_view(points, cells, rates, vertices=None):
     """From where most of the flow is seen. If it is hidden, the body is opened: cells in
     front of that of the greatest rate are taken away.
 
+    @param vertices of the points (vertices_of), where they are known
     @return the view, the faces that it shows, their normals, and the corner of the cut, None
         if the body is not opened"""
-    vertices = vertices_of(points)
+    vertices = vertices_of(points) if vertices is None else vertices
     views = [View(x, z) for x in (1., -1.) for z in (1., -1.)]
     outer = outer_faces(points, cells, vertices)
 
@@ -163,18 +164,21 @@ def draw_cells(run, field, rates, motion, most, label):
     name, unit, vectors = motion
     points, cells = field.points, field.cells
     speed = np.linalg.norm(vectors, axis=1)
-    view, faces, normals, cut = chosen_view(points, cells, rates)
+    vertices = vertices_of(points)
+    view, faces, normals, cut = chosen_view(points, cells, rates, vertices)
     size = speed[faces].mean(axis=1)
     box = box_of_flow(view.seen(points)[faces],
                       (rates[faces[:, 0]] > SHOWN * most) | (size > 0.02 * size.max()))
     of_rates = LogNorm(SHOWN * most, most)
     of_motion = norm_of(level(size, areas_of(points[faces])))
-    vertices = vertices_of(points)
-    first = np.unique(vertices, return_index=True)[1]
-    images = images_of(points[first], vertices[cells], [
-        ("cell", part_of(of_rates, per_cell(field, rates)), RATES),
-        ("point", part_of(of_rates, recovered(field, rates)[first]), RATES),
-        ("point", part_of(of_motion, speed[first]), STEPS)], view, box, cut)
+    images = []
+    if can_render():
+        first = np.unique(vertices, return_index=True)[1]
+        smooth = recovered(field, rates, vertices)[first]
+        images = images_of(points[first], vertices[cells], [
+            ("cell", part_of(of_rates, per_cell(field, rates)), RATES),
+            ("point", part_of(of_rates, smooth), RATES),
+            ("point", part_of(of_motion, speed[first]), STEPS)], view, box, cut)
     figure, axes_of = panels(3 if images else 2, box)
     for axes, image in zip(axes_of, images):
         add_image(axes, image, box)
