@@ -144,7 +144,7 @@ def is_in_part(model, absent, done):
 
 
 def remark_of(model, absent, done=()):
-    """What a picture of the body does not show, for its title."""
+    """Names what a picture of the body does not show, for its title."""
     return ("\nwithout the faces inside of the mesh"
             if is_in_part(model, absent, done) and not grid_of(model) else "")
 

@@ -68,7 +68,7 @@ def images_of(points, cells, fields, view, box, cut=None):
 
 
 def too_long():
-    """What is said of the time limit."""
+    """Says that the time limit was exceeded."""
     return f"it took more than {TIME_LIMIT:g} s"
 
 
