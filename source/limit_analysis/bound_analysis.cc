@@ -228,6 +228,27 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
+  BoundAnalysis::set_factor(BoundLevel &level, const SafetySearch::Level &found)
+  {
+    level.lower           = found.lower.value_or(0.);
+    level.upper           = found.upper.value_or(0.);
+    level.lower_certified = found.lower.has_value();
+    level.upper_certified = found.upper.has_value();
+    level.gap = level.certified() ? level.upper / level.lower - 1. : 0.;
+    level.iterations_lower = found.iterations[SafetySearch::lower];
+    level.iterations_upper = found.iterations[SafetySearch::upper];
+  }
+
+  LoadBracket
+  BoundAnalysis::described(LoadBracket bracket) const
+  {
+    bracket.name = bounded();
+    bracket.unit = load_choice().is_reaction() ? load_choice().unit() : "";
+    bracket.is_associated = !load_choice().non_associated();
+    return bracket;
+  }
+
+  void
   BoundAnalysis::check_finite(const double bounds)
   {
     if (!std::isfinite(bounds))

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
-#include <geocone/base/stop_request.h>
 #include <geocone/limit_analysis/bound_fields.h>
 #include <geocone/limit_analysis/fans_of_jumps.h>
 #include <geocone/limit_analysis/limit_analysis.h>
@@ -207,21 +206,17 @@ namespace geocone::GEOCONE_DIM
   BoundLevel
   LimitAnalysis::bound_factor()
   {
-    reduced = reduction.on_mesh(
+    // A stopped level is repeated.
+    StrengthReduction next = reduction;
+    reduced                = next.on_mesh(
       [&](const double F) {
         return bounded_load.reduced(scene, *triangles, F);
       },
       inner_tolerance());
-    const StrengthReduction::Level &found = reduced;
-    bounds                                = std::move(reduced.bounds);
-    BoundLevel level                      = level_of(1.);
-    level.lower           = found.lower.value_or(0.);
-    level.upper           = found.upper.value_or(0.);
-    level.lower_certified = found.lower.has_value();
-    level.upper_certified = found.upper.has_value();
-    level.gap = level.certified() ? level.upper / level.lower - 1. : 0.;
-    level.iterations_lower = found.iterations[SafetySearch::lower];
-    level.iterations_upper = found.iterations[SafetySearch::upper];
+    reduction        = next;
+    bounds           = std::move(reduced.bounds);
+    BoundLevel level = level_of(1.);
+    set_factor(level, reduced);
     return level;
   }
 
@@ -269,18 +264,7 @@ namespace geocone::GEOCONE_DIM
       triangles.emplace(next_mesh());
     const double  in_mesh = mesh_time.cpu_time();
     dealii::Timer time;
-    BoundLevel    level;
-    // A stopped level is repeated.
-    const StrengthReduction before = reduction;
-    try
-      {
-        level = reduces_strength() ? bound_factor() : bound_load();
-      }
-    catch (const Stopped &)
-      {
-        reduction = before;
-        throw;
-      }
+    BoundLevel    level = reduces_strength() ? bound_factor() : bound_load();
     level.cpu_seconds  = time.cpu_time();
     level.mesh_seconds = in_mesh;
     add_level(level, now);
@@ -359,11 +343,8 @@ namespace geocone::GEOCONE_DIM
   LoadBracket
   LimitAnalysis::bracket() const
   {
-    LoadBracket best   = certified_by(limit_output.all_records());
-    best.name          = bounded();
-    best.unit          = bounded_load.is_reaction() ? bounded_load.unit() : "";
-    best.is_associated = !bounded_load.non_associated();
-    best.davis         = davis;
+    LoadBracket best = described(certified_by(limit_output.all_records()));
+    best.davis       = davis;
     return best;
   }
 

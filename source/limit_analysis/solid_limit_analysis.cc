@@ -186,13 +186,7 @@ namespace geocone::GEOCONE_DIM
       upper = *reduced.proof_upper;
     BoundLevel level = level_of(
       figures_of(upper), figures_of(lower), tetrahedra->cells.size(), 1.);
-    level.lower           = found.lower.value_or(0.);
-    level.upper           = found.upper.value_or(0.);
-    level.lower_certified = found.lower.has_value();
-    level.upper_certified = found.upper.has_value();
-    level.gap = level.certified() ? level.upper / level.lower - 1. : 0.;
-    level.iterations_lower = found.iterations[SafetySearch::lower];
-    level.iterations_upper = found.iterations[SafetySearch::upper];
+    set_factor(level, found);
     return level;
   }
 
@@ -229,11 +223,7 @@ namespace geocone::GEOCONE_DIM
   LoadBracket
   SolidLimitAnalysis::bracket() const
   {
-    LoadBracket best   = best_of(limit_output.all_records());
-    best.name          = bounded();
-    best.unit          = load.is_reaction() ? load.unit() : "";
-    best.is_associated = !load.non_associated();
-    return best;
+    return described(best_of(limit_output.all_records()));
   }
 
   void

@@ -6,6 +6,7 @@
 
 #include <geocone/limit_analysis/limit_output.h>
 #include <geocone/limit_analysis/load_choice.h>
+#include <geocone/limit_analysis/safety_search.h>
 #include <geocone/mesh/mesh_parameters.h>
 #include <geocone/run/simulation.h>
 
@@ -99,6 +100,16 @@ namespace geocone::GEOCONE_DIM
              const Side        &lower,
              const unsigned int n_cells,
              const double       unit);
+
+    /** Replaces the bounds on the load of a level by those on the factor of
+     *  safety. */
+    static void
+    set_factor(BoundLevel &level, const SafetySearch::Level &found);
+
+    /** Adds the name, the unit and the flow rule of the analysis to a
+     *  bracket. */
+    LoadBracket
+    described(LoadBracket bracket) const;
 
     /** Checks that the sum of the two bounds is finite.
      *  @param bounds sum of both bounds on the load @throws StepFailure if the sum is not
