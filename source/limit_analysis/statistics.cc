@@ -3,41 +3,14 @@
 
 #include <geocone/limit_analysis/statistics.h>
 
+#include <boost/math/special_functions/beta.hpp>
+#include <boost/math/special_functions/erf.hpp>
+
 #include <cmath>
 #include <random>
 
 namespace geocone
 {
-  namespace
-  {
-    /** Root of an increasing function between @p a and @p b, by bisection to rounding. */
-    template <typename Function>
-    double
-    root_between(double a, double b, const Function &f)
-    {
-      for (unsigned int i = 0; i < 200; ++i)
-        {
-          const double middle = a + (b - a) / 2.;
-          if (middle == a || middle == b)
-            break;
-          (f(middle) < 0. ? a : b) = middle;
-        }
-      return a + (b - a) / 2.;
-    }
-
-    /** Probability of at most @p k events in @p n trials of probability p. */
-    double
-    at_most(const unsigned int k, const unsigned int n, const double p)
-    {
-      double sum = 0.;
-      for (unsigned int i = 0; i <= k; ++i)
-        sum += std::exp(std::lgamma(n + 1.) - std::lgamma(i + 1.) -
-                        std::lgamma(n - i + 1.) + i * std::log(p) +
-                        (n - i) * std::log1p(-p));
-      return sum;
-    }
-  } // namespace
-
   double
   normal_distribution(const double z)
   {
@@ -47,11 +20,7 @@ namespace geocone
   double
   normal_quantile(const double p)
   {
-    // The tail near 0 is not subject to cancellation.
-    if (p > 0.5)
-      return -normal_quantile(1. - p);
-    return root_between(
-      -40., 0.5, [p](const double z) { return normal_distribution(z) - p; });
+    return -M_SQRT2 * boost::math::erfc_inv(2. * p);
   }
 
   std::array<double, 2>
@@ -59,16 +28,12 @@ namespace geocone
                   const unsigned int trials,
                   const double       confidence)
   {
-    const double tail = (1. - confidence) / 2.;
-    const double lower =
-      events == 0 ? 0. : root_between(0., 1., [&](const double p) {
-        return 1. - at_most(events - 1, trials, p) - tail;
-      });
-    const double upper =
-      events == trials ? 1. : root_between(0., 1., [&](const double p) {
-        return tail - at_most(events, trials, p);
-      });
-    return {{lower, upper}};
+    const double tail = (1. - confidence) / 2., others = trials - events;
+    // The probability of k events or more is the incomplete beta function.
+    return {
+      {events == 0 ? 0. : boost::math::ibeta_inv(events, others + 1., tail),
+       events == trials ? 1.
+                        : boost::math::ibetac_inv(events + 1., others, tail)}};
   }
 
   std::vector<double>
