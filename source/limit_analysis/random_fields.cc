@@ -147,6 +147,12 @@ namespace geocone::GEOCONE_DIM
                        "cohesion",
                        "tan(phi) | unit weight of a material without cohesion",
                        "give " + of_material + "Cohesion");
+    if (chosen == RandomProperty::unit_weight && !scene.gravity.acts())
+      throw InputError(parameter("Property"),
+                       "unit weight",
+                       "cohesion | tan(phi) without gravity",
+                       "give Gravity/Acceleration and " + of_material +
+                         "Density");
     if (chosen != RandomProperty::unit_weight && std::isfinite(cone.cut_off))
       throw InputError(of_material + "Tensile strength",
                        "set",
@@ -198,6 +204,11 @@ namespace geocone::GEOCONE_DIM
         format("a mesh of %zu triangles", cells.size()),
         format("at most %u in a material with a random field", most),
         "take larger cells: undecided samples are refined");
+  }
+
+  void
+  RandomField::factorise(const Triangles &triangles)
+  {
     root = pivoted_root(cells.size(),
                         [&](const unsigned int i, const unsigned int j) {
                           return covariance(triangles.centre(cells[i]) -
@@ -255,13 +266,11 @@ namespace geocone::GEOCONE_DIM
       field->prepare_on(triangles);
   }
 
-  unsigned int
-  RandomFields::most_numbers() const
+  void
+  RandomFields::factorise(const Triangles &triangles)
   {
-    unsigned int most = 0;
     for (const auto &field : list)
-      most = std::max(most, field->rank());
-    return most;
+      field->factorise(triangles);
   }
 
   RandomFactors

@@ -29,11 +29,14 @@ namespace geocone::GEOCONE_DIM
 
     constexpr std::size_t most_mechanisms = 100;
 
-    /** Marks the triangles with most of a refinement indicator, a third at most. */
+    /** Marks the triangles with most of a refinement indicator, a third at most.
+     *  @return empty if there is nothing to be refined */
     std::vector<bool>
-    largest(const std::vector<double> &indicator)
+    largest(std::vector<double> indicator)
     {
-      constexpr double          part = 0.8;
+      constexpr double part = 0.8;
+      for (double &of_cell : indicator)
+        of_cell = std::isfinite(of_cell) ? std::max(of_cell, 0.) : 0.;
       std::vector<unsigned int> order(indicator.size());
       std::iota(order.begin(), order.end(), 0U);
       std::sort(order.begin(), order.end(), [&](const auto a, const auto b) {
@@ -41,6 +44,8 @@ namespace geocone::GEOCONE_DIM
       });
       const double total =
         std::accumulate(indicator.begin(), indicator.end(), 0.);
+      if (total == 0.)
+        return {};
       std::vector<bool> marked(indicator.size(), false);
       double            sum = 0.;
       for (std::size_t i = 0; i <= order.size() / 3 && sum <= part * total; ++i)
@@ -98,8 +103,7 @@ namespace geocone::GEOCONE_DIM
   void
   ReliabilityOutput::write_fields(const double number, const FieldTable &table)
   {
-    if (with_fields)
-      fields->write(table, path, number, comm);
+    fields->write(table, path, number, comm);
   }
 
   void
@@ -165,21 +169,23 @@ namespace geocone::GEOCONE_DIM
                        "set Mesh/Cells = triangles");
     first_mesh.emplace(fitted_mesh(mesh_parameters, scene, comm));
     const Triangles triangles(first_mesh->mesh);
-    bounded_load.prepare_reduction(scene, triangles, kind_word());
-    fields.prepare(scene);
-    fields.prepare_on(triangles);
-    print_start(options,
-                triangles.cells.size(),
-                format("; %u samples", n_samples),
-                dealii::BoundingBox<dim>(triangles.vertices));
     if (triangles.cells.size() > most_cells)
       throw InputError("Analysis/Maximum cells",
                        most_cells,
                        format("%zu at least, the triangles of the mesh",
                               triangles.cells.size()),
                        "raise it, or take larger cells");
+    bounded_load.prepare_reduction(scene, triangles, kind_word());
+    fields.prepare(scene);
+    fields.prepare_on(triangles);
     first = std::make_unique<Body>(
       scene, bounded_load, *first_mesh, triangles.cells.size());
+    print_start(options,
+                triangles.cells.size(),
+                "",
+                dealii::BoundingBox<dim>(triangles.vertices));
+    if (!options.dry_run)
+      fields.factorise(triangles);
     std::vector<std::string> warnings;
     if (bounded_load.non_associated())
       warnings.push_back("flow is taken as associated: with less dilatancy a "
@@ -197,10 +203,9 @@ namespace geocone::GEOCONE_DIM
   Reliability::headline(const std::string &name) const
   {
     return name + format(": probability of failure by %u samples on %zu "
-                         "triangles, with up to %u random numbers each",
+                         "triangles",
                          n_samples,
-                         first->triangles.cells.size(),
-                         fields.most_numbers());
+                         first->triangles.cells.size());
   }
 
   Json
@@ -223,54 +228,49 @@ namespace geocone::GEOCONE_DIM
     return false;
   }
 
-  std::optional<NestedMesh>
+  std::vector<bool>
   Reliability::solve_on(const Body          &body,
-                        const NestedMesh    &nested,
                         const RandomFactors &factors,
-                        SampleRecord        &record)
+                        Sample              &sample) const
   {
-    SampleVerdict verdict = body.sampled.judge(factors, inner_tolerance());
+    SampleRecord &record  = sample.record;
+    SampleVerdict verdict = body.sampled.judge(factors, tolerance);
     record.factorisations += verdict.factorisations;
     record.cells = body.triangles.cells.size();
     // Bounds of all meshes are valid.
     record.lower   = std::fmax(record.lower, verdict.lower);
     record.upper   = std::fmin(record.upper, verdict.upper);
     record.verdict = static_cast<int>(verdict.kind);
-    if (verdict.kind == SampleVerdict::Kind::fails && verdict.mechanism)
-      {
-        if (mechanisms.size() < most_mechanisms)
-          mechanisms.push_back(std::move(*verdict.mechanism));
-        else
-          mechanisms[oldest++ % most_mechanisms] =
-            std::move(*verdict.mechanism);
-      }
-    if (verdict.refinement_indicator.empty())
-      return std::nullopt;
-    return bisected(nested, largest(verdict.refinement_indicator));
+    if (verdict.mechanism)
+      sample.found.push_back(std::move(*verdict.mechanism));
+    return largest(std::move(verdict.refinement_indicator));
   }
 
-  SampleRecord
-  Reliability::solve(const unsigned int number)
+  Reliability::Sample
+  Reliability::solve(const unsigned int number) const
   {
     dealii::Timer       time;
     const RandomFactors factors = fields.sample(number);
-    SampleRecord        record;
-    record.number = number;
-    record.cells  = first->triangles.cells.size();
-    if (!fails_by_earlier(factors, record))
+    const unsigned int  n_first = first->triangles.cells.size();
+    Sample              sample;
+    sample.record.number = number;
+    sample.record.cells  = n_first;
+    if (!fails_by_earlier(factors, sample.record))
       {
-        auto nested = solve_on(*first, *first_mesh, factors, record);
-        for (unsigned int l = 1; l < most_levels && nested &&
-                                 nested->mesh.cells.size() <= most_cells;
-             ++l)
-          nested = solve_on(
-            Body(scene, bounded_load, *nested, first->triangles.cells.size()),
-            *nested,
-            factors,
-            record);
+        NestedMesh          nested = *first_mesh;
+        std::optional<Body> refined;
+        std::vector<bool>   marked = solve_on(*first, factors, sample);
+        for (unsigned int l = 1; l < most_levels && !marked.empty(); ++l)
+          {
+            nested = bisected(nested, marked);
+            if (nested.mesh.cells.size() > most_cells)
+              break;
+            refined.emplace(scene, bounded_load, nested, n_first);
+            marked = solve_on(*refined, factors, sample);
+          }
       }
-    record.cpu_seconds = time.cpu_time();
-    return record;
+    sample.record.cpu_seconds = time.cpu_time();
+    return sample;
   }
 
   Simulation::StepOutcome
@@ -286,25 +286,32 @@ namespace geocone::GEOCONE_DIM
         for (unsigned int s = first + mpi::this_mpi_process(comm); s <= last;
              s += n_ranks)
           {
-            SampleRecord record = solve(s);
-            of_rank(record);
+            Sample sample = solve(s);
+            of_rank(sample);
           }
       }
     catch (const Stopped &)
       {} // all ranks are together here
     stop_if_asked(comm);
-    std::vector<SampleRecord> records;
+    std::vector<Sample> samples;
     for (const auto &values : mpi::all_gather(comm, of_rank.values()))
       for (StateRow row(values); !row.at_end();)
         {
-          records.emplace_back();
-          row(records.back());
+          samples.emplace_back();
+          row(samples.back());
         }
-    std::sort(records.begin(), records.end(), [](const auto &a, const auto &b) {
-      return a.number < b.number;
+    std::sort(samples.begin(), samples.end(), [](const auto &a, const auto &b) {
+      return a.record.number < b.record.number;
     });
-    for (const SampleRecord &record : records)
-      reliability_output.add_record(record);
+    for (Sample &sample : samples)
+      {
+        reliability_output.add_record(sample.record);
+        for (Mechanism &mechanism : sample.found)
+          if (mechanisms.size() < most_mechanisms)
+            mechanisms.push_back(std::move(mechanism));
+          else
+            mechanisms[oldest++ % most_mechanisms] = std::move(mechanism);
+      }
     now.time = last;
     return last == n_samples ? StepOutcome::stage : StepOutcome::well;
   }
@@ -373,15 +380,13 @@ namespace geocone::GEOCONE_DIM
       log.warn(format("%u samples are undecided; raise 'Analysis/Maximum "
                       "cells' or 'Maximum levels', or take smaller cells",
                       found.n_undecided));
-    // The first sample that fails, with its mechanism.
-    const auto &records = reliability_output.all_records();
-    const auto  failed =
-      std::find_if(records.begin(), records.end(), [](const auto &record) {
-        return record.verdict < 0;
-      });
-    if (failed == records.end())
+    if (!reliability_output.writes_fields())
       return;
-    write_sample(failed->number);
+    // The first sample that fails by a mechanism of its own on the first mesh.
+    for (const SampleRecord &record : reliability_output.all_records())
+      if (record.verdict < 0 && record.factorisations > 0 &&
+          record.cells == first->triangles.cells.size())
+        return write_sample(record.number);
   }
 
   void
@@ -394,7 +399,7 @@ namespace geocone::GEOCONE_DIM
     try
       {
         if (is_first)
-          q = on.sampled.velocities(factors, inner_tolerance());
+          q = on.sampled.velocities(factors, tolerance);
       }
     catch (const Stopped &)
       {} // all ranks are together here

@@ -141,13 +141,13 @@ namespace geocone::GEOCONE_DIM
       certified_upper(mean, problem, tolerance, 1.);
     verdict.factorisations += upper.solution.factorisations;
     if (upper.bound.certified)
+      verdict.upper = upper.bound.load;
+    if (verdict.upper < 1.)
       {
-        verdict.upper = upper.bound.load;
+        verdict.kind = Kind::fails;
         if (factors.tan_phi.empty())
           verdict.mechanism = mechanism_of(upper.bound.q);
       }
-    if (verdict.upper < 1.)
-      verdict.kind = Kind::fails;
     else
       verdict.refinement_indicator = uneven_gap(
         mean, gap_of_cells(problem, upper.bound, lower.bound), lower);

@@ -60,7 +60,8 @@ namespace geocone::GEOCONE_DIM
                 const std::string              &more,
                 const dealii::BoundingBox<dim> &body) const;
 
-    /** Returns the tolerance of the interior-point method, relative to the load. */
+    /** Returns the tolerance of the interior-point method, relative to the load,
+     *  that does not limit the gap. */
     double
     inner_tolerance() const
     {
@@ -197,13 +198,11 @@ namespace geocone::GEOCONE_DIM
     MeshParameters mesh_parameters;
     LimitOutput    limit_output;
 
+    double       tolerance     = 1e-3; ///< of the interior-point method
     double       gap_tolerance = 0.01;
     double       growth        = 2.;
     unsigned int most_cells    = 20000;
     unsigned int most_levels   = 12;
-
-  private:
-    double tolerance = 1e-3;
   };
 } // namespace geocone::GEOCONE_DIM
 

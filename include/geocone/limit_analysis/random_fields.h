@@ -53,11 +53,15 @@ namespace geocone::GEOCONE_DIM
     void
     prepare(const Scene &scene);
 
-    /** Factorises the covariance matrix of the field values at the centres of the
-     *  material's triangles.
-     *  @throws InputError if there are too many triangles for a dense matrix */
+    /** Selects the triangles of the material.
+     *  @throws InputError if there are too many for a dense covariance matrix */
     void
     prepare_on(const Triangles &triangles);
+
+    /** Factorises the covariance matrix of the field values at the centres of the
+     *  material's triangles, which are those of prepare_on(). */
+    void
+    factorise(const Triangles &triangles);
 
     /** Generates a sample of the random field: sets the factor of each triangle
      *  of the material.
@@ -148,18 +152,18 @@ namespace geocone::GEOCONE_DIM
     void
     prepare(const Scene &scene);
 
+    /** @name As those of each field */
+    /** @{ */
     void
     prepare_on(const Triangles &triangles);
+    void
+    factorise(const Triangles &triangles);
+    /** @} */
 
     /** Factors of the material properties in a sample. @param number of the
      *  sample, from 1 */
     RandomFactors
     sample(const unsigned int number) const;
-
-    /** Largest number of random numbers that any field requires for a
-     *  sample. */
-    unsigned int
-    most_numbers() const;
 
     unsigned int seed = 1;
 

@@ -64,8 +64,13 @@ namespace geocone::GEOCONE_DIM
     void
     prepare(const RunOptions &options);
 
-    /** Writes the field file of a sample if field output is enabled.
-     *  Collective. */
+    bool
+    writes_fields() const
+    {
+      return with_fields;
+    }
+
+    /** Writes the field file of a sample. Collective. */
     void
     write_fields(const double number, const FieldTable &table);
 
@@ -121,6 +126,11 @@ namespace geocone::GEOCONE_DIM
     topics() override;
     void
     finish(const double t) override;
+    void
+    state(StateRow &row) override
+    {
+      row(mechanisms, oldest);
+    }
 
     std::string
     kind_word() const override
@@ -176,21 +186,33 @@ namespace geocone::GEOCONE_DIM
     bool
     fails_by_earlier(const RandomFactors &factors, SampleRecord &record) const;
 
-    /** Computes the bounds for a sample on a given mesh. @return the next mesh,
-     *  if the sample is undecided and may be refined */
-    std::optional<NestedMesh>
+    /** Result of a sample, with the failure mechanism if a new one was found. */
+    struct Sample
+    {
+      SampleRecord           record;
+      std::vector<Mechanism> found; ///< one at most
+
+      void
+      state(StateRow &row)
+      {
+        row(record, found);
+      }
+    };
+
+    /** Computes the bounds for a sample on a given mesh.
+     *  @return triangles to be refined, empty if the sample is decided */
+    std::vector<bool>
     solve_on(const Body          &body,
-             const NestedMesh    &nested,
              const RandomFactors &factors,
-             SampleRecord        &record);
+             Sample              &sample) const;
 
     /** Computes the bounds for a sample on successively refined meshes until
      *  the sample is decided or the refinement limit is reached. */
-    SampleRecord
-    solve(const unsigned int number);
+    Sample
+    solve(const unsigned int number) const;
 
-    /** Writes the random factors and the failure mechanism of a sample on the
-     *  first mesh to a field file. Collective. */
+    /** Writes the random factors and the velocities of the upper bound of a sample
+     *  on the first mesh to a field file. Collective. */
     void
     write_sample(const unsigned int number);
 
@@ -210,7 +232,8 @@ namespace geocone::GEOCONE_DIM
     std::optional<NestedMesh> first_mesh;
     std::unique_ptr<Body>     first;
 
-    std::vector<Mechanism> mechanisms; ///< latest ones of this rank
+    /** Latest failure mechanisms of earlier batches, the same on all ranks. */
+    std::vector<Mechanism> mechanisms;
     std::size_t            oldest = 0; ///< of them, to be replaced next
   };
 } // namespace geocone::GEOCONE_DIM

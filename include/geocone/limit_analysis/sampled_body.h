@@ -4,6 +4,7 @@
 #ifndef geocone_limit_analysis_sampled_body_h
 #define geocone_limit_analysis_sampled_body_h
 
+#include <geocone/base/state_row.h>
 #include <geocone/limit_analysis/certified_bounds.h>
 #include <geocone/limit_analysis/random_fields.h>
 
@@ -26,6 +27,12 @@ namespace geocone::GEOCONE_DIM
      *  if the loads do no positive work. */
     double
     bound(const RandomFactors &factors) const;
+
+    void
+    state(StateRow &row)
+    {
+      row(dissipation, weight, other_dissipation, other_loads);
+    }
   };
 
   /** Certified result for a sample of a body: it fails under its loads, is
@@ -46,8 +53,8 @@ namespace geocone::GEOCONE_DIM
 
     unsigned int factorisations = 0;
 
-    /** Failure mechanism of the upper bound; empty if the bound is not
-     *  certified. */
+    /** Failure mechanism of a sample that fails; empty if the friction angle is
+     *  random. */
     std::optional<Mechanism> mechanism;
 
     /** Refinement indicator of an undecided sample (CertifiedBounds::refinement_indicator). */
