@@ -63,15 +63,18 @@ namespace geocone::GEOCONE_DIM
       LoadedOutline(const BoundScene &bound, const double load)
         : bound(bound)
         , triangles(bound.triangles)
+        , borders(triangles.edges_between_materials())
       {
         const BoundProblem     problem = lower_problem(bound);
         std::set<unsigned int> slides;
         for (const Interface &interface : bound.interfaces)
           slides.insert(interface.held.edge);
+        lines = borders;
         std::map<unsigned int, std::vector<EndAtVertex>> ends;
         for (const auto &outer : triangles.outer_edges())
           {
             const auto  &two = triangles.edges[outer.edge].vertices;
+            lines.push_back(two);
             const double half =
               triangles.vertices[two[0]].distance(triangles.vertices[two[1]]) /
               (2. * bound.units.length);
@@ -125,28 +128,31 @@ namespace geocone::GEOCONE_DIM
       }
 
     private:
-      /** Whether no continuous stress has the tractions of both sides. */
+      /** Jump of the tractions at a vertex, which no continuous stress has; 0 where a side
+       *  is held, or too narrow for stresses to turn. */
+      static double
+      jump(const OutlineVertex &vertex)
+      {
+        const auto &a = vertex.after, &b = vertex.before;
+        if (a.is_held || b.is_held || vertex.angle() < pi / 1.8)
+          return 0.;
+        return std::max(
+          {std::abs(a.pressure() - b.pressure()),
+           std::abs(a.shear() - b.shear()),
+           std::abs(a.traction * b.normal - b.traction * a.normal)});
+      }
+
       bool
       jumps(const OutlineVertex &vertex) const
       {
-        constexpr double part = 1e-6;
-        const auto      &a = vertex.after, &b = vertex.before;
-        if (a.is_held || b.is_held || vertex.angle() < pi / 1.8)
-          return false;
-        const bool is_sheared =
-          std::abs(a.shear()) + std::abs(b.shear()) > part * largest;
-        return std::abs(a.pressure() - b.pressure()) > part * largest ||
-               (is_sheared &&
-                (std::abs(a.traction * b.normal - b.traction * a.normal) >
-                   part * largest ||
-                 (a.traction - b.traction).norm() > 0.3 * largest));
+        return jump(vertex) > 1e-6 * largest;
       }
 
       /** Whether conditions change at a vertex, or the outline turns. */
       bool
       is_feature(const OutlineVertex &vertex) const
       {
-        return std::abs(vertex.angle() - pi) > 1e-6 ||
+        return std::abs(vertex.angle() - pi) > 1e-3 ||
                vertex.after.is_held != vertex.before.is_held || jumps(vertex);
       }
 
@@ -168,28 +174,9 @@ namespace geocone::GEOCONE_DIM
               1e-6 * t.norm() * std::max(to.norm(), t.norm()))
             least = std::min(least, distance_to_segment(x, a, b));
         };
-        for (const auto &outer : triangles.outer_edges())
-          take(triangles.edges[outer.edge].vertices);
-        for (const auto &edge : borders())
+        for (const auto &edge : lines)
           take(edge);
         return least;
-      }
-
-      /** Edges between materials. */
-      std::vector<std::array<unsigned int, 2>>
-      borders() const
-      {
-        std::vector<int> material(triangles.edges.size(), -1);
-        std::vector<std::array<unsigned int, 2>> all;
-        for (unsigned int c = 0; c < triangles.cells.size(); ++c)
-          for (const unsigned int e : triangles.edges_of_cell[c])
-            {
-              const int own = triangles.material[c];
-              if (material[e] >= 0 && material[e] != own)
-                all.push_back(triangles.edges[e].vertices);
-              material[e] = own;
-            }
-        return all;
       }
 
       /** The pressure that a continuous turn of stresses carries beside a smaller one.
@@ -229,19 +216,20 @@ namespace geocone::GEOCONE_DIM
                 k = std::min(k, cone.k);
                 materials.insert(triangles.material[c]);
               }
-        const double after  = vertex.after.pressure(),
-                     before = vertex.before.pressure();
+        const double after   = vertex.after.pressure(),
+                     before  = vertex.before.pressure(),
+                     smaller = std::min(after, before);
         const bool is_sheared =
           std::abs(vertex.after.shear()) + std::abs(vertex.before.shear()) >
           1e-6 * largest;
         const bool   turns_all = is_sheared || materials.size() > 1 || k <= 0.;
         const double angle = vertex.angle(), turn = angle - pi / 2.;
-        // The part that acts of what a continuous turn carries.
-        const double used =
-          std::max(after, before) /
-          greatest_pressure(std::min(after, before), turn, a, k / sqrt2);
-        if (!turns_all && used < 0.4)
+        // Few triangles carry a small part of what a continuous turn does, as the jump at a
+        // bend of a loaded side.
+        const double greatest = greatest_pressure(smaller, turn, a, k / sqrt2);
+        if (jump(vertex) < 0.4 * (greatest - smaller))
           return fan;
+        const double used = std::max(after, before) / greatest;
         const double wanted =
           turns_all ? 1. - tolerance : std::min(1.2 * used, 1. - tolerance);
         unsigned int n = std::max(3., std::ceil(turn / (pi / 6.)));
@@ -297,33 +285,40 @@ namespace geocone::GEOCONE_DIM
           }
       }
 
-      /** Moves or adds rays along borders of materials. */
+      /** Adds rays along borders of materials, in place of those that are near. */
       void
       take_borders(const unsigned int v, Fan &fan) const
       {
-        for (const auto &edge : borders())
+        const std::vector<double> rays = fan.rays;
+        std::vector<bool>         is_near(rays.size(), false);
+        std::vector<double>       added;
+        for (const auto &edge : borders)
           for (unsigned int end = 0; end < 2; ++end)
             if (edge[end] == v)
               {
                 const Tensor<1, dim> t =
                   triangles.vertices[edge[1 - end]] - fan.apex;
                 double ray = std::atan2(t[1], t[0]);
-                while (ray < fan.rays.front())
+                while (ray < rays.front())
                   ray += 2. * pi;
-                const auto next =
-                  std::upper_bound(fan.rays.begin(), fan.rays.end(), ray);
-                if (next == fan.rays.end() || next == fan.rays.begin())
+                const unsigned int i =
+                  std::upper_bound(rays.begin(), rays.end(), ray) -
+                  rays.begin();
+                if (i == 0 || i == rays.size())
                   continue;
-                const unsigned int i     = next - fan.rays.begin();
-                const double       width = fan.rays[i] - fan.rays[i - 1];
-                if (i > 1 && ray - fan.rays[i - 1] < width / 3.)
-                  fan.rays[i - 1] = ray;
-                else if (i + 1 < fan.rays.size() &&
-                         fan.rays[i] - ray < width / 3.)
-                  fan.rays[i] = ray;
-                else
-                  fan.rays.insert(next, ray);
+                added.push_back(ray);
+                const double width = rays[i] - rays[i - 1];
+                if (ray - rays[i - 1] < width / 3.)
+                  is_near[i - 1] = true;
+                else if (rays[i] - ray < width / 3.)
+                  is_near[i] = true;
               }
+        is_near.front() = is_near.back() = false; // the outline
+        fan.rays                         = added;
+        for (std::size_t i = 0; i < rays.size(); ++i)
+          if (!is_near[i])
+            fan.rays.push_back(rays[i]);
+        std::sort(fan.rays.begin(), fan.rays.end());
       }
 
       static constexpr unsigned int most_rays = 48;
@@ -332,6 +327,10 @@ namespace geocone::GEOCONE_DIM
       const Triangles                      &triangles;
       double                                largest = 0.; ///< traction
       std::map<unsigned int, OutlineVertex> vertices;
+
+      std::vector<std::array<unsigned int, 2>>
+        borders, ///< edges between materials
+        lines;   ///< these and the outline
     };
   } // namespace
 

@@ -105,16 +105,11 @@ namespace geocone::GEOCONE_DIM
   LimitAnalysis::next_mesh() const
   {
     if (!file_domain)
-      return fans.empty() ? fitted_mesh(mesh_parameters, scene, comm, &*sizes)
-                          : fitted_mesh_with_fans(
-                              mesh_parameters, scene, *sizes, fans, comm);
+      return fitted_mesh(mesh_parameters, scene, comm, &*sizes);
     const dealii::BoundingBox<dim> body(triangles->vertices);
     const auto [low, high] = body.get_boundary_points();
-    return file_domain->mesh(*sizes,
-                             scene.water.lines(low, high),
-                             mesh_parameters.algorithm,
-                             comm,
-                             fans);
+    return file_domain->mesh(
+      *sizes, scene.water.lines(low, high), mesh_parameters.algorithm, comm);
   }
 
   void
@@ -238,22 +233,34 @@ namespace geocone::GEOCONE_DIM
   void
   LimitAnalysis::refine(const BoundLevel &level)
   {
-    // The rays do not depend on the sizes.
-    if (limit_output.all_records().size() == 1 &&
-        (file_domain || mesh_parameters.is_unstructured()))
+    std::vector<Fan> fans;
+    if (sizes)
+      fans = std::move(sizes->fans);
+    else if (file_domain || mesh_parameters.is_unstructured())
       {
-        const double F =
-          reduces_strength() && level.certified() ? level.upper : 1.;
+        const BoundScene bound =
+          reduces_strength()
+            ? bounded_load.reduced(
+                scene, *triangles, level.certified() ? level.upper : 1.)
+            : bounded_load.on(scene, *triangles);
+        // The load is known roughly. An eighth of the gap is left to the rays, or more of it
+        // where fans would have more than a quarter of the triangles.
         const double load = reduces_strength() ? 1. : bounds.upper.bound.load;
-        // An eighth of the gap is left to the rays.
-        fans = fans_of_jumps(reduces_strength()
-                               ? bounded_load.reduced(scene, *triangles, F)
-                               : bounded_load.on(scene, *triangles),
-                             load,
-                             gap_tolerance / 8.);
+        for (double part = gap_tolerance / 8.; part < 0.5; part *= 2.)
+          {
+            fans            = fans_of_jumps(bound, load, part);
+            std::size_t all = 0;
+            for (const Fan &fan : fans)
+              all += fan.n_triangles();
+            if (all <= most_cells / 4)
+              break;
+            fans.clear();
+          }
       }
-    sizes = adapted_sizes(
-      *triangles, bounds.refinement_indicator, next_cells(level), &fans);
+    sizes = adapted_sizes(*triangles,
+                          bounds.refinement_indicator,
+                          next_cells(level),
+                          std::move(fans));
   }
 
   Simulation::StepOutcome
@@ -261,7 +268,19 @@ namespace geocone::GEOCONE_DIM
   {
     dealii::Timer mesh_time;
     if (sizes)
-      triangles.emplace(next_mesh());
+      try
+        {
+          triangles.emplace(next_mesh());
+        }
+      catch (const RunError &problem)
+        {
+          if (sizes->fans.empty())
+            throw;
+          log.print(std::string("  meshes without fans follow: ") +
+                    problem.what());
+          sizes->fans.clear();
+          triangles.emplace(next_mesh());
+        }
     const double  in_mesh = mesh_time.cpu_time();
     dealii::Timer time;
     BoundLevel    level = reduces_strength() ? bound_factor() : bound_load();
@@ -397,6 +416,6 @@ namespace geocone::GEOCONE_DIM
       return sizes.reset();
     if (!sizes)
       sizes.emplace();
-    row(sizes->triangles, sizes->sizes, fans);
+    row(sizes->triangles, sizes->sizes, sizes->fans);
   }
 } // namespace geocone::GEOCONE_DIM

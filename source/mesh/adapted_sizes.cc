@@ -45,7 +45,7 @@ namespace geocone::GEOCONE_DIM
   adapted_sizes(const Triangles           &triangles,
                 const std::vector<double> &error,
                 const double               n_wanted,
-                std::vector<Fan>          *fans)
+                std::vector<Fan>           fans)
   {
     const unsigned int n = triangles.cells.size();
     // Means over the cells at each vertex.
@@ -91,33 +91,33 @@ namespace geocone::GEOCONE_DIM
     std::vector<double> size_of_cell(n);
     for (unsigned int c = 0; c < n; ++c)
       size_of_cell[c] = std::sqrt(4. / std::sqrt(3.) * triangles.area(c));
-    if (fans != nullptr)
-      for (Fan &fan : *fans)
-        {
-          const FanCells cells = cells_of_fan(triangles, fan);
-          if (cells.innermost.size() + 1 < fan.rays.size())
-            continue; // the mesh does not have it
-          for (const unsigned int c : cells.all)
-            {
-              double far = 0.;
-              for (const unsigned int v : triangles.cells[c])
-                far = std::max(far, triangles.vertices[v].distance(fan.apex));
-              size_of_cell[c] = fan.chord() * far / fan.radius;
-            }
-          const auto mean_ratio = [&](const std::vector<unsigned int> &some) {
-            double sum = 0.;
-            for (const unsigned int c : some)
-              sum += ratio(upper_factor, c);
-            return std::min(1., sum / some.size());
-          };
-          fan.inner_radius *= mean_ratio(cells.innermost);
-          fan.radius = std::max(2. * fan.inner_radius,
-                                fan.radius * mean_ratio(cells.outermost));
-        }
+    for (Fan &fan : fans)
+      {
+        const FanCells cells = cells_of_fan(triangles, fan);
+        if (cells.innermost.size() + 1 < fan.rays.size())
+          continue; // the mesh does not have it
+        for (const unsigned int c : cells.all)
+          {
+            double far = 0.;
+            for (const unsigned int v : triangles.cells[c])
+              far = std::max(far, triangles.vertices[v].distance(fan.apex));
+            size_of_cell[c] = fan.chord() * far / fan.radius;
+          }
+        const auto mean_ratio = [&](const std::vector<unsigned int> &some) {
+          double sum = 0.;
+          for (const unsigned int c : some)
+            sum += ratio(upper_factor, c);
+          return std::min(1., sum / some.size());
+        };
+        fan.inner_radius *= mean_ratio(cells.innermost);
+        fan.radius = std::max(2. * fan.inner_radius,
+                              fan.radius * mean_ratio(cells.outermost));
+      }
     const std::vector<double> size = at_vertices([&](const unsigned int c) {
       return ratio(upper_factor, c) * size_of_cell[c];
     });
     CellSizes                 sizes;
+    sizes.fans = std::move(fans);
     for (const auto &cell : triangles.cells)
       {
         sizes.triangles.emplace_back();

@@ -35,20 +35,12 @@ namespace geocone::GEOCONE_DIM
     {
     public:
       explicit BorderEdges(const Triangles &triangles)
-        : at_vertex(triangles.vertices.size())
+        : edges(triangles.edges_between_materials())
+        , at_vertex(triangles.vertices.size())
       {
-        constexpr unsigned int    none = -1;
-        std::vector<unsigned int> first(triangles.edges.size(), none);
-        for (unsigned int c = 0; c < triangles.cells.size(); ++c)
-          for (const unsigned int e : triangles.edges_of_cell[c])
-            if (first[e] == none)
-              first[e] = triangles.material[c];
-            else if (first[e] != triangles.material[c])
-              {
-                for (const unsigned int v : triangles.edges[e].vertices)
-                  at_vertex[v].push_back(edges.size());
-                edges.push_back(triangles.edges[e].vertices);
-              }
+        for (unsigned int e = 0; e < edges.size(); ++e)
+          for (const unsigned int v : edges[e])
+            at_vertex[v].push_back(e);
       }
 
       /** Straight lines along which materials meet. @param stays vertices that
@@ -244,17 +236,15 @@ namespace geocone::GEOCONE_DIM
   }
 
   CoarseMesh
-  DomainOfTriangles::mesh(const CellSizes        &sizes,
-                          MeshLines               lines,
-                          const int               algorithm,
-                          const MPI_Comm          comm,
-                          const std::vector<Fan> &fans) const
+  DomainOfTriangles::mesh(const CellSizes &sizes,
+                          MeshLines        lines,
+                          const int        algorithm,
+                          const MPI_Comm   comm) const
   {
     MeshDomain by_gmsh = domain;
     by_gmsh.algorithm  = algorithm;
     lines.insert(lines.end(), borders.begin(), borders.end());
-    CoarseMesh mesh =
-      mesh_with_fans(by_gmsh, Regions({}), lines, sizes, fans, comm);
+    CoarseMesh mesh = mesh_with_sizes(by_gmsh, Regions({}), lines, sizes, comm);
     const MaterialPlaces places(triangles);
     for (auto &cell : mesh.cells)
       cell.material_id = places.at(mesh.centre(cell));

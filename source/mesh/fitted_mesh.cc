@@ -4,7 +4,6 @@
 #include <geocone/base/exceptions.h>
 #include <geocone/base/quoted_names.h>
 #include <geocone/mesh/domain_of_triangles.h>
-#include <geocone/mesh/fan.h>
 #include <geocone/mesh/fitted_mesh.h>
 #include <geocone/mesh/structured_mesh.h>
 
@@ -81,20 +80,6 @@ namespace geocone::GEOCONE_DIM
       return lines;
     }
 
-    /** Sets materials and sides of a mesh of a polygon or box. */
-    CoarseMesh
-    completed(CoarseMesh            mesh,
-              const MeshParameters &parameters,
-              const Scene          &scene)
-    {
-      std::vector<Polygon> loops = {parameters.outline};
-      loops.insert(
-        loops.end(), parameters.holes.begin(), parameters.holes.end());
-      set_materials_and_sides(mesh, scene.regions, loops);
-      mesh.sides = parameters.fits_body ? scene.geometry.sides : sides_of_box();
-      return mesh;
-    }
-
     /** A mesh of the body of a file with prescribed sizes.
      *  @throws InputError if no other mesh can be made of it */
     CoarseMesh
@@ -153,26 +138,11 @@ namespace geocone::GEOCONE_DIM
                 domain_of(parameters), scene.regions, lines, *sizes, comm)
             : unstructured_mesh(parameters, scene.regions, lines, comm);
       }
-    return completed(std::move(mesh), parameters, scene);
-  }
-
-  CoarseMesh
-  fitted_mesh_with_fans(const MeshParameters   &parameters,
-                        const Scene            &scene,
-                        const CellSizes        &sizes,
-                        const std::vector<Fan> &fans,
-                        const MPI_Comm          comm)
-  {
-    return completed(
-      mesh_with_fans(
-        domain_of(parameters),
-        scene.regions,
-        lines_of_scene(scene, dealii::BoundingBox<dim>(parameters.outline)),
-        sizes,
-        fans,
-        comm),
-      parameters,
-      scene);
+    std::vector<Polygon> loops = {parameters.outline};
+    loops.insert(loops.end(), parameters.holes.begin(), parameters.holes.end());
+    set_materials_and_sides(mesh, scene.regions, loops);
+    mesh.sides = parameters.fits_body ? scene.geometry.sides : sides_of_box();
+    return mesh;
   }
 
   CoarseMesh

@@ -3,7 +3,6 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
-#include <geocone/mesh/fan.h>
 #include <geocone/mesh/gmsh_mesh.h>
 #include <geocone/mesh/msh_mesh.h>
 
@@ -333,7 +332,7 @@ namespace geocone::GEOCONE_DIM
 
     /** Sets sizes as gmsh's background field, by a view of data. */
     void
-    set_sizes(const CellSizes &sizes, const std::vector<Fan> &fans = {})
+    set_sizes(const CellSizes &sizes)
     {
       // x of the corners, then y, z and the values.
       std::vector<double> data;
@@ -357,8 +356,8 @@ namespace geocone::GEOCONE_DIM
       const int field = gmsh::model::mesh::field::add("PostView");
       gmsh::model::mesh::field::setNumber(field, "ViewIndex", 0);
       gmsh::model::mesh::field::setAsBackgroundMesh(
-        limit_around_fans(field, fans));
-      for (const Fan &fan : fans)
+        limit_around_fans(field, sizes.fans));
+      for (const Fan &fan : sizes.fans)
         smallest = std::min(smallest, fan.chord() / 2.);
       limit_sizes(smallest, largest);
     }
@@ -629,18 +628,6 @@ namespace geocone::GEOCONE_DIM
                   const MPI_Comm    comm)
   {
     return mesh_by_gmsh(
-      domain, regions, lines, {}, [&]() { set_sizes(sizes); }, comm);
-  }
-
-  CoarseMesh
-  mesh_with_fans(const MeshDomain       &domain,
-                 const Regions          &regions,
-                 const MeshLines        &lines,
-                 const CellSizes        &sizes,
-                 const std::vector<Fan> &fans,
-                 const MPI_Comm          comm)
-  {
-    return mesh_by_gmsh(
-      domain, regions, lines, fans, [&]() { set_sizes(sizes, fans); }, comm);
+      domain, regions, lines, sizes.fans, [&]() { set_sizes(sizes); }, comm);
   }
 } // namespace geocone::GEOCONE_DIM

@@ -86,6 +86,21 @@ namespace geocone::GEOCONE_DIM
     return outer;
   }
 
+  std::vector<std::array<unsigned int, 2>>
+  Triangles::edges_between_materials() const
+  {
+    constexpr unsigned int                   none = -1;
+    std::vector<unsigned int>                first(edges.size(), none);
+    std::vector<std::array<unsigned int, 2>> all;
+    for (unsigned int c = 0; c < cells.size(); ++c)
+      for (const unsigned int e : edges_of_cell[c])
+        if (first[e] == none)
+          first[e] = material[c];
+        else if (first[e] != material[c])
+          all.push_back(edges[e].vertices);
+    return all;
+  }
+
   std::vector<Triangles::HeldEdge>
   Triangles::held_edges(const BoundaryPart &condition) const
   {

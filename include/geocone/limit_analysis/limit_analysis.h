@@ -164,8 +164,7 @@ namespace geocone::GEOCONE_DIM
        {"reliability", AnalysisKind::reliability},
        {"seepage", AnalysisKind::seepage}}};
 
-    std::optional<CellSizes> sizes; ///< cell sizes of the next mesh
-    std::vector<Fan>         fans;  ///< fans of triangles in the next mesh
+    std::optional<CellSizes> sizes; ///< cell sizes and fans of the next mesh
 
     /** Domain of a mesh that was read from a file; empty if the domain cannot
      *  be remeshed. */

@@ -4,7 +4,7 @@
 #ifndef geocone_mesh_adapted_sizes_h
 #define geocone_mesh_adapted_sizes_h
 
-#include <geocone/mesh/fan.h>
+#include <geocone/mesh/gmsh_mesh.h>
 #include <geocone/mesh/triangles.h>
 
 #include <vector>
@@ -19,14 +19,14 @@ namespace geocone::GEOCONE_DIM
    * otherwise be refined one mesh later.
    * @param error contribution of each cell
    * @param n_wanted approximate number of triangles
-   * @param[in,out] fans of the mesh; they become smaller as other cells do, and
+   * @param fans of the mesh; they become smaller as other cells do, and
    * their sizes are those of their outer edges
    */
   CellSizes
   adapted_sizes(const Triangles           &triangles,
                 const std::vector<double> &error,
                 const double               n_wanted,
-                std::vector<Fan>          *fans = nullptr);
+                std::vector<Fan>           fans = {});
 } // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -4,7 +4,7 @@
 #ifndef geocone_mesh_domain_of_triangles_h
 #define geocone_mesh_domain_of_triangles_h
 
-#include <geocone/mesh/fan.h>
+#include <geocone/mesh/gmsh_mesh.h>
 #include <geocone/mesh/triangles.h>
 #include <geocone/scene/scene.h>
 
@@ -41,11 +41,10 @@ namespace geocone::GEOCONE_DIM
      *  @param lines additional lines that become edges @param algorithm number
      *  of gmsh's meshing algorithm */
     CoarseMesh
-    mesh(const CellSizes        &sizes,
-         MeshLines               lines,
-         const int               algorithm,
-         const MPI_Comm          comm,
-         const std::vector<Fan> &fans = {}) const;
+    mesh(const CellSizes &sizes,
+         MeshLines        lines,
+         const int        algorithm,
+         const MPI_Comm   comm) const;
 
   private:
     /** Boundary edge, defined by end points and boundary id. */

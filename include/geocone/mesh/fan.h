@@ -5,8 +5,9 @@
 #define geocone_mesh_fan_h
 
 #include <geocone/base/state_row.h>
-#include <geocone/mesh/gmsh_mesh.h>
-#include <geocone/scene/scene.h>
+#include <geocone/base/types.h>
+
+#include <deal.II/base/point.h>
 
 #include <algorithm>
 #include <cmath>
@@ -56,31 +57,19 @@ namespace geocone::GEOCONE_DIM
       return least;
     }
 
+    /** Number of triangles in all rings. */
+    std::size_t
+    n_triangles() const
+    {
+      return (rays.size() - 1) * (2 * radii().size() - 1);
+    }
+
     void
     state(StateRow &row)
     {
       row(apex, radius, inner_radius, rays);
     }
   };
-
-  /** Creates an unstructured mesh with prescribed cell sizes and fans.
-   *  Collective. */
-  CoarseMesh
-  mesh_with_fans(const MeshDomain       &domain,
-                 const Regions          &regions,
-                 const MeshLines        &lines,
-                 const CellSizes        &sizes,
-                 const std::vector<Fan> &fans,
-                 const MPI_Comm          comm);
-
-  /** Creates a mesh of a polygon or box with prescribed cell sizes and fans;
-   *  see fitted_mesh(). Collective. */
-  CoarseMesh
-  fitted_mesh_with_fans(const MeshParameters   &parameters,
-                        const Scene            &scene,
-                        const CellSizes        &sizes,
-                        const std::vector<Fan> &fans,
-                        const MPI_Comm          comm);
 } // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -5,6 +5,7 @@
 #define geocone_mesh_gmsh_mesh_h
 
 #include <geocone/mesh/coarse_mesh.h>
+#include <geocone/mesh/fan.h>
 #include <geocone/mesh/mesh_parameters.h>
 #include <geocone/scene/contacts.h>
 #include <geocone/scene/regions.h>
@@ -35,11 +36,12 @@ namespace geocone::GEOCONE_DIM
                     const MPI_Comm        comm);
 
   /** Prescribed cell sizes of an unstructured mesh (m), piecewise linear on
-   *  triangles that cover the domain. */
+   *  triangles that cover the domain, with its fans of triangles. */
   struct CellSizes
   {
     std::vector<std::array<dealii::Point<dim>, 3>> triangles;
     std::vector<std::array<double, 3>>             sizes; ///< at the corners
+    std::vector<Fan> fans = {}; ///< in plane meshes only
   };
 
   /** Domain of an unstructured mesh: outline, holes, prescribed edges and

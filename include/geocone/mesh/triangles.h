@@ -48,6 +48,10 @@ namespace geocone::GEOCONE_DIM
     std::vector<HeldEdge>
     outer_edges() const;
 
+    /** Vertices of the edges between triangles of different materials. */
+    std::vector<std::array<unsigned int, 2>>
+    edges_between_materials() const;
+
     double
     area(const unsigned int cell) const;
 
