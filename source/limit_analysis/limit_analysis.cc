@@ -233,6 +233,7 @@ namespace geocone::GEOCONE_DIM
   void
   LimitAnalysis::refine(const BoundLevel &level)
   {
+    double           wanted = next_cells(level);
     std::vector<Fan> fans;
     if (sizes)
       fans = std::move(sizes->fans);
@@ -244,7 +245,7 @@ namespace geocone::GEOCONE_DIM
                 scene, *triangles, level.certified() ? level.upper : 1.)
             : bounded_load.on(scene, *triangles);
         // The load is known roughly. An eighth of the gap is left to the rays, or more of it
-        // where fans would have more than a quarter of the triangles.
+        // where fans would have more than half of the triangles.
         const double load = reduces_strength() ? 1. : bounds.upper.bound.load;
         for (double part = gap_tolerance / 8.; part < 0.5; part *= 2.)
           {
@@ -252,15 +253,16 @@ namespace geocone::GEOCONE_DIM
             std::size_t all = 0;
             for (const Fan &fan : fans)
               all += fan.n_triangles();
-            if (all <= most_cells / 4)
-              break;
+            if (all <= most_cells / 2)
+              {
+                wanted = std::min(wanted, double(most_cells - all));
+                break;
+              }
             fans.clear();
           }
       }
-    sizes = adapted_sizes(*triangles,
-                          bounds.refinement_indicator,
-                          next_cells(level),
-                          std::move(fans));
+    sizes = adapted_sizes(
+      *triangles, bounds.refinement_indicator, wanted, std::move(fans));
   }
 
   Simulation::StepOutcome
@@ -272,7 +274,7 @@ namespace geocone::GEOCONE_DIM
         {
           triangles.emplace(next_mesh());
         }
-      catch (const RunError &problem)
+      catch (const InputError &problem)
         {
           if (sizes->fans.empty())
             throw;
