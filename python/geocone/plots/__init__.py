@@ -61,6 +61,9 @@ def pictures_of_method(run, times):
     if run.method == "seepage":
         from geocone.plots import seepage
         return seepage.pictures(run)
+    if run.method == "reliability":
+        from geocone.plots import reliability
+        return reliability.pictures(run)
     if run.method == "explicit MPM":
         from geocone.plots import explicit
         return explicit.pictures(run, times)
