@@ -11,6 +11,14 @@
 
 namespace geocone
 {
+  namespace
+  {
+    /** Long double is not needed, whose constants would be computed at each start. */
+    const boost::math::policies::policy<
+      boost::math::policies::promote_double<false>>
+      in_double;
+  } // namespace
+
   double
   normal_distribution(const double z)
   {
@@ -20,7 +28,7 @@ namespace geocone
   double
   normal_quantile(const double p)
   {
-    return -M_SQRT2 * boost::math::erfc_inv(2. * p);
+    return -M_SQRT2 * boost::math::erfc_inv(2. * p, in_double);
   }
 
   std::array<double, 2>
@@ -31,9 +39,12 @@ namespace geocone
     const double tail = (1. - confidence) / 2., others = trials - events;
     // The probability of k events or more is the incomplete beta function.
     return {
-      {events == 0 ? 0. : boost::math::ibeta_inv(events, others + 1., tail),
-       events == trials ? 1.
-                        : boost::math::ibetac_inv(events + 1., others, tail)}};
+      {events == 0
+         ? 0.
+         : boost::math::ibeta_inv(double(events), others + 1., tail, in_double),
+       events == trials
+         ? 1.
+         : boost::math::ibetac_inv(events + 1., others, tail, in_double)}};
   }
 
   std::vector<double>
