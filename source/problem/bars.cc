@@ -95,6 +95,32 @@ namespace geocone::GEOCONE_DIM
       }
   }
 
+  std::vector<std::string>
+  warn_of_fixed_ends(const Structures &structures, const BackgroundMesh &mesh)
+  {
+    std::vector<std::string> warnings;
+    if (structures.list.empty())
+      return warnings;
+    constexpr double near = 0.01; // part of the length
+    const CellSearch cells(mesh);
+    for (const auto &structure : structures.list)
+      if (structure->may_be_fixed())
+        for (const unsigned int end : {0, 1})
+          {
+            const Point<dim> &x     = structure->points[end];
+            const Point<dim>  other = structure->points[1 - end];
+            if (!cells.find(x) && cells.find(x + near * (other - x)))
+              warnings.push_back(
+                "the end " + text_of_place(x) + " of the structure '" +
+                structure->name +
+                format("' lies outside of the body by less than %g %% of the "
+                       "length: it is fixed. If it is to move with the body, "
+                       "move it into the body",
+                       100. * near));
+          }
+    return warnings;
+  }
+
   Vector
   Bars::row_of(const Factors &factors) const
   {

@@ -7,6 +7,7 @@
 #include <geocone/base/unused_parameters.h>
 #include <geocone/conditions/held_width.h>
 #include <geocone/output/run_status.h>
+#include <geocone/problem/bars.h>
 #include <geocone/run/implicit_simulation.h>
 #include <geocone/run/run_estimate.h>
 #include <geocone/scene/magnitudes.h>
@@ -257,7 +258,8 @@ namespace geocone::GEOCONE_DIM
                                   : scene.geometry.bounding_box());
     log.print(options.name + ": " + text_of_magnitudes(scene, body));
     for (const auto &more : {warn_of_magnitudes(scene, body),
-                             warn_of_partial_coverage(scene, mesh, space)})
+                             warn_of_partial_coverage(scene, mesh, space),
+                             warn_of_fixed_ends(scene.structures, mesh)})
       warnings.insert(warnings.end(), more.begin(), more.end());
     warnings.push_back(outside_strength(points, scene.materials, comm));
     for (const auto &more : {space.warnings(scene.materials.traits(), method),

@@ -330,6 +330,11 @@ namespace geocone::GEOCONE_DIM
     std::string        stage; ///< stage of the last step
     double             h = 0.;
   };
+
+  /** Returns warnings about ends of anchors and struts outside of the body that are
+   *  close to its boundary. Such an end is fixed, which may not be intended. */
+  std::vector<std::string>
+  warn_of_fixed_ends(const Structures &structures, const BackgroundMesh &mesh);
 } // namespace geocone::GEOCONE_DIM
 
 #endif
