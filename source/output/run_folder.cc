@@ -244,6 +244,12 @@ namespace geocone
       for (const char *name : {list_of_files, "summary.json"})
         if (!fs::is_regular_file(fs::path(path) / name, error))
           return std::string("it has no ") + name;
+      std::ifstream names(fs::path(path) / list_of_files);
+      for (std::string name; std::getline(names, name);)
+        if (fs::is_symlink(fs::symlink_status(fs::path(path) / name, error)))
+          return "'" + printable(name) +
+                 "' is a symbolic link, through which nothing is written: take "
+                 "it away";
       return take_folder(path);
     }
   } // namespace

@@ -45,6 +45,13 @@ cp one/statistics.csv all.csv
 "$program" --resume one --quiet
 cmp all.csv one/statistics.csv
 
+# A table that is a link: refused before any other file is written.
+mkdir linked && cp one/* linked/
+mv linked/newton.csv real.csv && ln -s ../real.csv linked/newton.csv
+cp -rP linked before_link
+refused "'newton.csv' is a symbolic link" --resume linked
+diff -r --no-dereference before_link linked
+
 # Damaged anywhere: the one before is taken, and the table is the same in the end.
 cp "$last" good.h5
 size=$(stat -c %s good.h5)
