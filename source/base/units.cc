@@ -115,8 +115,10 @@ namespace geocone
   std::string
   key_in_units(const std::string &key)
   {
-    static const std::regex part("(_)(Pa|N|J|kg)(?=_|$)");
-    return in_kilonewtons ? replaced(key, part) : key;
+    // The last unit only: names of structures are parts of keys.
+    static const std::regex last(
+      "(_)(Pa|N|J|kg)(?=(_m)?(_s)?(_per_[a-z0-9]+)?$)");
+    return in_kilonewtons ? replaced(key, last) : key;
   }
 
   std::string
