@@ -5,6 +5,7 @@
 #include <geocone/base/unused_parameters.h>
 #include <geocone/limit_analysis/solid_gap.h>
 #include <geocone/limit_analysis/solid_limit_analysis.h>
+#include <geocone/linear/two_threads.h>
 #include <geocone/mesh/bisection.h>
 #include <geocone/mesh/fitted_mesh.h>
 #include <geocone/scene/magnitudes.h>
@@ -102,8 +103,14 @@ namespace geocone::GEOCONE_DIM
   SolidLimitAnalysis::bound_load()
   {
     const SolidScene bound = load.on(scene, *tetrahedra);
-    upper = certified_upper(bound, degree(velocities), inner_tolerance());
-    lower = certified_lower(bound, degree(stresses), inner_tolerance());
+    run_both(
+      [&]() {
+        upper = certified_upper(bound, degree(velocities), inner_tolerance());
+      },
+      [&]() {
+        lower = certified_lower(bound, degree(stresses), inner_tolerance());
+      },
+      n_threads);
     for (const SolidBound *side : {&upper, &lower})
       if (side->grows && !side->certified)
         throw StepFailure(
@@ -131,15 +138,18 @@ namespace geocone::GEOCONE_DIM
     std::array<SafetySearch::Attempt, 2>
     both(const double F) override
     {
-      const auto below = one(F, SafetySearch::lower),
-                 above = one(F, SafetySearch::upper);
+      std::array<SafetySearch::Attempt, 2> found;
+      run_both(
+        [&]() { found[SafetySearch::lower] = one(F, SafetySearch::lower); },
+        [&]() { found[SafetySearch::upper] = one(F, SafetySearch::upper); },
+        of.n_threads);
       of.gap   = gap_of_cells(of.load.reduced(of.scene, *of.tetrahedra, F),
                             degree(of.velocities),
                             degree(of.stresses),
                             of.upper,
                             of.lower);
       of.share = of.share_of_gap();
-      return {{below, above}};
+      return found;
     }
 
     SafetySearch::Attempt
@@ -178,7 +188,7 @@ namespace geocone::GEOCONE_DIM
     // A stopped level is repeated.
     SafetySearch              next = search;
     Reduced                   reduced(*this);
-    const SafetySearch::Level found = next.on_mesh(reduced);
+    const SafetySearch::Level found = next.on_mesh(reduced, n_threads);
     search                          = next;
     if (reduced.proof_lower)
       lower = *reduced.proof_lower;
