@@ -4,6 +4,7 @@
 #include <geocone/base/constants.h>
 #include <geocone/base/exceptions.h>
 #include <geocone/materials/constitutive_law.h>
+#include <geocone/materials/retention.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,6 +15,7 @@ namespace geocone::GEOCONE_DIM
 {
   ConstitutiveLaw::ConstitutiveLaw(const std::string &section)
     : dealii::ParameterAcceptor("/" + section)
+    , unsaturated(std::make_shared<Retention>())
   {
     add_parameter(
       "Density",
@@ -54,6 +56,7 @@ namespace geocone::GEOCONE_DIM
                   drainable,
                   "Volume of water per volume of soil [-] that drains as the "
                   "free surface of a transient flow falls (specific yield).");
+    unsaturated->declare(*this);
   }
 
   std::string
@@ -94,6 +97,7 @@ namespace geocone::GEOCONE_DIM
             pore_fluid,
             ">= 0 Pa, finite",
             "water has 2.2 GPa; 0 is drained soil");
+    unsaturated->prepare(parameter());
   }
 
   dealii::SymmetricTensor<2, 2>

@@ -6,6 +6,7 @@
 #include <geocone/base/stop_request.h>
 #include <geocone/base/unused_parameters.h>
 #include <geocone/conditions/held_width.h>
+#include <geocone/materials/retention.h>
 #include <geocone/output/run_status.h>
 #include <geocone/problem/bars.h>
 #include <geocone/run/implicit_simulation.h>
@@ -27,6 +28,21 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
+    /** Rejects strength from suction. @throws InputError */
+    void
+    refuse_suction(const Scene &scene)
+    {
+      for (unsigned int m = 0; m < scene.materials.size(); ++m)
+        if (scene.water.seepage.acts() &&
+            scene.materials.law(m).retention().adds_strength())
+          throw InputError("Materials/" + scene.materials.name(m) +
+                             "/Bishop parameter",
+                           "chi of a suction",
+                           "none in steps of FEM and MPM",
+                           "suction adds strength in bounds: 'Analysis/Kind' = "
+                           "strength reduction or limit load");
+    }
+
     const UsedWhere used_implicit_simulation[] = {
       {"Time stepping/*", "Discretisation/Method", {"FEM", "MPM"}}};
   } // namespace
@@ -230,7 +246,10 @@ namespace geocone::GEOCONE_DIM
     step_control.prepare();
     exact_solution.prepare();
     if constexpr (dim == 2)
-      let_water_flow(scene, comm, log, options.dry_run);
+      {
+        refuse_suction(scene);
+        let_water_flow(scene, comm, log, options.dry_run);
+      }
     prepare_mesh(options);
     remember_friction();
     if (const std::string text = text_of_memory(scene); !text.empty())

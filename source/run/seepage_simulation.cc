@@ -16,7 +16,8 @@ namespace geocone::GEOCONE_DIM
   SeepageOutput::prepare(const RunOptions               &options,
                          const std::vector<std::string> &names,
                          const Geometry                 &geometry,
-                         const bool                      is_transient)
+                         const bool                      is_transient,
+                         const bool                      is_unsaturated)
   {
     const std::string unit = geometry.unit("m^3/s/m");
     make_folder(options);
@@ -35,6 +36,11 @@ namespace geocone::GEOCONE_DIM
       add("stored (" + geometry.unit("m^3/m") + ")", &FlowLevel::stored);
     add("iterations (-)", &FlowLevel::iterations);
     add("natural-map error (-)", &FlowLevel::error);
+    if (is_transient && is_unsaturated)
+      {
+        add("time steps (-)", &FlowLevel::steps);
+        add("imbalance (-)", &FlowLevel::imbalance);
+      }
     open_table("seepage.csv");
   }
 
@@ -58,10 +64,27 @@ namespace geocone::GEOCONE_DIM
     table.add("head", 1, [&](const Index, const Index v, const Index) {
       return flow.flow().head[v] + vertices[v][1];
     });
-    table.add(
-      "relative_permeability", 1, [&](const Index, const Index v, const Index) {
-        return flow.flow().saturation[v];
-      });
+    const auto state = [&](const Index p, const Index v) {
+      return flow.curve(p / 3).at(flow.flow().head[v]);
+    };
+    table.add("relative_permeability",
+              1,
+              [&](const Index p, const Index v, const Index) {
+                return flow.is_unsaturated() ? state(p, v).permeability
+                                             : flow.flow().saturation[v];
+              });
+    if (flow.is_unsaturated())
+      {
+        table.add(
+          "water_content", 1, [&](const Index p, const Index v, const Index) {
+            return state(p, v).content;
+          });
+        table.add("effective_saturation",
+                  1,
+                  [&](const Index p, const Index v, const Index) {
+                    return state(p, v).effective_saturation;
+                  });
+      }
     table.add(
       "seepage_velocity", dim, [&](const Index p, const Index, const Index d) {
         return q[p / 3][d];
@@ -121,7 +144,8 @@ namespace geocone::GEOCONE_DIM
     seepage_output.prepare(options,
                            scene.water.seepage.names(),
                            scene.geometry,
-                           scene.water.flows_in_time());
+                           scene.water.flows_in_time(),
+                           flow->is_unsaturated());
   }
 
   Json
@@ -142,6 +166,8 @@ namespace geocone::GEOCONE_DIM
     record.inflows    = flow->inflows();
     if (scene.water.flows_in_time())
       record.stored = flow->stored();
+    record.steps     = flow->n_steps();
+    record.imbalance = flow->imbalance();
     return record;
   }
 
@@ -211,7 +237,8 @@ namespace geocone::GEOCONE_DIM
     seepage_output.write_model(model());
     if (scene.water.flows_in_time())
       log.print(format("%.5g ", flow->stored()) + scene.geometry.unit("m^3/m") +
-                " of drainable water left");
+                (flow->is_unsaturated() ? " of water in the pores"
+                                        : " of drainable water left"));
     else
       log.print("discharge " + flow->text());
   }

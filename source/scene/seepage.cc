@@ -18,20 +18,24 @@ namespace geocone::GEOCONE_DIM
       {"Seepage/Time", "Analysis/Kind", {"limit load", "strength reduction"}}};
   } // namespace
 
-  SeepageBoundary::SeepageBoundary(const std::string &name)
+  SeepageBoundary::SeepageBoundary(const std::string &name,
+                                   const std::string &folder)
     : BoundaryPart(name, "Seepage")
+    , folder(folder)
   {
     add_parameter(
       "Level",
       level_text,
       "Height y of the level of open water at the sides [m]: the pressure is "
-      "hydrostatic below it, and water can leave above it (seepage face). "
-      "none: no open water; water can leave everywhere.");
+      "hydrostatic below it, and water can leave above it (seepage face). A "
+      "number, a formula in t or 'record FILE.csv', a time history. none: no "
+      "open water; water can leave everywhere.");
     add_parameter(
       "Rain",
-      rain,
-      "Rain on the sides per horizontal area [m/s]; the part that cannot "
-      "infiltrate runs off.");
+      rain_text,
+      "Rain on the sides per horizontal area [m/s], a number, a formula in t "
+      "or 'record FILE.csv', a time history; the part that cannot infiltrate "
+      "runs off.");
     add_parameter(
       "Drain",
       drain,
@@ -43,6 +47,7 @@ namespace geocone::GEOCONE_DIM
   void
   SeepageBoundary::prepare()
   {
+    rain_in_time.prepare(rain_text, parameter("Rain"), &folder);
     if (drain.empty())
       BoundaryPart::prepare();
     else
@@ -65,25 +70,51 @@ namespace geocone::GEOCONE_DIM
                            dealii::Patterns::Tools::to_string(drain),
                            "at least two points with finite coordinates",
                            "give the ends of the line, x, y; x, y");
-        if (rain > 0.)
-          throw InputError(
-            parameter("Rain"), rain, "0 for a drain", "rain falls on sides");
+        if (has_rain())
+          throw InputError(parameter("Rain"),
+                           rain_text,
+                           "0 for a drain",
+                           "rain falls on sides");
       }
     level.reset();
+    level_in_time.reset();
     if (level_text != "none")
       {
         level = number_in(level_text);
-        if (!level || !(std::abs(*level) <= largest_coordinate))
+        if (!level)
+          {
+            level_in_time.emplace();
+            level_in_time->prepare(level_text, parameter("Level"), &folder);
+            level = prescribed_level(0.);
+          }
+        if (!(std::abs(*level) <= largest_coordinate))
           throw InputError(parameter("Level"),
                            level_text,
                            "a height y in m, or none",
                            "none is a side in the air");
       }
-    if (!(rain >= 0. && std::isfinite(rain)))
-      throw InputError(parameter("Rain"),
-                       rain,
-                       ">= 0 m/s, finite",
-                       "1e-7 m/s is 8.6 mm per day; 0: no rain");
+    rain(0.);
+  }
+
+  std::optional<double>
+  SeepageBoundary::prescribed_level(const double t) const
+  {
+    if (!level_in_time)
+      return std::nullopt;
+    return level_in_time->value({}, t);
+  }
+
+  double
+  SeepageBoundary::rain(const double t) const
+  {
+    const double rate = rain_in_time.value({}, t);
+    if (!(rate >= 0. && std::isfinite(rate)))
+      throw InputError(
+        parameter("Rain"),
+        rain_text,
+        format(">= 0 m/s, finite; at t = %g s it is %g", t, rate),
+        "1e-7 m/s is 8.6 mm per day; 0: no rain");
+    return rate;
   }
 
   bool
@@ -111,11 +142,23 @@ namespace geocone::GEOCONE_DIM
                   "Approximate number of triangles of the finest mesh of the "
                   "flow, which is refined at the free surface and where the "
                   "velocity changes; of transient flows all have one size.");
+    add_parameter("Initial water table",
+                  initial_text,
+                  "Beginning of a transient flow of unsaturated soil: steady, "
+                  "the steady flow with the levels and the rain at t = 0, or "
+                  "the height y [m] of a water table with hydrostatic "
+                  "pressures below it and suctions above.");
+    add_parameter("Time tolerance",
+                  tolerance,
+                  "Transient flow of unsaturated soil: largest error of the "
+                  "effective saturation in a time step [-], estimated from the "
+                  "change of its rate. The 'Flow steps' of a stage are divided "
+                  "to meet it.");
     add_parameter("Time",
                   time,
                   "Bounds: time [s] in the stages of 'Loading' whose pore "
                   "pressures act, e.g. after a drawdown.");
-    make();
+    make(file.folder());
   }
 
   void
@@ -150,13 +193,29 @@ namespace geocone::GEOCONE_DIM
           list.end(),
           [](const auto &boundary) { return boundary->level.has_value(); }) &&
         std::none_of(list.begin(), list.end(), [](const auto &boundary) {
-          return boundary->rain > 0.;
+          return boundary->has_rain();
         }))
       throw InputError(parameter(),
                        names,
                        "at least one boundary with a level or rain",
                        "there is no water: set 'Seepage/" + list[0]->name +
                          "/Level'");
+    initial_table.reset();
+    if (initial_text != "steady")
+      {
+        initial_table = number_in(initial_text);
+        if (!initial_table || !(std::abs(*initial_table) <= largest_coordinate))
+          throw InputError("Seepage/Initial water table",
+                           initial_text,
+                           "steady, or a height y in m",
+                           "steady is the flow with the levels and the rain at "
+                           "t = 0");
+      }
+    if (!(tolerance > 0. && tolerance <= 1.))
+      throw InputError("Seepage/Time tolerance",
+                       tolerance,
+                       "> 0, at most 1",
+                       "0.01 is usual");
   }
 
   Seepage::Levels
@@ -168,12 +227,9 @@ namespace geocone::GEOCONE_DIM
     return all;
   }
 
-  std::vector<Seepage::Step>
-  Seepage::steps(const Stage  &stage,
-                 const double  begin,
-                 const Levels &before) const
+  Seepage::Levels
+  Seepage::levels_after(const Stage &stage, Levels levels) const
   {
-    Levels after = before;
     for (const auto &[name, level] : stage.water_levels)
       {
         const auto found =
@@ -185,8 +241,29 @@ namespace geocone::GEOCONE_DIM
                                   : "empty where no water flows",
                            "give NAME: LEVEL, e.g. " +
                              (acts() ? list[0]->name : "upstream") + ": 5");
-        after[found - this->names().begin()] = level;
+        const std::size_t b = found - this->names().begin();
+        if (list[b]->prescribed_level(0.))
+          throw InputError("Loading/" + stage.name + "/Water levels",
+                           name,
+                           "no boundary whose level is a function of time",
+                           "give 'Seepage/" + name + "/Level' as a number");
+        levels[b] = level;
       }
+    return levels;
+  }
+
+  std::vector<Seepage::Step>
+  Seepage::steps(const Stage  &stage,
+                 const double  begin,
+                 const Levels &before) const
+  {
+    Levels     after     = levels_after(stage, before);
+    const auto prescribe = [&](Levels &levels, const double t) {
+      for (unsigned int b = 0; b < levels.size(); ++b)
+        if (const auto level = list[b]->prescribed_level(t))
+          levels[b] = level;
+    };
+    prescribe(after, begin + stage.duration);
     constexpr unsigned int most_steps = 10000;
     if (stage.flow_steps > most_steps)
       throw InputError("Loading/" + stage.name + "/Flow steps",
@@ -212,6 +289,7 @@ namespace geocone::GEOCONE_DIM
         for (unsigned int b = 0; b < after.size(); ++b)
           if (before[b] && after[b])
             step.levels[b] = (1. - part) * *before[b] + part * *after[b];
+        prescribe(step.levels, step.time);
         all.push_back(step);
       }
     return all;

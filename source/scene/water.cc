@@ -4,6 +4,7 @@
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
 #include <geocone/base/units.h>
+#include <geocone/materials/retention.h>
 #include <geocone/scene/water.h>
 
 #include <algorithm>
@@ -212,12 +213,35 @@ namespace geocone::GEOCONE_DIM
         double sum = 0.;
         for (std::size_t i = 0; i < all_flows.size(); ++i)
           if (initial_weights[i] != 0.)
-            sum += initial_weights[i] * all_flows[i].pressure.value(x);
+            sum +=
+              initial_weights[i] * std::max(all_flows[i].pressure.value(x), 0.);
         return sum;
       }
     return table.empty()
              ? 0.
              : unit_weight * std::max(level(table, x[0])[0] - x[1], 0.);
+  }
+
+  double
+  Water::suction_stress(const Point<dim> &x,
+                        const Retention  &soil,
+                        const std::size_t line) const
+  {
+    if (!soil.adds_strength() || !has_suction())
+      return 0.;
+    return soil.suction_stress(all_flows[line].pressure.value(x), unit_weight);
+  }
+
+  double
+  Water::initial_suction_stress(const Point<dim> &x,
+                                const Retention  &soil) const
+  {
+    double sum = 0.;
+    if (soil.adds_strength() && has_suction())
+      for (std::size_t i = 0; i < all_flows.size(); ++i)
+        if (initial_parts[i] != 0.)
+          sum += initial_parts[i] * suction_stress(x, soil, i);
+    return sum;
   }
 
   Tensor<1, dim>
@@ -227,7 +251,12 @@ namespace geocone::GEOCONE_DIM
     if (grid)
       return -grid->gradient(x);
     if (!all_flows.empty())
-      return -all_flows[line].pressure.gradient(x);
+      {
+        const Flow &flow = all_flows[line];
+        return flow.has_suction && !(flow.pressure.value(x) > 0.)
+                 ? f
+                 : -flow.pressure.gradient(x);
+      }
     if (table.empty())
       return f;
     const auto [y, slope] =

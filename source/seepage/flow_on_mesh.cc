@@ -75,9 +75,28 @@ namespace geocone::GEOCONE_DIM
         {
           const ConstitutiveLaw &law = scene.materials.law(m);
           all.push_back(law.permeability());
-          if (scene.water.flows_in_time())
+          if (scene.water.flows_in_time() && !law.retention().acts())
             law.drainable_porosity();
         }
+      return all;
+    }
+
+    /** Retention curve of each material; empty: none has any.
+     *  @throws InputError if only some have */
+    std::vector<const Retention *>
+    curves_of_materials(const Scene &scene)
+    {
+      std::vector<const Retention *> all;
+      for (unsigned int m = 0; m < scene.materials.size(); ++m)
+        if (scene.materials.law(m).retention().acts())
+          all.push_back(&scene.materials.law(m).retention());
+      for (unsigned int m = 0; m < scene.materials.size(); ++m)
+        if (!all.empty() && !scene.materials.law(m).retention().acts())
+          throw InputError("Materials/" + scene.materials.name(m) +
+                             "/Retention",
+                           "none",
+                           "a curve, as other materials have one",
+                           "give all materials a curve, or none");
       return all;
     }
   } // namespace
@@ -87,12 +106,14 @@ namespace geocone::GEOCONE_DIM
     , comm(comm)
     , is_transient(scene.water.flows_in_time())
     , permeability(permeability_of_materials(scene))
+    , curves(curves_of_materials(scene))
     , first_mesh(mesh_with(equal_sizes(scene.geometry,
                                        scene.water.seepage.n_cells /
                                          std::pow(2., n_levels() - 1))))
     , mesh(first_mesh)
   {
     take(first_mesh);
+    check_unsaturated();
     for (const Seepage::Step &step : scene.water.flow_steps())
       check(step.levels);
   }
@@ -137,7 +158,7 @@ namespace geocone::GEOCONE_DIM
       {
         measure.push_back(
           Geometry::measure(scene.geometry.symmetry, mesh.centre(c)));
-        if (is_transient)
+        if (is_transient && !is_unsaturated())
           for (const unsigned int v : mesh.cells[c])
             drainable[v] +=
               scene.materials.law(mesh.material[c]).drainable_porosity() *
@@ -152,32 +173,41 @@ namespace geocone::GEOCONE_DIM
     if (step.duration > 0.)
       {
         stop_if_asked(comm);
-        advance(step);
+        if (is_unsaturated())
+          advance_unsaturated(step);
+        else
+          advance(step);
+        return after_mesh();
+      }
+    levels_now = step.levels;
+    if (scene.water.seepage.initial_table && !is_solved())
+      {
+        begin_at_rest(*scene.water.seepage.initial_table);
         return after_mesh();
       }
     for (unsigned int level = 0; level < n_levels(); ++level)
       {
         stop_if_asked(comm);
         if (level == 0)
-          solve_on_first_mesh(step.levels);
+          solve_on_first_mesh(step);
         else
-          refine(step.levels);
+          refine(step);
         after_mesh();
       }
   }
 
   void
-  FlowOnMesh::solve_on_first_mesh(const Seepage::Levels &levels)
+  FlowOnMesh::solve_on_first_mesh(const Seepage::Step &step)
   {
     if (is_solved())
       take(first_mesh);
     discharge_before.reset();
     rate_of_storage = 0.;
-    solve_on_mesh(conditions(levels), hydrostatic(levels));
+    solve_on_mesh(conditions(step.levels, step.time), hydrostatic(step.levels));
   }
 
   void
-  FlowOnMesh::refine(const Seepage::Levels &levels)
+  FlowOnMesh::refine(const Seepage::Step &step)
   {
     const Triangles next =
       mesh_with(adapted_sizes(mesh, jumps(), 2. * mesh.cells.size()));
@@ -187,22 +217,62 @@ namespace geocone::GEOCONE_DIM
     std::vector<double> start;
     for (const Point<dim> &x : mesh.vertices)
       start.push_back(last.value(x));
-    solve_on_mesh(conditions(levels), std::move(start));
+    solve_on_mesh(conditions(step.levels, step.time), std::move(start));
   }
 
   void
   FlowOnMesh::solve_on_mesh(const FlowConditions &conditions,
                             std::vector<double>   start)
   {
-    solution =
-      solve_flow(mesh, permeability, measure, conditions, std::move(start));
+    steps_taken   = 0;
+    largest_error = 0.;
+    step_size     = 0.;
+    if (is_unsaturated())
+      solution = UnsaturatedFlow(mesh, permeability, measure, curves)
+                   .steady(conditions, std::move(start));
+    else
+      solution =
+        solve_flow(mesh, permeability, measure, conditions, std::move(start));
+  }
+
+  void
+  FlowOnMesh::check_unsaturated() const
+  {
+    const Seepage &seepage = scene.water.seepage;
+    if (seepage.initial_table && !(is_unsaturated() && is_transient))
+      throw InputError("Seepage/Initial water table",
+                       *seepage.initial_table,
+                       "steady where no flow is transient in unsaturated soil",
+                       "set 'Loading/STAGE/Flow steps' and "
+                       "'Materials/NAME/Retention', or leave it out");
+    const bool is_wet =
+      std::any_of(seepage.list.begin(), seepage.list.end(), [](const auto &b) {
+        return b->level || b->rain(0.) > 0.;
+      });
+    if (is_unsaturated() && !seepage.initial_table && !is_wet)
+      throw InputError("Seepage/Initial water table",
+                       "steady",
+                       "a height y where no boundary has a level and it does "
+                       "not rain at t = 0",
+                       "dry soil has no steady flow: give the height of a "
+                       "water table, which may lie below the body");
+  }
+
+  void
+  FlowOnMesh::begin_at_rest(const double table)
+  {
+    solution = {};
+    for (const Point<dim> &x : mesh.vertices)
+      solution.head.push_back(table - x[1]);
+    solution.s = solution.head;
+    solution.inflow.assign(mesh.vertices.size(), 0.);
   }
 
   void
   FlowOnMesh::advance(const Seepage::Step &step)
   {
     const double   before  = stored();
-    FlowConditions next    = conditions(step.levels);
+    FlowConditions next    = conditions(step.levels, step.time);
     next.storage           = drainable;
     next.saturation_before = saturation();
     for (double &volume : next.storage)
@@ -210,6 +280,89 @@ namespace geocone::GEOCONE_DIM
     discharge_before.reset();
     solve_on_mesh(next, solution.s);
     rate_of_storage = (stored() - before) / step.duration;
+  }
+
+  void
+  FlowOnMesh::advance_unsaturated(const Seepage::Step &step)
+  {
+    constexpr double least_part = 1e-9, largest_growth = 2., largest_cut = 0.3,
+                     safety = 0.9;
+    const UnsaturatedFlow flow(mesh, permeability, measure, curves);
+    const double          tolerance = scene.water.seepage.tolerance;
+    const Seepage::Levels from      = levels_now;
+    const double          least     = least_part * step.duration;
+    double                left      = step.duration;
+    steps_taken                     = 0;
+    largest_error                   = 0.;
+    if (step_size == 0.)
+      step_size = step.duration / 10.;
+    while (left > least)
+      {
+        stop_if_asked(comm);
+        double h = std::min(step_size, left);
+        if (left > h && left < 2. * h)
+          h = left / 2.;
+        const double    part   = std::min(1. - (left - h) / step.duration, 1.);
+        Seepage::Levels levels = step.levels;
+        for (unsigned int b = 0; b < levels.size(); ++b)
+          if (from[b] && levels[b])
+            *levels[b] = (1. - part) * *from[b] + part * *levels[b];
+        auto [next, converged] =
+          flow.step(conditions(levels, step.time - left + h / 2.),
+                    h,
+                    solution.head,
+                    solution.s);
+        std::vector<double> change = last_change;
+        for (double &one : change)
+          one *= last_step > 0. ? h / last_step : 0.;
+        const double error =
+          converged ? flow.change(solution.head, next.head, change) / 2. : 0.;
+        const double factor =
+          error > 0. ? safety * std::sqrt(tolerance / error) : largest_growth;
+        if ((!converged || error > tolerance) && h > least)
+          {
+            step_size = h * (converged ? std::clamp(factor, largest_cut, 0.9)
+                                       : largest_cut);
+            continue;
+          }
+        if (!converged)
+          throw RunError(
+            format("the flow in unsaturated soil was not found at t = %g s, "
+                   "with time steps down to %.2g s\n  remedy:  check the "
+                   "retention curves, or change 'Seepage/Cells'",
+                   step.time - left,
+                   h));
+        const std::vector<double> before = flow.water(solution.head),
+                                  after  = flow.water(next.head);
+        double gain = 0., moved = 0.;
+        for (unsigned int v = 0; v < after.size(); ++v)
+          {
+            gain += after[v] - before[v];
+            moved += std::abs(after[v] - before[v]);
+          }
+        rate_of_storage = gain / h;
+        const unsigned int iterations =
+          (steps_taken > 0 ? solution.iterations : 0) + next.iterations;
+        solution            = std::move(next);
+        solution.iterations = iterations;
+        double sum          = -rate_of_storage;
+        for (const double inflow : solution.inflow)
+          sum += inflow;
+        const double size = std::max(discharge(), moved / h);
+        if (flows() || moved > 0.)
+          largest_error = std::max(largest_error, std::abs(sum) / size);
+        last_change = std::move(change);
+        last_step   = h;
+        left -= h;
+        ++steps_taken;
+        // The last step of a flow is shortened, but the next one need not be.
+        step_size = std::max(step_size, h) == step_size && left <= least
+                      ? std::max(step_size * std::min(factor, 1.),
+                                 h * std::min(factor, largest_growth))
+                      : h * std::clamp(factor, largest_cut, largest_growth);
+      }
+    levels_now = step.levels;
+    discharge_before.reset();
   }
 
   std::vector<double>
@@ -224,8 +377,18 @@ namespace geocone::GEOCONE_DIM
   double
   FlowOnMesh::stored() const
   {
+    double sum = 0.;
+    if (!is_solved()) // the summary of a run that begins
+      return sum;
+    if (is_unsaturated())
+      {
+        for (const double volume :
+             UnsaturatedFlow(mesh, permeability, measure, curves)
+               .water(solution.head))
+          sum += volume;
+        return sum;
+      }
     const std::vector<double> chi = saturation();
-    double                    sum = 0.;
     for (unsigned int v = 0; v < chi.size(); ++v)
       sum += drainable[v] * chi[v];
     return sum;
@@ -279,7 +442,7 @@ namespace geocone::GEOCONE_DIM
   }
 
   FlowConditions
-  FlowOnMesh::conditions(const Seepage::Levels &levels) const
+  FlowOnMesh::conditions(const Seepage::Levels &levels, const double time) const
   {
     using Kind                = FlowConditions::Kind;
     const unsigned int n      = mesh.vertices.size();
@@ -305,7 +468,7 @@ namespace geocone::GEOCONE_DIM
           const Point<dim> &a    = mesh.vertices[ends[0]],
                            &b    = mesh.vertices[ends[1]];
           const double flow =
-            listed[boundary_of_edge[e]]->rain * std::abs(b[0] - a[0]) *
+            listed[boundary_of_edge[e]]->rain(time) * std::abs(b[0] - a[0]) *
             Geometry::measure(scene.geometry.symmetry, a + 0.5 * (b - a));
           for (const unsigned int v : ends)
             all.rain[v] += flow / 2.;
@@ -319,9 +482,17 @@ namespace geocone::GEOCONE_DIM
     double highest = std::numeric_limits<double>::lowest();
     for (const auto &level : levels)
       highest = std::max(highest, level.value_or(highest));
+    if (is_unsaturated())
+      for (const Point<dim> &x : mesh.vertices)
+        if (highest < x[1] &&
+            std::none_of(levels.begin(), levels.end(), [](const auto &level) {
+              return level.has_value();
+            }))
+          highest = x[1];
     std::vector<double> s;
     for (const Point<dim> &x : mesh.vertices)
-      s.push_back(std::max(highest - x[1], -0.5));
+      s.push_back(is_unsaturated() ? highest - x[1]
+                                   : std::max(highest - x[1], -0.5));
     return s;
   }
 
@@ -330,7 +501,10 @@ namespace geocone::GEOCONE_DIM
   {
     std::vector<Tensor<1, dim>> q;
     for (unsigned int c = 0; c < mesh.cells.size(); ++c)
-      q.push_back(darcy_velocity(mesh, permeability, solution, c));
+      q.push_back(
+        is_unsaturated()
+          ? unsaturated_velocity(mesh, permeability, curve(c), solution.head, c)
+          : darcy_velocity(mesh, permeability, solution, c));
     return q;
   }
 
@@ -374,7 +548,7 @@ namespace geocone::GEOCONE_DIM
         size[v] = std::max(size[v], std::sqrt(mesh.area(c)));
     // Height above the free surface of unsaturated vertices: half a cell.
     const auto depth = [&](const unsigned int v) {
-      return solution.head[v] > 0.
+      return solution.head[v] > 0. || is_unsaturated()
                ? solution.head[v]
                : (solution.saturation[v] - 1.) / 2. * size[v];
     };
@@ -393,7 +567,7 @@ namespace geocone::GEOCONE_DIM
         if (ends.size() == 2)
           surface.push_back({{ends[0], ends[1]}});
       }
-    return {{mesh.vertices, mesh.cells, pressure}, surface};
+    return {{mesh.vertices, mesh.cells, pressure}, surface, is_unsaturated()};
   }
 
   std::vector<double>
@@ -426,6 +600,8 @@ namespace geocone::GEOCONE_DIM
   double
   FlowOnMesh::imbalance() const
   {
+    if (steps_taken > 0)
+      return largest_error;
     double sum = -rate_of_storage;
     for (const double inflow : inflows())
       sum += inflow;
@@ -467,7 +643,7 @@ namespace geocone::GEOCONE_DIM
     std::vector<Water::Flow> flows;
     if (dry_run) // the first flow on the first mesh stands for all
       {
-        flow.solve_on_first_mesh(steps.front().levels);
+        flow.solve_on_first_mesh(steps.front());
         flows.assign(steps.size(), flow.result());
       }
     else

@@ -13,9 +13,15 @@
 #include <deal.II/base/symmetric_tensor.h>
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
+
+namespace geocone
+{
+  class Retention;
+}
 
 namespace geocone::GEOCONE_DIM
 {
@@ -91,6 +97,13 @@ namespace geocone::GEOCONE_DIM
      *  @throws InputError if it is not given */
     double
     drainable_porosity() const;
+
+    /** Retention curve and relative permeability of the unsaturated soil. */
+    const Retention &
+    retention() const
+    {
+      return *unsaturated;
+    }
 
     /** Earth pressure coefficient at rest K0 from the parameter file (-); 0 if
      *  not specified. */
@@ -245,6 +258,8 @@ namespace geocone::GEOCONE_DIM
     std::vector<double> conductivities;          ///< principal values (m/s)
     double              conductivity_angle = 0.; ///< (degrees)
     double              drainable          = 0.;
+
+    std::shared_ptr<Retention> unsaturated;
   };
 
   /** Evaluates an output quantity selected by name; NaN for laws without this

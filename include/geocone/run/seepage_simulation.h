@@ -25,11 +25,21 @@ namespace geocone::GEOCONE_DIM
     double              discharge = 0., error = 0.; ///< (m^2/s), (-)
     double              stored = 0.; ///< stored water, transient flow (m^2)
     std::vector<double> inflows;     ///< inflow at each boundary (m^2/s)
+    unsigned int        steps     = 0;  ///< time steps, unsaturated flow
+    double              imbalance = 0.; ///< of water in them (-)
 
     void
     state(StateRow &row)
     {
-      row(time, triangles, iterations, discharge, error, stored, inflows);
+      row(time,
+          triangles,
+          iterations,
+          discharge,
+          error,
+          stored,
+          inflows,
+          steps,
+          imbalance);
     }
   };
 
@@ -46,7 +56,8 @@ namespace geocone::GEOCONE_DIM
     prepare(const RunOptions               &options,
             const std::vector<std::string> &names,
             const Geometry                 &geometry,
-            const bool                      is_transient);
+            const bool                      is_transient,
+            const bool                      is_unsaturated);
 
     /** Writes the fields of pore pressure, hydraulic head, relative permeability and
      *  velocity. */

@@ -5,6 +5,7 @@
 #define geocone_scene_seepage_h
 
 #include <geocone/base/named_list.h>
+#include <geocone/functions/expression.h>
 #include <geocone/scene/boundary_conditions.h>
 #include <geocone/scene/loading.h>
 
@@ -20,18 +21,32 @@ namespace geocone::GEOCONE_DIM
   class SeepageBoundary : public BoundaryPart
   {
   public:
-    explicit SeepageBoundary(const std::string &name);
+    /** @param folder to which names of files are relative */
+    SeepageBoundary(const std::string &name, const std::string &folder);
 
     void
     prepare();
 
-    /** Water level y at the boundary (m). Without a value the boundary is
+    /** Initial water level y at the boundary (m). Without a value the boundary is
      *  exposed to air. */
     std::optional<double> level;
 
-    /** Rainfall rate per unit horizontal area (m/s); upper limit on the
-     *  infiltration rate. */
-    double rain = 0.;
+    /** Water level y (m) at time t if the level is a formula or a time history.
+     *  No value: stages change the level. */
+    std::optional<double>
+    prescribed_level(const double t) const;
+
+    /** Rainfall rate at time t per unit horizontal area (m/s); upper limit on
+     *  the infiltration rate. @throws InputError for a negative rate */
+    double
+    rain(const double t) const;
+
+    /** Returns true if the rainfall rate is nonzero at any time. */
+    bool
+    has_rain() const
+    {
+      return !rain_in_time.is_zero();
+    }
 
     /** Vertices (m) of the polyline that represents a drain in the body. Empty
      *  without a drain. */
@@ -42,7 +57,10 @@ namespace geocone::GEOCONE_DIM
     is_on_drain(const dealii::Point<dim> &x) const;
 
   private:
-    std::string level_text = "none";
+    const std::string         folder;
+    std::string               level_text = "none", rain_text = "0";
+    Expression                rain_in_time;
+    std::optional<Expression> level_in_time;
   };
 
   /** List of all boundary conditions of the seepage problem, from the parameter
@@ -91,9 +109,25 @@ namespace geocone::GEOCONE_DIM
     /** Target number of triangles in the finest mesh of the seepage problem. */
     unsigned int n_cells = 5000;
 
+    /** Height y (m) of a water table; the initial pressures are hydrostatic
+     *  relative to it. No value: the steady flow at t = 0 is the initial state. */
+    std::optional<double> initial_table;
+
+    /** Largest time discretisation error of the effective saturation per time
+     *  step (-), of unsaturated flow. */
+    double tolerance = 0.01;
+
     /** Time (s) in the loading programme at which limit analysis evaluates the
      *  pore pressures. */
     double time = 0.;
+
+  private:
+    /** Applies 'Water levels' of a stage to the levels before it.
+     *  @throws InputError for unknown names and prescribed levels */
+    Levels
+    levels_after(const Stage &stage, Levels levels) const;
+
+    std::string initial_text = "steady";
   };
 } // namespace geocone::GEOCONE_DIM
 

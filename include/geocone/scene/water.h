@@ -19,6 +19,11 @@
 #include <utility>
 #include <vector>
 
+namespace geocone
+{
+  class Retention;
+}
+
 namespace geocone::GEOCONE_DIM
 {
   /**
@@ -31,7 +36,10 @@ namespace geocone::GEOCONE_DIM
    * where rho is the density of the soil including its water. Where the line
    * lies above the ground, free water loads the surface with u: there, as on
    * the complete free surface, the effective traction is zero, so that no
-   * further load is needed.
+   * further load is needed. Above the free surface of a flow with suction, u < 0
+   * and Bishop's effective stress is s' = s + chi u 1: the load is the power
+   *   integral of chi u div v,
+   * whose boundary part compresses the surface of the soil by -chi u.
    */
   class Water : public dealii::ParameterAcceptor
   {
@@ -84,6 +92,8 @@ namespace geocone::GEOCONE_DIM
     {
       TriangleField                                  pressure; ///< (Pa)
       std::vector<std::array<dealii::Point<dim>, 2>> surface;  ///< free surface
+
+      bool has_suction = false; ///< pressure < 0 above the free surface
     };
 
     /** Stores the solutions of the flow problems listed by flow_steps().
@@ -123,6 +133,26 @@ namespace geocone::GEOCONE_DIM
      *  @param line index: 0 initially, then in the order of stages */
     dealii::Tensor<1, dim>
     force(const dealii::Point<dim> &x, const std::size_t line = 0) const;
+
+    /** Returns true if the computed pore pressures are negative (suction) above
+     *  the free surface. */
+    bool
+    has_suction() const
+    {
+      return !all_flows.empty() && all_flows.front().has_suction;
+    }
+
+    /** Suction stress chi u <= 0 (Pa) in Bishop's effective stress, of one flow
+     *  problem. It is zero below the free surface and without suction. */
+    double
+    suction_stress(const dealii::Point<dim> &x,
+                   const Retention          &soil,
+                   const std::size_t         line) const;
+
+    /** Initial suction stress chi u (Pa), see suction_stress(). */
+    double
+    initial_suction_stress(const dealii::Point<dim> &x,
+                           const Retention          &soil) const;
 
     /** Returns the interpolation weights at time t for the pore pressures of
      *  all piezometric lines and flow problems. The weights sum to 1. */

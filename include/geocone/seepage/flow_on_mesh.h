@@ -9,6 +9,7 @@
 #include <geocone/mesh/gmsh_mesh.h>
 #include <geocone/scene/scene.h>
 #include <geocone/seepage/flow_solution.h>
+#include <geocone/seepage/unsaturated_flow.h>
 
 #include <functional>
 #include <optional>
@@ -19,7 +20,9 @@ namespace geocone::GEOCONE_DIM
 {
   /** Seepage through the body of a scene. Steady flow is solved on meshes
    *  refined at the free surface and where the velocity varies, transient flow
-   *  on one mesh. */
+   *  on one mesh. If the materials have retention curves, the soil above the
+   *  free surface is unsaturated (UnsaturatedFlow), otherwise it has no
+   *  suction. */
   class FlowOnMesh
   {
   public:
@@ -41,7 +44,7 @@ namespace geocone::GEOCONE_DIM
     /** Solves the steady flow problem on the first mesh, without refinement.
      *  @throws RunError */
     void
-    solve_on_first_mesh(const Seepage::Levels &levels);
+    solve_on_first_mesh(const Seepage::Step &step);
 
     /** Returns true if the flow on the current mesh has been solved. */
     bool
@@ -50,7 +53,8 @@ namespace geocone::GEOCONE_DIM
       return solution.s.size() == mesh.vertices.size();
     }
 
-    /** Volume of drainable water stored in the body (m^2; m^3 in axisymmetry).
+    /** Volume of drainable water stored in the body, of all water in
+     *  unsaturated soil (m^2; m^3 in axisymmetry).
      *  @pre drainable porosities are given */
     double
     stored() const;
@@ -94,8 +98,31 @@ namespace geocone::GEOCONE_DIM
     bool
     flows() const;
 
+    /** Returns true if the soil is unsaturated above the free surface. */
+    bool
+    is_unsaturated() const
+    {
+      return !curves.empty();
+    }
+
+    /** Retention curve of the material in a cell. @pre is_unsaturated() */
+    const Retention &
+    curve(const unsigned int cell) const
+    {
+      return *curves[mesh.material[cell]];
+    }
+
+    /** Number of time steps of the last transient flow problem. */
+    unsigned int
+    n_steps() const
+    {
+      return steps_taken;
+    }
+
     /** Relative error of the water balance (-). It is the net inflow through
-     *  all boundaries minus the rate of storage, divided by the discharge. */
+     *  all boundaries minus the rate of storage, divided by the discharge. For
+     *  unsaturated flow it is the maximum over the time steps, and the divisor
+     *  is the larger of discharge and rate of redistribution. */
     double
     imbalance() const;
 
@@ -126,8 +153,9 @@ namespace geocone::GEOCONE_DIM
     void
     check(const Seepage::Levels &levels) const;
 
+    /** @param time at which it rains (s) */
     FlowConditions
-    conditions(const Seepage::Levels &levels) const;
+    conditions(const Seepage::Levels &levels, const double time) const;
 
     void
     solve_on_mesh(const FlowConditions &conditions, std::vector<double> start);
@@ -140,11 +168,24 @@ namespace geocone::GEOCONE_DIM
     /** Refines the mesh adaptively to twice as many triangles and solves steady
      *  flow. Collective. */
     void
-    refine(const Seepage::Levels &levels);
+    refine(const Seepage::Step &step);
+
+    /** Checks what unsaturated flow needs. @throws InputError */
+    void
+    check_unsaturated() const;
+
+    /** Begins with hydrostatic pressures below and above a water table. */
+    void
+    begin_at_rest(const double table);
 
     /** Solves a time step of transient flow. */
     void
     advance(const Seepage::Step &step);
+
+    /** Solves transient unsaturated flow by adaptive time steps.
+     *  @throws RunError */
+    void
+    advance_unsaturated(const Seepage::Step &step);
 
     /** Error indicator of each cell, computed from the jumps of the normal
      *  velocity across the edges of the cell. */
@@ -159,7 +200,8 @@ namespace geocone::GEOCONE_DIM
     const MPI_Comm                             comm;
     const bool                                 is_transient; ///< in any step
     std::vector<dealii::SymmetricTensor<2, 2>> permeability;
-    Triangles                                  first_mesh;
+    std::vector<const Retention *> curves; ///< by material; empty: no suction
+    Triangles                      first_mesh;
 
     /** @name The current mesh */
     /** @{ */
@@ -173,6 +215,16 @@ namespace geocone::GEOCONE_DIM
     FlowSolution          solution;
     std::optional<double> discharge_before;
     double                rate_of_storage = 0.; ///< (m^2/s)
+
+    /** @name Time steps in unsaturated soil */
+    /** @{ */
+    Seepage::Levels     levels_now;
+    double              step_size = 0.; ///< of the next step; 0: none yet (s)
+    double              last_step = 0.; ///< (s)
+    std::vector<double> last_change;    ///< of saturations in it
+    unsigned int        steps_taken   = 0;  ///< of the last flow
+    double              largest_error = 0.; ///< of the balance in them
+    /** @} */
   };
 
   /** Solves all seepage flow problems of a scene. The pore pressures are passed
