@@ -5,11 +5,13 @@
 #include <geocone/cone/second_order_cone.h>
 #include <geocone/limit_analysis/bound_problem.h>
 #include <geocone/limit_analysis/interface_cells.h>
+#include <geocone/materials/retention.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <set>
 #include <vector>
 
@@ -216,6 +218,42 @@ namespace geocone::GEOCONE_DIM
           seepage_force(bound, cell) *
             (bound.units.length / bound.units.stress),
           bound.loads(problem, LoadFactor::all));
+    }
+
+    /** chi u of Bishop's effective stress at the vertices of a cell, linear between
+     *  them, in units of stress; no value where suction adds no strength. */
+    std::optional<std::array<double, 3>>
+    suction_of_cell(const BoundScene &bound, const unsigned int cell)
+    {
+      const Triangles &triangles = bound.triangles;
+      const Retention &soil =
+        bound.scene.materials.law(triangles.material[cell]).retention();
+      if (!soil.adds_strength())
+        return std::nullopt;
+      std::array<double, 3> p;
+      for (unsigned int i = 0; i < 3; ++i)
+        p[i] = bound.scene.water.initial_suction_stress(
+                 triangles.vertices[triangles.cells[cell][i]], soil) /
+               bound.units.stress;
+      return p;
+    }
+
+    /** Adds the power of a suction p at a point with rates B q: the volume times p div
+     *  v. */
+    void
+    add_suction(BoundProblem                    &problem,
+                const BoundScene                &bound,
+                const double                     volume,
+                const double                     p,
+                const StrainMatrix              &B,
+                const std::vector<unsigned int> &dofs)
+    {
+      Mandel one = Mandel::Zero();
+      one[0] = one[1]         = 1.;
+      const Eigen::VectorXd f = volume * p * B.transpose() * to_cone_axes(one);
+      Eigen::VectorXd      &F = bound.loads(problem, LoadFactor::all);
+      for (unsigned int i = 0; i < dofs.size(); ++i)
+        F[dofs[i]] += f[i];
     }
 
     /** The outward normal of a boundary edge. */
@@ -447,7 +485,8 @@ namespace geocone::GEOCONE_DIM
       const Triangles &triangles = bound.triangles;
       for (unsigned int c = 0; c < triangles.cells.size(); ++c)
         {
-          const auto g = triangles.gradients(c);
+          const auto g       = triangles.gradients(c);
+          const auto suction = suction_of_cell(bound, c);
           for (unsigned int i = 0; i < 3; ++i)
             {
               // The translation, and the ends at this vertex of both edges e, opposite
@@ -467,8 +506,15 @@ namespace geocone::GEOCONE_DIM
                                            triangles.cells[c][i]) +
                                    d);
                   }
-              add_point_of_triangle(
-                problem, c, i, bound.units.length * B, dofs);
+              B *= bound.units.length;
+              add_point_of_triangle(problem, c, i, B, dofs);
+              if (suction) // linear stresses: the balance is exact
+                add_suction(problem,
+                            bound,
+                            problem.volume[3 * c + i],
+                            (*suction)[i],
+                            B,
+                            dofs);
             }
           add_body_forces(problem, bound, BoundSide::lower, c);
         }
@@ -568,10 +614,22 @@ namespace geocone::GEOCONE_DIM
               dim * (f < 3 ? triangles.cells[c][f]
                            : n_vertices + triangles.edges_of_cell[c][f - 3]) +
               d);
-        const auto g = triangles.gradients(c);
+        const auto g       = triangles.gradients(c);
+        const auto suction = suction_of_cell(bound, c);
         for (unsigned int i = 0; i < 3; ++i)
-          add_point_of_triangle(
-            problem, c, i, L * strains_of_quadratic(g, i), dofs);
+          {
+            const StrainMatrix B = L * strains_of_quadratic(g, i);
+            add_point_of_triangle(problem, c, i, B, dofs);
+            if (suction) // the integral of linear p and div v is exact
+              add_suction(problem,
+                          bound,
+                          problem.volume[3 * c + i],
+                          ((*suction)[i] + (*suction)[0] + (*suction)[1] +
+                           (*suction)[2]) /
+                            4.,
+                          B,
+                          dofs);
+          }
         for (const unsigned int v : triangles.cells[c])
           is_used[v] = true;
         add_body_forces(problem, bound, BoundSide::upper, c);

@@ -239,8 +239,8 @@ namespace geocone::GEOCONE_DIM
     double sum = 0.;
     if (soil.adds_strength() && has_suction())
       for (std::size_t i = 0; i < all_flows.size(); ++i)
-        if (initial_parts[i] != 0.)
-          sum += initial_parts[i] * suction_stress(x, soil, i);
+        if (initial_weights[i] != 0.)
+          sum += initial_weights[i] * suction_stress(x, soil, i);
     return sum;
   }
 
