@@ -212,10 +212,8 @@ namespace geocone::GEOCONE_DIM
                            "t = 0");
       }
     if (!(tolerance > 0. && tolerance <= 1.))
-      throw InputError("Seepage/Time tolerance",
-                       tolerance,
-                       "> 0, at most 1",
-                       "0.01 is usual");
+      throw InputError(
+        "Seepage/Time tolerance", tolerance, "> 0, at most 1", "0.01 is usual");
   }
 
   Seepage::Levels

@@ -17,11 +17,12 @@
 namespace geocone
 {
   /**
-   * Water in unsaturated soil, as functions of the pressure head psi < 0 (m):
-   * effective saturation S_e, volumetric water content
-   *   theta = theta_r + (theta_s - theta_r) S_e,
-   * relative permeability k_r, and the part of the suction that acts on the
-   * soil's skeleton (Bishop 1959). Curves:
+   * Water retention curve and relative permeability of unsaturated soil.
+   * The effective saturation S_e and the relative permeability k_r are
+   * functions of the pressure head psi < 0 (m). The volumetric water content is
+   *   theta = theta_r + (theta_s - theta_r) S_e.
+   * Bishop's parameter chi(S_e) scales the suction in the effective stress
+   * (Bishop 1959). Curves:
    *   van Genuchten (1980) with Mualem's model, m = 1 - 1/n,
    *     S_e = (1 + (alpha |psi|)^n)^-m,
    *     k_r = S_e^(1/2) (1 - (1 - S_e^(1/m))^m)^2;
@@ -35,26 +36,28 @@ namespace geocone
     void
     declare(dealii::ParameterAcceptor &law);
 
-    /** Checks the parameters. @param section of the material, for messages
+    /** Checks the parameters. @param section of the material, for error
+     *  messages
      *  @throws InputError for curves that are not monotone */
     void
     prepare(const std::string &section);
 
-    /** Whether the soil retains water above the free surface. */
+    /** Returns true if the soil retains water above the free surface. */
     bool
     acts() const
     {
       return curve != Curve::none;
     }
 
-    /** Whether suction adds to the strength. */
+    /** Returns true if suction increases the shear strength. */
     bool
     adds_strength() const
     {
       return acts() && bishop != Bishop::none;
     }
 
-    /** State of the water at a pressure head, with derivatives by it. */
+    /** Water content and relative permeability at a pressure head psi, with
+     *  their derivatives with respect to psi. */
     struct State
     {
       double content, capacity;    ///< theta (-), d(theta)/d(psi) (1/m)
@@ -64,8 +67,8 @@ namespace geocone
     State
     at(const double psi) const;
 
-    /** Mean pore pressure in Bishop's effective stress, chi u (Pa), of a
-     *  negative pore pressure u (Pa).
+    /** Suction stress chi u (Pa) in Bishop's effective stress, for a negative
+     *  pore pressure u (Pa).
      *  @param unit_weight of water (N/m^3) */
     double
     suction_stress(const double u, const double unit_weight) const;
@@ -85,16 +88,16 @@ namespace geocone
       saturation
     };
 
-    /** S_e and its derivative by psi. */
+    /** Effective saturation S_e and its derivative dS_e/dpsi (1/m). */
     std::array<double, 2>
     saturation(const double psi) const;
 
-    /** k_r and its derivative by psi. */
+    /** Relative permeability k_r and its derivative dk_r/dpsi (1/m). */
     std::array<double, 2>
     permeability(const double psi) const;
 
-    /** Row of the table that begins the interval around a suction head; the
-     *  last one beyond the table. */
+    /** Index of the table row at the lower end of the interval that contains a
+     *  suction head (m); the last row beyond the table. */
     std::size_t
     row(const double suction) const;
 

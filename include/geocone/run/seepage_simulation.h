@@ -25,8 +25,8 @@ namespace geocone::GEOCONE_DIM
     double              discharge = 0., error = 0.; ///< (m^2/s), (-)
     double              stored = 0.; ///< stored water, transient flow (m^2)
     std::vector<double> inflows;     ///< inflow at each boundary (m^2/s)
-    unsigned int        steps     = 0;  ///< time steps, unsaturated flow
-    double              imbalance = 0.; ///< of water in them (-)
+    unsigned int        steps     = 0;  ///< time steps of unsaturated flow
+    double              imbalance = 0.; ///< error of their water balance (-)
 
     void
     state(StateRow &row)

@@ -11,22 +11,24 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Equations of a flow: the balance of water of each vertex of a mesh, a
-   *  piecewise smooth function of one variable s per vertex. */
+  /** Nonlinear equations of a flow problem: the water balance of each vertex of
+   *  a mesh. The balance is a piecewise smooth function of one variable s per
+   *  vertex. */
   class FlowBalance
   {
   public:
     virtual ~FlowBalance() = default;
 
-    /** Imbalance of each vertex at s (m^2/s). */
+    /** Residual of the water balance of each vertex at s (m^2/s). */
     virtual std::vector<double>
     residual(const std::vector<double> &s) = 0;
 
-    /** Derivative of residual() at its last argument. */
+    /** Jacobian matrix of residual() at the last argument of residual(). */
     virtual const SparseMatrix &
     derivative() = 0;
 
-    /** Largest entry of a residual over the flow through the vertex's edges. */
+    /** Maximum norm of the residual r (-). Each entry is divided by the sum of
+     *  the absolute flow rates through the edges of the vertex. */
     double
     error(const std::vector<double> &r) const;
 
@@ -36,7 +38,8 @@ namespace geocone::GEOCONE_DIM
       return matrix;
     }
 
-    /** Flow into the body at each vertex at the last argument of residual(). */
+    /** Inflow through the boundary at each vertex (m^2/s), at the last argument
+     *  of residual(). */
     std::vector<double> inflow;
 
   protected:
@@ -47,21 +50,22 @@ namespace geocone::GEOCONE_DIM
                 const std::vector<double>                        &measure,
                 const FlowConditions                             &conditions);
 
-    /** Balance at vertices with a prescribed head, and flow through the
-     *  boundary at the others.
-     *  @param[in,out] r net flow through the edges less the rate of storage
-     *  @param outflow of seepage faces (m^2/s) */
+    /** Adds the flow through the boundary to the residual, and replaces the
+     *  residual at vertices with a prescribed head.
+     *  @param outflow of seepage faces (m^2/s)
+     *  @param[in,out] r net flow through the edges less the rate of storage */
     void
     add_boundary(const std::vector<double> &s,
                  const std::vector<double> &outflow,
                  std::vector<double>       &r);
 
-    /** Sets the derivative to that of add_boundary(). @param doutflow
-     *  derivative of the outflow by s */
+    /** Initialises the Jacobian matrix with the contributions of
+     *  add_boundary(). @param doutflow derivative of the outflow by s */
     void
     begin_derivative(const std::vector<double> &doutflow);
 
-    /** Adds to the derivative, except in rows of prescribed heads. */
+    /** Adds a value to an entry of the Jacobian matrix, except in rows of
+     *  prescribed heads. */
     void
     add(const unsigned int row, const unsigned int column, const double value)
     {
@@ -92,10 +96,12 @@ namespace geocone::GEOCONE_DIM
                    const unsigned int                   cell,
                    const unsigned int                   i);
 
-  /** Nonsmooth Newton method with a line search.
-   *  @param wanted error, or that of rounding if it is at most 1e-10
-   *  @param[in,out] flow its s, iterations and error
-   *  @return whether it has converged */
+  /** Solves the equations of a flow problem by a nonsmooth Newton method with a
+   *  line search.
+   *  @param wanted error(); where rounding prevents it, at most 1e-10 is
+   *  accepted
+   *  @param[in,out] flow s, iterations and error
+   *  @return true if the method has converged */
   bool
   iterate(FlowBalance       &balance,
           LinearSolver      &solver,

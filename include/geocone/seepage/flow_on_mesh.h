@@ -53,8 +53,8 @@ namespace geocone::GEOCONE_DIM
       return solution.s.size() == mesh.vertices.size();
     }
 
-    /** Volume of drainable water stored in the body, of all water in
-     *  unsaturated soil (m^2; m^3 in axisymmetry).
+    /** Volume of drainable water stored in the body (m^2; m^3 in axisymmetry).
+     *  In unsaturated soil it is the volume of all water.
      *  @pre drainable porosities are given */
     double
     stored() const;
@@ -153,7 +153,7 @@ namespace geocone::GEOCONE_DIM
     void
     check(const Seepage::Levels &levels) const;
 
-    /** @param time at which it rains (s) */
+    /** @param time at which the rainfall rate is evaluated (s) */
     FlowConditions
     conditions(const Seepage::Levels &levels, const double time) const;
 
@@ -170,11 +170,12 @@ namespace geocone::GEOCONE_DIM
     void
     refine(const Seepage::Step &step);
 
-    /** Checks what unsaturated flow needs. @throws InputError */
+    /** Checks the parameters of unsaturated flow. @throws InputError */
     void
     check_unsaturated() const;
 
-    /** Begins with hydrostatic pressures below and above a water table. */
+    /** Sets hydrostatic initial pressures relative to a water table.
+     *  @param table height y (m) */
     void
     begin_at_rest(const double table);
 

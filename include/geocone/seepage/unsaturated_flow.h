@@ -13,59 +13,60 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Flow of water through unsaturated soil (Richards 1931), in the mixed form
-   * that conserves mass (Celia et al. 1990):
-   *   d(theta)/dt + div q = 0, q = -k k_r (grad psi + e_y),
-   * with psi <= 0, Q >= 0, psi Q = 0 on seepage faces and under rain, whose
-   * water is supplied up to the flow that the soil takes. psi is linear in
-   * triangles, theta lumped at vertices, k_r of an edge that of its upstream
-   * end: the scheme is monotone where no off-diagonal entry of the conductance
-   * matrix is positive, and hydrostatic pressures are exact. The variable s of
-   * a vertex is psi, on seepage faces psi = min(s, 0), Q = max(s, 0) scaled.
-   * See doc/theory/seepage.md.
+   * Solver for Richards' equation of flow through unsaturated soil (Richards
+   * 1931). The mixed form conserves mass (Celia et al. 1990):
+   *   d(theta)/dt + div q = 0, q = -k k_r (grad psi + e_y).
+   * On seepage faces and under rain, psi <= 0, Q >= 0 and psi Q = 0, where Q is
+   * the outflow, or the part of the rain that does not infiltrate. psi is
+   * linear in triangles, theta is lumped at vertices, and k_r of an edge is
+   * evaluated at its upstream vertex. The scheme is monotone where no
+   * off-diagonal entry of the conductance matrix is positive, and exact for
+   * hydrostatic pressures. The variable s of a vertex is psi; on seepage faces
+   * psi = min(s, 0) and Q = max(s, 0), scaled. See doc/theory/seepage.md.
    */
   class UnsaturatedFlow
   {
   public:
-    /** @param curves of each material @param measure area factor of each cell
-     *  All arguments must outlive the object. */
+    /** @param measure area factor of each cell (1, or 2 pi r in axisymmetry)
+     *  @param curves of each material
+     *  @pre all arguments outlive the object */
     UnsaturatedFlow(
       const Triangles                                  &triangles,
       const std::vector<dealii::SymmetricTensor<2, 2>> &permeability,
       const std::vector<double>                        &measure,
       const std::vector<const Retention *>             &curves);
 
-    /** Solves a time step by backward Euler.
+    /** Solves one time step by the backward Euler method.
      *  @param step size (s); 0: steady flow
-     *  @param before pressure heads at its beginning (m)
+     *  @param before pressure heads at the beginning of the step (m)
      *  @param start initial guess of FlowSolution::s
-     *  @return flow, and whether Newton's method has converged */
+     *  @return flow, and true if Newton's method has converged */
     std::pair<FlowSolution, bool>
     step(const FlowConditions      &conditions,
          const double               step,
          const std::vector<double> &before,
          const std::vector<double> &start) const;
 
-    /** Solves steady flow, by time steps of growing size if Newton's method
-     *  fails. @throws RunError */
+    /** Solves the steady flow problem. If Newton's method fails, time steps of
+     *  increasing size approach the steady state. @throws RunError */
     FlowSolution
     steady(const FlowConditions &conditions, std::vector<double> start) const;
 
-    /** Volume of water at each vertex (m^2; m^3 in axisymmetry). */
+    /** Water volume assigned to each vertex (m^2; m^3 in axisymmetry). */
     std::vector<double>
     water(const std::vector<double> &head) const;
 
-    /** Largest change of the effective saturation from that of the first heads
-     *  to that of the second ones, less a predicted one, of all vertices and
-     *  materials.
-     *  @param[in,out] change in the order of parts of vertices: predicted; the
-     *  actual one is returned */
+    /** Returns the largest difference between actual and predicted changes of
+     *  the effective saturation, over all vertices and materials.
+     *  @param from,to pressure heads before and after the change (m)
+     *  @param[in,out] change predicted change of each Part; replaced by the
+     *  actual change */
     double
     change(const std::vector<double> &from,
            const std::vector<double> &to,
            std::vector<double>       &change) const;
 
-    /** Part of the body at a vertex that is of one material. */
+    /** Control volume of a vertex, restricted to one material. */
     struct Part
     {
       unsigned int     vertex;
@@ -81,8 +82,8 @@ namespace geocone::GEOCONE_DIM
     std::vector<Part>                                 parts;
   };
 
-  /** Darcy velocity q in a cell, with the mean relative permeability of its
-   *  vertices (m/s). @param head pressure heads (m) */
+  /** Darcy velocity q in a cell (m/s), with the mean relative permeability of
+   *  the vertices of the cell. @param head pressure heads (m) */
   dealii::Tensor<1, dim>
   unsaturated_velocity(
     const Triangles                                  &triangles,
