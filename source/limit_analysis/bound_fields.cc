@@ -8,14 +8,14 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  TriangleTable
+  SimplexTable<Triangles>
   table_of_bounds(const Triangles           &triangles,
                   const BoundUnits          &units,
                   const Bound               &upper,
                   const Bound               &lower,
                   const std::vector<double> &gap)
   {
-    TriangleTable table(triangles);
+    SimplexTable table(triangles);
     using Index = unsigned int;
     table.add("velocity", dim, [&](const Index, const Index v, const Index d) {
       return upper.q.size() > 0 ? upper.q[dim * v + d] : 0.;

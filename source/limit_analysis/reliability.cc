@@ -8,7 +8,7 @@
 #include <geocone/limit_analysis/statistics.h>
 #include <geocone/mesh/fitted_mesh.h>
 #include <geocone/output/model_of_triangles.h>
-#include <geocone/output/triangle_table.h>
+#include <geocone/output/simplex_table.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -404,7 +404,7 @@ namespace geocone::GEOCONE_DIM
     catch (const Stopped &)
       {} // all ranks are together here
     stop_if_asked(comm);
-    TriangleTable table(on.triangles, is_first);
+    SimplexTable table(on.triangles, is_first);
     using Index = unsigned int;
     table.add("velocity", dim, [&](const Index, const Index v, const Index d) {
       return q[dim * v + d];

@@ -3,7 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/output/model_of_triangles.h>
-#include <geocone/output/triangle_table.h>
+#include <geocone/output/simplex_table.h>
 #include <geocone/run/seepage_simulation.h>
 
 #include <deal.II/base/mpi.h>
@@ -52,7 +52,7 @@ namespace geocone::GEOCONE_DIM
     if (!with_fields)
       return;
     // All ranks have the whole flow.
-    TriangleTable table(flow.triangles(),
+    SimplexTable table(flow.triangles(),
                         dealii::Utilities::MPI::this_mpi_process(comm) == 0);
     const auto   &vertices = flow.triangles().vertices;
     const auto   &material = flow.triangles().material;

@@ -5,7 +5,7 @@
 #define geocone_limit_analysis_bound_fields_h
 
 #include <geocone/limit_analysis/certificate.h>
-#include <geocone/output/triangle_table.h>
+#include <geocone/output/simplex_table.h>
 
 #include <vector>
 
@@ -14,7 +14,7 @@ namespace geocone::GEOCONE_DIM
   /** Creates the field file of a mesh, with both failure mechanisms and the
    *  contribution of each triangle to the gap between the bounds. The arguments
    *  must outlive the table. */
-  TriangleTable
+  SimplexTable<Triangles>
   table_of_bounds(const Triangles           &triangles,
                   const BoundUnits          &units,
                   const Bound               &upper,
