@@ -7,6 +7,7 @@
 #include <geocone/scene/magnitudes.h>
 
 #include <deal.II/base/mpi.h>
+#include <deal.II/base/utilities.h>
 
 #include <cmath>
 #include <utility>
@@ -271,6 +272,9 @@ namespace geocone::GEOCONE_DIM
   void
   BoundAnalysis::add_level(BoundLevel level, TimePoint &now)
   {
+    dealii::Utilities::System::MemoryStats memory;
+    dealii::Utilities::System::get_memory_stats(memory);
+    level.memory = memory.VmHWM / 1024.;
     level.number = limit_output.all_records().size() + 1;
     limit_output.add_record(level);
     now.time = level.number;

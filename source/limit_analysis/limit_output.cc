@@ -15,7 +15,7 @@ namespace geocone::GEOCONE_DIM
     row(number, cells, unknowns_upper, unknowns_lower, lower, upper, gap);
     row(lower_certified, upper_certified, iterations_lower, iterations_upper);
     row(violation_lower, violation_upper, error_lower, error_upper);
-    row(gap_share, cpu_seconds, mesh_seconds);
+    row(gap_share, cpu_seconds, mesh_seconds, memory);
   }
 
   LoadBracket
@@ -93,6 +93,7 @@ namespace geocone::GEOCONE_DIM
     add("factorisations of the upper bound (-)", &BoundLevel::iterations_upper);
     add("CPU time (s)", &BoundLevel::cpu_seconds);
     add("CPU time of the mesh (s)", &BoundLevel::mesh_seconds);
+    add("peak memory (MB)", &BoundLevel::memory);
     open_table("bounds.csv");
   }
 

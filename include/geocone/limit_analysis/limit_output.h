@@ -28,6 +28,7 @@ namespace geocone::GEOCONE_DIM
     double       error_lower = 0., error_upper = 0.;
     double       gap_share   = 0.; ///< CertifiedBounds::gap_share
     double       cpu_seconds = 0., mesh_seconds = 0.;
+    double       memory = 0.; ///< largest of the process so far (MB)
 
     bool
     certified() const
