@@ -3,6 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/unused_parameters.h>
+#include <geocone/limit_analysis/solid_fields.h>
 #include <geocone/limit_analysis/solid_gap.h>
 #include <geocone/limit_analysis/solid_limit_analysis.h>
 #include <geocone/linear/two_threads.h>
@@ -228,6 +229,15 @@ namespace geocone::GEOCONE_DIM
     error = gap;
     return is_complete(bracket().gap()) ? StepOutcome::stage
                                         : StepOutcome::well;
+  }
+
+  void
+  SolidLimitAnalysis::write_fields(const double t)
+  {
+    // A run that was stopped between two meshes has no fields.
+    if (gap.size() == tetrahedra->cells.size())
+      limit_output.write_fields(
+        t, table_of_bounds(*tetrahedra, load.units, upper, lower, gap));
   }
 
   LoadBracket

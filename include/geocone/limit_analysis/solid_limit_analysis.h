@@ -82,6 +82,8 @@ namespace geocone::GEOCONE_DIM
     StepOutcome
     advance(TimePoint &now) override;
     void
+    write_fields(const double t) override;
+    void
     finish(const double t) override;
     void
     state(StateRow &row) override;
