@@ -108,9 +108,11 @@ def draw_gaps(axes_of, run, table):
 def draw_mechanism(run, path):
     """Draws the mechanisms of both bounds (that of the upper one proves it, that of the lower
     one is its dual), and the triangles' parts of the gap."""
-    if cells_of(run.table("bounds"))[1] == "tetrahedra":
-        raise Skipped("bounds in three dimensions have no fields yet")
     field, = run.states("bounds")
+    if field.cells.shape[1] == 4:
+        from geocone.plots import bounds_solid
+        bounds_solid.draw_mechanism(run, field, path)
+        return
     part = field.data["part_of_gap"][:, 0]
     mechanisms = [(name, of) for name, of in (("velocity", "upper"),
                                               ("velocity_lower", "lower"))
