@@ -3,8 +3,13 @@
 // prm/three/sphere.prm, and by gmsh: gmsh -3 eighth_shell.geo
 inner  = 1;
 outer  = 2;
-n      = 8;  // cells along the half of an arc of 90 degrees
-layers = 20;
+If(!Exists(tetrahedra))  // a file that includes this one may have its own
+  tetrahedra = 0;  // instead of hexahedra
+EndIf
+If(!Exists(n))
+  n      = 8;  // cells along the half of an arc of 90 degrees
+  layers = 20;
+EndIf
 
 // The faces are flat; those of a little larger spheres enclose the same volume.
 larger = 1 + 0.0898 / n ^ 2;
@@ -58,7 +63,9 @@ For k In {0 : 1}
 EndFor
 Transfinite Curve {21 : 27} = layers + 1;
 Transfinite Surface "*";
-Recombine Surface "*";
+If(!tetrahedra)
+  Recombine Surface "*";
+EndIf
 Transfinite Volume "*";
 Physical Surface("inside")  = {1, 2, 3};
 Physical Surface("outside") = {11, 12, 13};

@@ -2,9 +2,14 @@
 // rings that are fine at the footing's edge and layers that are fine at the ground.
 // It is read by prm/three/circular_footing.prm, and by gmsh: gmsh -3 quarter_disc.geo
 radius = 0.1;  // of the footing
-width  = 0.6;  // of the ground
-depth  = 0.4;
-If(!Exists(n))  // a file that includes this one may have its own
+If(!Exists(width))  // a file that includes this one may have its own
+  width = 0.6;  // of the ground
+  depth = 0.4;
+EndIf
+If(!Exists(tetrahedra))
+  tetrahedra = 0;  // instead of hexahedra
+EndIf
+If(!Exists(n))
   n      = 2;    // cells along the half of the arc
   inner  = 4;    // rings in the footing
   outer  = 7;    // rings beyond
@@ -55,7 +60,9 @@ Transfinite Curve {1, 2, 3, 4, 8, 9, 13, 14} = n + 1;
 Transfinite Curve {5, 6, 7} = inner + 1 Using Progression 1 / ratio;
 Transfinite Curve {10, 11, 12} = outer + 1 Using Progression ratio;
 Transfinite Surface {1 : 5};
-Recombine Surface {1 : 5};
+If(!tetrahedra)
+  Recombine Surface {1 : 5};
+EndIf
 
 // Layers of one cell each, at these parts of the depth.
 part = (ratio - 1) / (ratio ^ layers - 1);
@@ -67,9 +74,15 @@ For i In {0 : layers - 1}
 EndFor
 at[layers - 1] = 1;
 For i In {1 : 5}
-  out~{i}[] = Extrude {0, -depth, 0} {
-    Surface{i}; Layers{ one[], at[] }; Recombine;
-  };
+  If(tetrahedra)
+    out~{i}[] = Extrude {0, -depth, 0} {
+      Surface{i}; Layers{ one[], at[] };
+    };
+  Else
+    out~{i}[] = Extrude {0, -depth, 0} {
+      Surface{i}; Layers{ one[], at[] }; Recombine;
+    };
+  EndIf
 EndFor
 // Of each block: the bottom, the volume, the sides in the order of its curves.
 Physical Surface("footing") = {1, 2, 3};

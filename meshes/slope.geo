@@ -4,12 +4,17 @@
 half   = 1;     // of the length
 angle  = 60;    // of the face, degrees
 crest  = 1.5;   // width of the ground behind the crest
-across = 14;    // cells from the back to the face
-up     = 10;    // cells from the base to the top
-along  = 6;     // from the middle to the end
-ratio  = 1.3;   // of a cell along z to the one nearer to the end
-front  = 1.05;  // of a cell to the one nearer to the face
-low    = 1.2;   // of a cell to the one below it
+If(!Exists(tetrahedra))  // a file that includes this one may have its own
+  tetrahedra = 0;  // instead of hexahedra
+EndIf
+If(!Exists(across))
+  across = 14;    // cells from the back to the face
+  up     = 10;    // cells from the base to the top
+  along  = 6;     // from the middle to the end
+  ratio  = 1.3;   // of a cell along z to the one nearer to the end
+  front  = 1.05;  // of a cell to the one nearer to the face
+  low    = 1.2;   // of a cell to the one below it
+EndIf
 
 toe = crest + 1 / Tan(angle * Pi / 180);
 Point(1) = {0, 0, 0};
@@ -25,7 +30,9 @@ Plane Surface(1) = {1};
 Transfinite Curve {1, -3} = across + 1 Using Progression 1 / front;
 Transfinite Curve {2, -4} = up + 1 Using Progression low;
 Transfinite Surface {1};
-Recombine Surface {1};
+If(!tetrahedra)
+  Recombine Surface {1};
+EndIf
 
 // Layers of one cell each, at these parts of the half.
 sum = 0;
@@ -39,7 +46,11 @@ For i In {0 : along - 1}
   at[i]  = sum;
 EndFor
 at[along - 1] = 1;
-out[] = Extrude {0, 0, half} { Surface{1}; Layers{ one[], at[] }; Recombine; };
+If(tetrahedra)
+  out[] = Extrude {0, 0, half} { Surface{1}; Layers{ one[], at[] }; };
+Else
+  out[] = Extrude {0, 0, half} { Surface{1}; Layers{ one[], at[] }; Recombine; };
+EndIf
 Physical Surface("middle") = {1};
 Physical Surface("end")    = {out[0]};
 Physical Surface("base")   = {out[2]};
