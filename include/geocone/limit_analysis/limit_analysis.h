@@ -6,6 +6,7 @@
 
 #include <geocone/limit_analysis/bound_analysis.h>
 #include <geocone/limit_analysis/bounded_load.h>
+#include <geocone/limit_analysis/certificate_files.h>
 #include <geocone/limit_analysis/certified_bounds.h>
 #include <geocone/limit_analysis/gradients.h>
 #include <geocone/limit_analysis/strength_reduction.h>
@@ -115,6 +116,10 @@ namespace geocone::GEOCONE_DIM
     LoadBracket
     certified_by(const std::vector<BoundLevel> &levels) const;
 
+    /** Writes the certificates of the bounds of a level that are the best so far. */
+    void
+    write_certificates(const BoundLevel &level) const;
+
     /** Computes, on the current mesh, the gradients of both bounds. */
     std::vector<Gradient>
     gradients_of_last() const;
@@ -156,6 +161,7 @@ namespace geocone::GEOCONE_DIM
 
     BoundedLoad       bounded_load;
     StrengthReduction reduction;
+    CertificateFiles  certificates;
 
     Choice<AnalysisKind> analysis = {
       {{"steps", AnalysisKind::steps},

@@ -1,0 +1,303 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/constants.h>
+#include <geocone/base/files.h>
+#include <geocone/base/unused_parameters.h>
+#include <geocone/cone/second_order_cone.h>
+#include <geocone/limit_analysis/certificate_files.h>
+#include <geocone/output/json.h>
+
+#include <cmath>
+#include <limits>
+
+namespace geocone::GEOCONE_DIM
+{
+  using dealii::Tensor;
+
+  namespace
+  {
+    const UsedWhere used_certificate_files[] = {
+      {"Output/Certificates",
+       "Analysis/Kind",
+       {"limit load", "strength reduction"}}};
+
+    Json
+    pair(const double x, const double y)
+    {
+      return Json::array({x, y});
+    }
+
+    Json
+    pair_at(const Eigen::VectorXd &v,
+            const unsigned int     first,
+            const double           unit)
+    {
+      return pair(unit * v[first], unit * v[first + 1]);
+    }
+
+    /** Materials with their given strengths, cohesion c + gradient (level - y). */
+    Json
+    materials_of(const BoundScene &given)
+    {
+      Json materials = Json::array();
+      for (unsigned int m = 0; m < given.cones.size(); ++m)
+        {
+          const PointCone &cone = given.cones[m];
+          const double     unit =
+            given.units.stress / (sqrt2 * std::sqrt(1. - cone.a * cone.a));
+          materials.push_back(
+            {{"name", given.scene.materials.name(m)},
+             {"cohesion", cone.k * unit},
+             {"cohesion_gradient", given.growth[m].slope * unit},
+             {"cohesion_level", given.growth[m].level},
+             {"friction_angle", std::asin(cone.a) * 180. / pi},
+             {"tensile_strength",
+              finite_or_null(cone.cut_off * given.units.stress / sqrt2)},
+             {"is_reduced", given.scene.materials[m].is_reduced()}});
+        }
+      return materials;
+    }
+
+    /** Obstacles with their loads in free components, and one more at rest, smooth and
+     *  inseparable, for oblique sides that are fixed in their normal direction.
+     *  @param problem lower-bound problem */
+    Json
+    obstacles_of(const BoundScene &given, const BoundProblem &problem)
+    {
+      const Triangles   &triangles = given.triangles;
+      const unsigned int first_dof =
+        dim * (triangles.cells.size() + 2 * triangles.edges.size());
+      const double L         = given.units.length;
+      Json         obstacles = Json::array();
+      for (unsigned int o = 0; o < given.scene.obstacles.list.size(); ++o)
+        {
+          const Obstacle    &obstacle = *given.scene.obstacles.list[o];
+          const RigidMotion  velocity = obstacle.velocity(0.);
+          const unsigned int first    = first_dof + n_motions * o;
+          Json               motion = Json::array(), dead = Json::array(),
+               live = Json::array();
+          for (unsigned int k = 0; k < n_motions; ++k)
+            {
+              const double unit = given.units.stress * L * (k < dim ? 1. : L);
+              motion.push_back(obstacle.is_free(k) ? Json()
+                                                   : Json(velocity[k]));
+              dead.push_back(unit * problem.dead[first + k]);
+              live.push_back(unit * problem.live[first + k]);
+            }
+          const InterfaceLaw &law = obstacle.law;
+          obstacles.push_back(
+            {{"name", obstacle.name},
+             {"centre", pair(obstacle.centre()[0], obstacle.centre()[1])},
+             {"velocity", motion},
+             {"dead", dead},
+             {"live", live},
+             {"friction", law.friction},
+             {"adhesion", law.adhesion},
+             {"tensile_strength",
+              law.never_opens() ? Json() : Json(law.tension)}});
+        }
+      const Json at_rest = Json::array({0., 0., 0.});
+      for (const Interface &interface : given.interfaces)
+        if (interface.obstacle < 0)
+          {
+            obstacles.push_back({{"name", "oblique sides"},
+                                 {"centre", pair(0., 0.)},
+                                 {"velocity", at_rest},
+                                 {"dead", at_rest},
+                                 {"live", at_rest},
+                                 {"friction", 0.},
+                                 {"adhesion", 0.},
+                                 {"tensile_strength", Json()}});
+            break;
+          }
+      return obstacles;
+    }
+
+    Json
+    interfaces_of(const BoundScene &given)
+    {
+      Json edges = Json::array(), obstacles = Json::array();
+      for (const Interface &interface : given.interfaces)
+        {
+          edges.push_back(interface.held.edge);
+          obstacles.push_back(interface.obstacle >= 0
+                                ? interface.obstacle
+                                : int(given.scene.obstacles.list.size()));
+        }
+      return {{"edge", edges}, {"obstacle", obstacles}};
+    }
+
+    /**
+     * Loads and supports of the body. Loads are taken from the lower-bound problem, in
+     * which each dof belongs to one triangle or one end of an edge, supports from the
+     * midpoints of the edges in the upper-bound problem.
+     */
+    void
+    add_loads(const BoundScene &given, const BoundProblem &problem, Json &json)
+    {
+      const BoundProblem above     = upper_problem(given);
+      const Triangles   &triangles = given.triangles;
+      const double       L = given.units.length, stress = given.units.stress;
+      Json dead_forces = Json::array(), live_forces = Json::array();
+      for (unsigned int c = 0; c < triangles.cells.size(); ++c)
+        {
+          const double unit = stress * L / triangles.area(c);
+          dead_forces.push_back(pair_at(problem.dead, dim * c, unit));
+          live_forces.push_back(pair_at(problem.live, dim * c, unit));
+        }
+      json["body_force"] = {{"dead", dead_forces}, {"live", live_forces}};
+
+      Json edges = Json::array(), held = Json::array(), dead = Json::array(),
+           live = Json::array(), velocity = Json::array();
+      for (const auto &outer : triangles.outer_edges())
+        {
+          const auto  &ends = triangles.edges[outer.edge].vertices;
+          const double unit =
+            2. * L * stress /
+            triangles.vertices[ends[0]].distance(triangles.vertices[ends[1]]);
+          const unsigned int first =
+                               dim * (triangles.cells.size() + 2 * outer.edge),
+                             middle =
+                               dim * (triangles.vertices.size() + outer.edge);
+          edges.push_back(outer.edge);
+          held.push_back({bool(above.is_prescribed[middle]),
+                          bool(above.is_prescribed[middle + 1])});
+          velocity.push_back(
+            pair_at(above.prescribed, middle, given.units.velocity));
+          dead.push_back({pair_at(problem.dead, first, unit),
+                          pair_at(problem.dead, first + dim, unit)});
+          live.push_back({pair_at(problem.live, first, unit),
+                          pair_at(problem.live, first + dim, unit)});
+        }
+      json["boundary"] = {{"edge", edges},
+                          {"held", held},
+                          {"velocity", velocity},
+                          {"dead", dead},
+                          {"live", live}};
+    }
+
+    /** Stresses (xx, yy, xy) at the vertices of the triangles, and the tractions of
+     *  interfaces on the body at the ends of their edges (Pa). */
+    void
+    add_stresses(const BoundScene &given, const Bound &bound, Json &json)
+    {
+      const double       unit      = given.units.stress;
+      const unsigned int n_cells   = given.triangles.cells.size();
+      Json               stress    = Json::array();
+      Json               tractions = Json::array();
+      for (unsigned int c = 0; c < n_cells; ++c)
+        {
+          Json of_cell = Json::array();
+          for (unsigned int i = 0; i < 3; ++i)
+            {
+              const Mandel s =
+                unit * from_cone_axes(Mandel(bound.s[3 * c + i]));
+              of_cell.push_back({s[0], s[1], s[2] / sqrt2});
+            }
+          stress.push_back(of_cell);
+        }
+      unsigned int first = 3 * n_cells;
+      for (const Interface &interface : given.interfaces)
+        {
+          Tensor<1, dim>        ends[2];
+          const Tensor<1, dim> &N = interface.normal;
+          const Tensor<1, dim>  T({-N[1], N[0]});
+          for (unsigned int f = 0; f < interface.faces.size(); ++f, first += 3)
+            for (unsigned int i = 0; i < 2; ++i)
+              {
+                // The second face of an interface that opens has the same traction.
+                if (f > 0 && interface.opens())
+                  continue;
+                if (interface.faces[f].has_normal)
+                  ends[i] += unit * bound.s[first + i][0] * N;
+                if (interface.faces[f].has_tangential)
+                  ends[i] += unit * bound.s[first + i][1] * T;
+              }
+          tractions.push_back(
+            {pair(ends[0][0], ends[0][1]), pair(ends[1][0], ends[1][1])});
+        }
+      json["stress"]                 = stress;
+      json["interfaces"]["traction"] = tractions;
+    }
+
+    /** Velocities of the vertices, the edges' midpoints and the obstacles (m/s). */
+    void
+    add_velocities(const BoundScene &given, const Bound &bound, Json &json)
+    {
+      const Triangles   &triangles   = given.triangles;
+      const double       unit        = given.units.velocity;
+      const unsigned int n_vertices  = triangles.vertices.size();
+      const unsigned int n_edges     = triangles.edges.size();
+      Json               of_vertices = Json::array(), of_edges = Json::array(),
+           of_obstacles = Json::array();
+      for (unsigned int v = 0; v < n_vertices; ++v)
+        of_vertices.push_back(pair_at(bound.q, dim * v, unit));
+      for (unsigned int e = 0; e < n_edges; ++e)
+        of_edges.push_back(pair_at(bound.q, dim * (n_vertices + e), unit));
+      for (unsigned int o = 0; o < given.scene.obstacles.list.size(); ++o)
+        {
+          const unsigned int first =
+            dim * (n_vertices + n_edges) + n_motions * o;
+          Json motion = pair_at(bound.q, first, unit);
+          motion.push_back(bound.q[first + dim] * unit / given.units.length);
+          of_obstacles.push_back(motion);
+        }
+      if (json["obstacles"].size() > of_obstacles.size()) // oblique sides
+        of_obstacles.push_back({0., 0., 0.});
+      json["velocity"] = {{"vertices", of_vertices},
+                          {"middles", of_edges},
+                          {"obstacles", of_obstacles}};
+    }
+  } // namespace
+
+  CertificateFiles::CertificateFiles()
+    : dealii::ParameterAcceptor("/Output")
+  {
+    add_parameter(
+      "Certificates",
+      asked,
+      "Whether certificate_lower.json and certificate_upper.json are "
+      "written, with the fields that prove the best bounds so far, for "
+      "scripts/check_certificate.");
+  }
+
+  void
+  CertificateFiles::write(const std::string &folder,
+                          const std::string &kind,
+                          const BoundScene  &given,
+                          const Claim       &claim)
+  {
+    const bool         is_lower    = claim.side == BoundSide::lower;
+    const char        *side        = is_lower ? "lower" : "upper";
+    const bool         is_reaction = given.factor == LoadFactor::velocity;
+    const BoundProblem problem     = lower_problem(given);
+    Json json     = {{"format", "certificate of a plane limit analysis, 1"},
+                     {"bound", side},
+                     {"of", kind},
+                     {"value", claim.value},
+                     {"strength_factor", claim.strength_factor},
+                     {"load_factor", is_reaction ? 0. : claim.bound.load},
+                     {"multiple", claim.multiple},
+                     {"speed", is_reaction ? given.units.velocity : 0.},
+                     {"materials", materials_of(given)},
+                     {"obstacles", obstacles_of(given, problem)}};
+    Json vertices = Json::array(), edges = Json::array();
+    for (const auto &x : given.triangles.vertices)
+      vertices.push_back(pair(x[0], x[1]));
+    for (const auto &edge : given.triangles.edges)
+      edges.push_back(edge.vertices);
+    json["vertices"]   = vertices;
+    json["edges"]      = edges;
+    json["triangles"]  = given.triangles.cells;
+    json["material"]   = given.triangles.material;
+    json["interfaces"] = interfaces_of(given);
+    add_loads(given, problem, json);
+    if (is_lower)
+      add_stresses(given, claim.bound, json);
+    else
+      add_velocities(given, claim.bound, json);
+    write_file(folder + "/certificate_" + side + ".json",
+               [&](std::ostream &out) { out << json.dump() << "\n"; });
+  }
+} // namespace geocone::GEOCONE_DIM
