@@ -25,6 +25,10 @@ namespace geocone::GEOCONE_DIM
      *  at a free surface. */
     constexpr double rounding = 1e-8;
 
+    /** Residual of equilibrium, relative to the largest stress, above which it is
+     *  reduced even if it is tolerated: checkers accept rounding errors only. */
+    constexpr double improvable = 1e-12;
+
     double
     excess(const PointCone &cone, const Vector3d &s)
     {
@@ -329,12 +333,12 @@ namespace geocone::GEOCONE_DIM
                 const BoundSolution &solution)
   {
     const Bound result = checked(bound, problem, solution);
-    if (result.certified || result.error < rounding ||
+    if (result.error < improvable ||
         !std::isfinite(result.load + result.error))
       return result;
     const Bound second =
       checked(bound, problem, in_equilibrium(problem, solution));
-    return second.certified ? second : result;
+    return second.certified && second.error < result.error ? second : result;
   }
 
   namespace
