@@ -66,7 +66,8 @@ for key, values in {
         "check": ["1", "{value = 1}", "{low = 0.1}", "{status = 'x'}", "{valu = 'x'}",
                   "{value = 'x', low = 1, high = 0}", "{value = 'x', low = nan}",
                   "{value = 'x', reference = {20 = 'x'}}", "{value = 'x', reference = {20 = 1}}",
-                  "{value = 'x', reference = {20 = 1}, by = 'x'}"]}.items():
+                  "{value = 'x', reference = {20 = 1}, by = 'x'}", "{published = {20 = []}}",
+                  "{published = [[1, 'guess', 'x']]}", "{published = [], divisor = 0}"]}.items():
     for value in values:
         base = "".join(line + "\n" for line in GROUP.splitlines() if not line.startswith(key))
         refused("the group 'a': " * (key != "name") + ("check" if key == "check" else key),

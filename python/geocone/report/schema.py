@@ -103,6 +103,12 @@ TEMPLATE = Kind(lambda value: isinstance(value, dict) and value.keys() == {"valu
                 list_of(any_of(LINE, NUMBER), 1, MOST_RUNS).holds(value["values"]) and
                 SETTINGS.holds(value["set"]) and all("{" in part for part in value["set"]),
                 "{values = [numbers or texts], set = [settings with {} for the value]}")
+# Published values of a quantity that is bounded: exact, bounds of others, estimates.
+STANDINGS = "exact", "upper bound", "lower bound", "estimate"
+PUBLISHED = list_of(Kind(
+    lambda value: isinstance(value, list) and len(value) == 3 and NUMBER.holds(value[0]) and
+    words(*STANDINGS).holds(value[1]) and LINE.holds(value[2]),
+    f"[number, {' | '.join(STANDINGS)}, source]"))
 AXIS = any_of(Kind(VALUES.holds, "a list of the values of a parameter, one or more: numbers, "
                    "texts, true, false"), TEMPLATE, LABELS)
 TABLE = Kind(lambda value: isinstance(value, dict), "a table")
@@ -116,6 +122,7 @@ DEFAULTS = {"file": LINE, "set": SETTINGS, "vary": TABLE, "ranks": between(1, MO
 GROUP = {"name": NAME, **DEFAULTS, "check": TABLE}
 CHECK = {"value": LINE, "reference": any_of(NUMBER, LINE, table_of(NUMBER)), "by": LINE,
          "low": NUMBER, "high": NUMBER, "unit": LINE, "source": LINE,
+         "published": any_of(PUBLISHED, table_of(PUBLISHED)), "divisor": POSITIVE,
          "status": words("finished", "failed")}
 SECTION = {"title": LINE, "text": TEXT, "figure": TABLES, "table": TABLES}
 SHOWN = {"kind": LINE, "groups": list_of(LINE), "caption": TEXT}

@@ -124,8 +124,8 @@ def resolve(path, where, text, axes):
 def check_check(path, where, check, axes):
     """Refuses a check that cannot be made."""
     check_table(path, where, check, CHECK,
-                () if "status" in check else ("value",))
-    by_axis = isinstance(check.get("reference"), dict)
+                () if {"status", "published"} & check.keys() else ("value",))
+    by_axis = any(isinstance(check.get(key), dict) for key in ("reference", "published"))
     if by_axis or "by" in check:
         require(by_axis and check.get("by") in axes, path,
                 f"{where}: by = {shown(check.get('by', ''))}",

@@ -1,0 +1,46 @@
+# A book of brackets: each is verified from its fields, a missing field is found, and a published
+# value that contradicts a bracket is an error, not a line of the page.
+program=$1 source=$2 folder=$3
+. "$source/tests/fails.sh"
+rm -rf "$folder"
+mkdir -p "$folder"
+cd "$folder"
+cat >book.toml <<END
+[[group]]
+name = "N_c"
+file = "$source/prm/limit_load/footing_rough.prm"
+set = ["Output/Certificates = true", "Output/Fields = false", "Output/Pictures = false", "Output/Expectations =", "Analysis/Maximum levels = 1"]
+[group.vary]
+phi = {values = [25], set = ["Materials/soil/Friction angle = {}"]}
+[group.check]
+divisor = 400
+by = "phi"
+published = {25 = [[20.7205, "exact", "Prandtl"], [40, "estimate", "nobody"]]}
+[[section]]
+title = "N_c"
+[[section.figure]]
+kind = "book.chart"
+[[section.figure]]
+kind = "book.curves"
+x = "phi"
+xlabel = "phi"
+ylabel = "N_c"
+[[section.figure]]
+kind = "book.mechanisms"
+[[section.table]]
+kind = "book.brackets"
+END
+study() {
+  "$source/scripts/study" book.toml --program "$program" --output results "$@" >log 2>&1
+}
+study
+grep -q "20.7205, exact: inside (Prandtl); 40, estimate: +32.9 % or more (nobody)" results/book.md
+grep -q "| proved (.e-16) |" results/book.md
+
+sed -i 's/20.7205, "exact"/10, "upper bound"/' book.toml
+fails study --report-only
+grep -q "10 (upper bound, Prandtl) contradicts 12.6" log
+rm results/runs/book/*/certificate_upper.json
+sed -i 's/10, "upper bound"/10, "lower bound"/' book.toml
+fails study --report-only # the mechanism cannot be drawn
+grep -q "NOT PROVED: \[Errno 2\] No such file" results/book.md
