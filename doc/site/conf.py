@@ -24,8 +24,8 @@ release = re.search(r"project\(geocone VERSION ([\d.]+)",
 
 extensions = ["myst_parser", "sphinx.ext.mathjax"]
 root_doc = "README"
-include_patterns = ["*.md", "doc/*.md", "doc/cookbook/*.md", "doc/theory/*.md",
-                    "doc/tutorials/*.md", "doc/parameters/*.md",
+include_patterns = ["*.md", "doc/*.md", "doc/book/*.md", "doc/cookbook/*.md",
+                    "doc/theory/*.md", "doc/tutorials/*.md", "doc/parameters/*.md",
                     "doc/notebooks/*.ipynb", "packaging/*.md", "meshes/*.md"]
 exclude_patterns = ["doc/api.md"]  # the first page of doxygen's site
 myst_enable_extensions = ["dollarmath", "amsmath"]
@@ -74,8 +74,9 @@ PAGES = {
             "doc/runs", "doc/trust", "doc/element_test", "doc/studies", "doc/python_reference",
             "meshes/README", "packaging/README"],
     "What is known": ["doc/limits", "doc/comparison", "doc/validation", "doc/verification",
-                      "doc/verification_mpm", "doc/limit_load", "doc/footing_deep",
-                      "doc/friction_memory", "doc/small_dilatancy", "doc/stability", "doc/performance",
+                      "doc/verification_mpm", "doc/limit_load", "doc/book/README",
+                      "doc/footing_deep", "doc/friction_memory", "doc/small_dilatancy",
+                      "doc/stability", "doc/performance",
                       "doc/overhead", "doc/paper",
                       "doc/profiles"],
     "How it works": ["doc/theory/README", "CONTRIBUTING", "doc/style", "CHANGELOG"]}
