@@ -98,7 +98,7 @@ def eye_of(series, field):
     if series == "points":
         look = solid.SolidLook([field], [np.zeros(len(field.points))], lambda size: size)
         return look.view.towards.tolist()
-    rate = field.data["plastic_strain_rate"][:, 0]
+    rate = field.data["dissipation" if series == "bounds" else "plastic_strain_rate"][:, 0]
     return solid.chosen_view(field.points, field.cells, rate)[0].towards.tolist()
 
 
