@@ -39,7 +39,7 @@ import pathlib
 import numpy as np
 
 import geocone
-from geocone.plots import answer, overlay, point_values
+from geocone.plots import answer, overlay, point_values, rates
 from geocone.style import areas_of, columns_of, level
 
 size, count = pathlib.Path("cut/points.mp4").read_text().split()
@@ -82,6 +82,11 @@ class Two:
     points = np.array([[0., 0.], [1., 0.], [0., 1.], [1., 0.], [1., 1.], [0., 1.]])
     cells = np.array([[0, 1, 2], [3, 4, 5]])
     data = {"material": np.array([[0.]] * 3 + [[1.]] * 3)}
+# Rates are shown over three decades; over one where most of the body flows about as fast.
+for slow, decades in (1e-3, 3.), (9., 1.):
+    norm = rates.scale_of(Two, np.array([slow] * 3 + [10.] * 3))
+    assert norm.vmax == 10.
+    assert np.isclose(norm.vmax / norm.vmin, 10.**decades), (norm.vmin, norm.vmax)
 values = np.array([1.] * 3 + [3.] * 3)
 assert np.allclose(point_values.recovered(Two, values), [1., 2., 2., 2., 3., 2.])
 between, outer = overlay.borders_of(Two)

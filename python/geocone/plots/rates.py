@@ -25,11 +25,15 @@ def rates_of(run):
     return field, rates
 
 
-def most_of(field, rates):
-    """Rate at which colours end: the one above which a tenth of all flow takes place. Zones of
-    flow may be small parts of the area, and singular cells are smaller."""
-    values = per_cell(field, rates)
-    return level(values, values * sizes_of(field), 0.1)
+def scale_of(field, rates):
+    """Scale of the colours of rates. It ends at the rate above which a tenth of all flow takes
+    place: zones of flow may be small parts of the area, and singular cells are smaller. It
+    begins three decades below, or at the rate that four fifths of the body exceed if that is
+    higher, but one decade below at least."""
+    values, sizes = per_cell(field, rates), sizes_of(field)
+    most = level(values, values * sizes, 0.1)
+    slow = level(values, sizes, 0.8)
+    return LogNorm(np.clip(slow, SHOWN * most, 0.1 * most), most)
 
 
 def view_of(field, rates, most):
@@ -47,9 +51,9 @@ def cells_of(field, values):
                           edgecolors="face", linewidths=0.5)
 
 
-def add_rates(axes, collection, most, shown=SHOWN, label="plastic strain rate (1/s)"):
+def add_rates(axes, collection, norm, label="plastic strain rate (1/s)"):
     """Adds a collection of rates in their colours, and the colour bar."""
-    collection.set(cmap=RATES, norm=LogNorm(shown * most, most))
+    collection.set(cmap=RATES, norm=norm)
     axes.add_collection(collection)
     add_bar(axes, collection, label, extend="both")
 
@@ -70,26 +74,25 @@ def draw_run(run, path):
     field, rates = rates_of(run)
     unit = "1/s"
     if is_strength_reduction(run):  # its time is not physical
-        rates, unit = rates / most_of(field, rates), "relative"
-    most = most_of(field, rates)
+        rates, unit = rates / scale_of(field, rates).vmax, "relative"
+    norm = scale_of(field, rates)
     if field.points.shape[1] == 3:
         from geocone.plots import solid
-        solid.draw_rates(run, path, field, rates, motion_of(field), most, unit)
+        solid.draw_rates(run, path, field, rates, motion_of(field), norm, unit)
         return
-    view = view_of(field, rates, most)
+    view = view_of(field, rates, norm.vmax)
     moving = field.cells.shape[1] < 3
     figure, axes_of = panels(2 if moving else 3, with_obstacles(run, view))
     first, last = axes_of[0], axes_of[-1]
-    add_rates(first, disks(first, field, rates) if moving else cells_of(field, rates), most,
-              label=unit)
+    add_rates(first, disks(first, field, rates) if moving else cells_of(field, rates), norm,
+              unit)
     first.set_title(f"plastic strain rate{' of the cells' * (not moving)}, "
                     f"{moment(run, field.time)}")
     overlay.draw_scene(first, run, field)
     if not moving:
         second = axes_of[1]
-        add_bar(second, overlay.draw_contours(second, field, rates, LogNorm(SHOWN * most, most),
-                                              RATES), unit, ticks=LogLocator(),
-                format=LogFormatterMathtext())
+        add_bar(second, overlay.draw_contours(second, field, rates, norm, RATES), unit,
+                ticks=LogLocator(), format=LogFormatterMathtext())
         second.set_title("smooth contours (nodal recovery)")
         overlay.draw_scene(second, run, field)
     draw_motion(last, run, field, view)

@@ -8,7 +8,7 @@ plastic_strain.png: material points as balls, the nearest in front."""
 import numpy as np
 from matplotlib.cm import ScalarMappable
 from matplotlib.collections import EllipseCollection, PolyCollection
-from matplotlib.colors import LogNorm, Normalize
+from matplotlib.colors import Normalize
 from matplotlib.patheffects import withStroke
 
 from geocone.plots.answer import heading, moment
@@ -156,7 +156,7 @@ def box_of_flow(places, moving):
     return box[0] - 0.02 * np.ptp(box), box[1] + 0.02 * np.ptp(box)
 
 
-def draw_cells(run, field, rates, motion, most, label):
+def draw_cells(run, field, rates, motion, of_rates, label):
     """Draws the rate of each cell that is seen and its motion; where VTK can be used smooth
     contours of the rates too. The parameters are those of draw_rates.
 
@@ -168,8 +168,7 @@ def draw_cells(run, field, rates, motion, most, label):
     view, faces, normals, cut = chosen_view(points, cells, rates, vertices)
     size = speed[faces].mean(axis=1)
     box = box_of_flow(view.seen(points)[faces],
-                      (rates[faces[:, 0]] > SHOWN * most) | (size > 0.02 * size.max()))
-    of_rates = LogNorm(SHOWN * most, most)
+                      (rates[faces[:, 0]] > SHOWN * of_rates.vmax) | (size > 0.02 * size.max()))
     of_motion = norm_of(level(size, areas_of(points[faces])))
     images = []
     if can_render():
@@ -198,7 +197,7 @@ def draw_cells(run, field, rates, motion, most, label):
     return figure
 
 
-def draw_balls(run, field, rates, motion, most, label):
+def draw_balls(run, field, rates, motion, of_rates, label):
     """Draws the rate of each point that is seen, and its motion. The parameters are those of
     draw_rates.
 
@@ -208,27 +207,27 @@ def draw_balls(run, field, rates, motion, most, label):
     look = SolidLook([field], [rates], lambda box: box / 2.)
     figure, axes_of = panels(2, look.box)
     for axes, values, colors, norm, words in (
-            (axes_of[0], rates, RATES, LogNorm(SHOWN * most, most), label),
+            (axes_of[0], rates, RATES, of_rates, label),
             (axes_of[1], size, STEPS, norm_of(level(size, sizes_of(field))), unit)):
         drawn = look.collection(axes, field, values)
         drawn.set(cmap=colors, norm=norm)
         axes.add_collection(drawn)
         look.finish(axes)
-        add_bar(axes, drawn, words, extend="max")
+        add_bar(axes, drawn, words, extend="both" if norm is of_rates else "max")
     axes_of[0].set_title(f"plastic strain rate, {moment(run, field.time)}\n"
                          f"seen from {look.view.name()}")
     axes_of[1].set_title(f"magnitude of the {name}")
     return figure
 
 
-def draw_rates(run, path, field, rates, motion, most, label):
+def draw_rates(run, path, field, rates, motion, of_rates, label):
     """Draws the rate of each cell or ball that is seen, and its motion.
 
     @param motion name, unit and vectors
-    @param most the rate at which colours end
+    @param of_rates their scale (rates.scale_of)
     @param label unit of the rate"""
     draw = draw_balls if field.cells.shape[1] < 4 else draw_cells
-    figure = draw(run, field, rates, motion, most, label)
+    figure = draw(run, field, rates, motion, of_rates, label)
     figure.suptitle(heading(run), fontsize=13)
     save(figure, run, path, cropped=True)
 

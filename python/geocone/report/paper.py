@@ -13,7 +13,7 @@ left out, and the picture says so.
 import matplotlib
 import numpy as np
 from matplotlib.collections import LineCollection
-from matplotlib.colors import Normalize
+from matplotlib.colors import LogNorm, Normalize
 from matplotlib.patheffects import Normal, Stroke
 from matplotlib.ticker import MaxNLocator
 
@@ -200,7 +200,7 @@ def rates(rows, options):
     most = max(value.max() for value in values)
     for ax, row, field, value in zip(axes, good, fields, values):
         add_rates(ax, disks(ax, field, value) if series == "points" else
-                  cells_of(field, value), most, shown)
+                  cells_of(field, value), LogNorm(shown * most, most))
         ax.set_title(title_of(row, field))
         if "mechanism" in options:
             for line in prandtl_lines(np.radians(options["mechanism"]), options["width"]):
