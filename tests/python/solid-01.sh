@@ -12,7 +12,7 @@ for cells in "hexahedra" "tetra --set Mesh/Type=unstructured"; do
   # A picture that is not drawn has no line.
   while read -r file; do [ -s "$file" ]; done <said
 done
-# Points that move are balls, seen from where the flow is, in pictures, film and page.
+# Points that move are balls or disks, seen from where the flow is, in pictures, film and page.
 "$program" "$root/tests/three/explicit_layer-01.prm" --quiet --output points \
   --set 'Output/Fields = true' --set 'Loading/collapse/Output every = 1' \
   --set 'Output/Report for tests = none'
@@ -67,7 +67,7 @@ import sys
 import numpy as np
 import geocone
 from geocone import style
-from geocone.plots import rates, rendered, solid
+from geocone.plots import pictures_of, rates, rendered, solid
 from geocone.plots.point_values import vertices_of
 # A cube of 8^3 cells, of which the one behind the middle flows: it is opened there.
 n = np.arange(8)
@@ -105,7 +105,22 @@ if sys.argv[1]:
         assert np.allclose(seen / seen.sum(), told / told.sum(), atol=0.02), (y, seen, told)
     os.environ["GEOCONE_VTK"] = "0"
     assert rendered.images_of(points[first], nodes, fields, view, box) == []
+    assert rendered.images_of_balls(points, np.ones(len(points)), [], view, box) == []
     del os.environ["GEOCONE_VTK"]
+    # Two balls, of which the nearer one hides the other but for its rim; none beside them.
+    near = rendered.images_of_balls(np.array([0.5 * view.towards, -0.5 * view.towards]),
+                                    np.array([0.5, 1.]), [("point", [0., 0.9], style.STEPS)],
+                                    view, ([-1., -1.], [1., 1.]))[0]
+    middle, side = len(near) // 2, len(near) // 4
+    for place, part in (middle, 0.), (middle + int(0.8 * side), 0.9):
+        seen, told = near[middle, place] / 255., np.array(style.STEPS(part))[:3]
+        assert np.allclose(seen / seen.sum(), told / told.sum(), atol=0.02), (part, seen, told)
+    assert np.all(near[middle, middle + int(1.2 * side)] == 255)
+    with style.kept() as figures:
+        run = geocone.read("points")
+        pictures_of(run)["points.png"](run, run.folder / "rendered.png")
+    *shown, _ = figures[0].axes  # the last one is the bar
+    assert shown and all(len(axes.images) == 1 for axes in shown)
     with style.kept() as figures:
         run = geocone.read("tetra")
         rates.draw_run(run, run.folder / "rendered.png")

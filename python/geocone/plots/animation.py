@@ -9,6 +9,7 @@ import shutil
 import subprocess
 
 import numpy as np
+from matplotlib.cm import ScalarMappable
 from PIL import Image
 
 from geocone.files import write_listed
@@ -54,14 +55,12 @@ def draw(run, paths):
     figure, (axes,) = panels(1, look.box)
     figure.set_dpi(DOTS)
     look.finish(axes)
-    bar, films = None, {path: [] for path in paths}
+    figure.colorbar(ScalarMappable(norm, STRAINS), ax=axes, label=label, aspect=40,
+                    location="bottom", extend=extend)
+    films = {path: [] for path in paths}
     for field, value in zip(fields, values):
-        drawn = look.collection(axes, field, value)
-        drawn.set(cmap=STRAINS, norm=norm)
-        axes.add_collection(drawn)
+        drawn = look.draw(axes, field, value, STRAINS, norm)
         around = look.surroundings(axes, run, field)
-        bar = bar or figure.colorbar(drawn, ax=axes, label=label, aspect=40,
-                                     location="bottom", extend=extend)
         axes.set_title(f"{plain(run.name)}: {moment(run, field.time)}")
         figure.canvas.draw()
         frame = Image.fromarray(np.asarray(figure.canvas.buffer_rgba())).convert("RGB")

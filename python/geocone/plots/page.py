@@ -11,6 +11,7 @@ from pathlib import Path
 
 import matplotlib
 import numpy as np
+from matplotlib.cm import ScalarMappable
 from PIL import Image
 
 from geocone.files import write_listed
@@ -149,12 +150,10 @@ def frame_of(run, field, look, values, norm):
     """A small picture of the body at a time."""
     figure, (axes,) = points.panels(1, look.box)
     look.finish(axes)
-    drawn = look.collection(axes, field, values)
-    drawn.set(cmap=STRAINS, norm=norm)
-    axes.add_collection(drawn)
+    look.draw(axes, field, values, STRAINS, norm)
     look.surroundings(axes, run, field)
     axes.set_title(moment(run, field.time))
-    figure.colorbar(drawn, ax=axes, shrink=0.8)
+    figure.colorbar(ScalarMappable(norm, STRAINS), ax=axes, shrink=0.8)
     stream = io.BytesIO()
     with matplotlib.rc_context({"savefig.bbox": None}):
         figure.savefig(stream, dpi=90, format="png")
@@ -165,7 +164,7 @@ class CellsLook(points.Look):
     """Drawing of the cells of some fields in the plane."""
 
     def collection(self, axes, field, values):
-        """The cells of a field, in the colours of their values."""
+        """The cells of a field, with their values."""
         return rates.cells_of(field, values)
 
 

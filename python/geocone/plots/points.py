@@ -4,6 +4,7 @@
 of an elastic body, shear_stress.png."""
 
 import numpy as np
+from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 from matplotlib.ticker import MaxNLocator
 
@@ -26,8 +27,14 @@ class Look:
         self.box = view_of(fields, reach)
 
     def collection(self, axes, field, values):
-        """The points of a field, in the colours of their values."""
+        """The points of a field, with their values."""
         return disks(axes, field, values)
+
+    def draw(self, axes, field, values, colors, norm):
+        """Draws the points of a field in the colours of their values. @return what is drawn"""
+        drawn = self.collection(axes, field, values)
+        drawn.set(cmap=colors, norm=norm)
+        return axes.add_collection(drawn)
 
     def finish(self, axes):
         """Further settings of the axes."""
@@ -51,9 +58,7 @@ def draw_panels(run, path, fields, look, values, norm, label, colors=STRAINS,
     """Draws the points at some times, coloured by values, with one colour bar."""
     figure, axes = panels(len(fields), look.box)
     for ax, field, value in zip(axes, fields, values):
-        drawn = look.collection(ax, field, value)
-        drawn.set(cmap=colors, norm=norm)
-        ax.add_collection(drawn)
+        look.draw(ax, field, value, colors, norm)
         look.surroundings(ax, run, field)
         ax.set_title(moment(run, field.time))
         look.finish(ax)
@@ -61,8 +66,8 @@ def draw_panels(run, path, fields, look, values, norm, label, colors=STRAINS,
     figure.suptitle(heading(run, label.rsplit(" (", 1)[0] + look.words), fontsize=13)
     if figure.get_figheight() < 5.:
         label = label.replace(" stress", "\nstress").replace(" strain", "\nstrain")
-    figure.colorbar(drawn, ax=list(axes), label=label, aspect=40, pad=0.02,
-                    extend=extend)
+    figure.colorbar(ScalarMappable(norm, colors), ax=list(axes), label=label, aspect=40,
+                    pad=0.02, extend=extend)
     save(figure, run, path, cropped=True)
 
 

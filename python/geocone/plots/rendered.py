@@ -1,6 +1,6 @@
 # Copyright (C) 2026 by the geocone authors
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Images of the cells of a body in space by VTK, where it is installed.
+"""Images of the cells or points of a body in space by VTK, where it is installed.
 
 VTK ends a process that finds no display, so it runs in one of its own: this file as a program,
 `rendered.py TIME_LIMIT`, which reads a scene (npz) from its input and writes images (npy) to its
@@ -39,11 +39,25 @@ def images_of(points, cells, fields, view, box, cut=None):
     @param cut corner (3) of the quarter that is cut out, whose sides are normal to x and z, on
         the side of the eye; None: nothing is
     @return images (rows, columns, 3), none where VTK cannot be used"""
+    return images_by_vtk({"points": points, "cells": cells, "cut": [] if cut is None else cut},
+                         fields, view, box)
+
+
+def images_of_balls(centres, diameters, fields, view, box):
+    """Balls as seen in parallel projection. The other parameters and the result are those of
+    images_of()."""
+    return images_by_vtk({"points": centres, "diameters": diameters}, fields, view, box)
+
+
+def images_by_vtk(shapes, fields, view, box):
+    """Images that a process of VTK draws.
+
+    @param shapes arrays of the scene that render() reads, by name"""
     if not can_render():
         return []
-    arrays = {"points": points, "cells": cells, "box": np.array(box), "right": view.right,
-              "up": view.up, "towards": view.towards, "signs": view.signs,
-              "cut": [] if cut is None else cut, "kinds": [kind for kind, _, _ in fields]}
+    arrays = {**shapes, "box": np.array(box), "right": view.right, "up": view.up,
+              "towards": view.towards, "signs": view.signs,
+              "kinds": [kind for kind, _, _ in fields]}
     for i, (_, values, colors) in enumerate(fields):
         arrays[f"values{i}"] = values
         arrays[f"colors{i}"] = np.concatenate([colors(np.linspace(0., 1., 256)),
@@ -86,40 +100,70 @@ def why_not(done):
     return f"{how}: {last}" if last else how
 
 
-def render(source):
-    """Reads a scene from a stream. @return its images (n, rows, columns, 3)"""
+def add_values(data, scene):
+    """Adds the values of the fields of a scene to its cells or points."""
     # pylint: disable=import-outside-toplevel
-    from vtkmodules.vtkCommonCore import vtkVersion
-    version = vtkVersion()
-    if not os.environ.get("DISPLAY") and (version.GetVTKMajorVersion(),
-                                          version.GetVTKMinorVersion()) < WITHOUT_DISPLAY:
-        sys.exit(NO_DISPLAY)
-    import vtkmodules.vtkRenderingOpenGL2  # noqa: F401 - registers the renderer
-    from vtkmodules.util import numpy_support
-    from vtkmodules.vtkCommonCore import vtkLookupTable, vtkPoints
-    from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPlane, vtkUnstructuredGrid
+    from vtkmodules.util.numpy_support import numpy_to_vtk
+    for i, kind in enumerate(scene["kinds"]):
+        values = numpy_to_vtk(scene[f"values{i}"].astype(float), deep=True)
+        values.SetName(str(i))
+        (data.GetCellData() if kind == "cell" else data.GetPointData()).AddArray(values)
+
+
+def points_of(scene):
+    """The points of a scene, for VTK."""
+    # pylint: disable=import-outside-toplevel
+    from vtkmodules.util.numpy_support import numpy_to_vtk
+    from vtkmodules.vtkCommonCore import vtkPoints
+    points = vtkPoints()
+    points.SetData(numpy_to_vtk(scene["points"], deep=True))
+    return points
+
+
+def cells_of(cells):
+    """Cells by the numbers of their points (n, corners), for VTK."""
+    # pylint: disable=import-outside-toplevel
+    from vtkmodules.util.numpy_support import numpy_to_vtkIdTypeArray
+    from vtkmodules.vtkCommonDataModel import vtkCellArray
+    numbers = np.insert(cells, 0, cells.shape[1], axis=1).astype(np.int64).ravel()
+    array = vtkCellArray()
+    array.SetCells(len(cells), numpy_to_vtkIdTypeArray(numbers, deep=True))
+    return array
+
+
+def balls_of(scene):
+    """@return a mapper of the balls of a scene, and its points"""
+    # pylint: disable=import-outside-toplevel
+    from vtkmodules.util.numpy_support import numpy_to_vtk
+    from vtkmodules.vtkCommonDataModel import vtkPolyData
+    from vtkmodules.vtkRenderingOpenGL2 import vtkOpenGLSphereMapper
+    data = vtkPolyData()
+    # The mapper reads the values as floats, whatever they are.
+    radii = numpy_to_vtk((scene["diameters"] / 2.).astype(np.float32), deep=True)
+    data.SetPoints(points_of(scene))
+    data.SetVerts(cells_of(np.arange(len(scene["points"]))[:, None]))
+    radii.SetName("radii")
+    data.GetPointData().AddArray(radii)
+    add_values(data, scene)
+    mapper = vtkOpenGLSphereMapper()
+    mapper.SetScaleArray("radii")
+    return mapper, data
+
+
+def body_of(scene):
+    """@return the surface of the cells of a scene, cut open where it says so; the edges of the
+        cells, and those between faces at an angle"""
+    # pylint: disable=import-outside-toplevel
+    from vtkmodules.vtkCommonDataModel import vtkPlane, vtkUnstructuredGrid
     from vtkmodules.vtkFiltersCore import (vtkAppendFilter, vtkAppendPolyData,
                                            vtkClipPolyData, vtkCutter, vtkFeatureEdges)
     from vtkmodules.vtkFiltersExtraction import vtkExtractEdges
     from vtkmodules.vtkFiltersGeneral import vtkTableBasedClipDataSet
     from vtkmodules.vtkFiltersGeometry import vtkGeometryFilter
-    from vtkmodules.vtkRenderingCore import (vtkActor, vtkLight, vtkPolyDataMapper,
-                                             vtkRenderer, vtkRenderWindow,
-                                             vtkWindowToImageFilter)
-
-    scene = np.load(BytesIO(source.read()))
-    places, cells = scene["points"], scene["cells"]
-    grid, points, corners = vtkUnstructuredGrid(), vtkPoints(), vtkCellArray()
-    points.SetData(numpy_support.numpy_to_vtk(places, deep=True))
-    numbers = np.insert(cells, 0, cells.shape[1], axis=1).astype(np.int64).ravel()
-    corners.SetCells(len(cells), numpy_support.numpy_to_vtkIdTypeArray(numbers, deep=True))
-    grid.SetPoints(points)
-    grid.SetCells(TYPES[cells.shape[1]], corners)
-    kinds = scene["kinds"]
-    for i, kind in enumerate(kinds):
-        values = numpy_support.numpy_to_vtk(scene[f"values{i}"].astype(float), deep=True)
-        values.SetName(str(i))
-        (grid.GetCellData() if kind == "cell" else grid.GetPointData()).AddArray(values)
+    grid, cells = vtkUnstructuredGrid(), scene["cells"]
+    grid.SetPoints(points_of(scene))
+    grid.SetCells(TYPES[cells.shape[1]], cells_of(cells))
+    add_values(grid, scene)
 
     def output(filter_, *inputs):
         for data in inputs:
@@ -183,6 +227,25 @@ def render(source):
     sharp.NonManifoldEdgesOff()
     sharp.ColoringOff()
     sharp.Update()
+    return surface.GetOutput(), lines, sharp.GetOutput()
+
+
+def render(source):
+    """Reads a scene from a stream. @return its images (n, rows, columns, 3)"""
+    # pylint: disable=import-outside-toplevel
+    from vtkmodules.vtkCommonCore import vtkVersion
+    version = vtkVersion()
+    if not os.environ.get("DISPLAY") and (version.GetVTKMajorVersion(),
+                                          version.GetVTKMinorVersion()) < WITHOUT_DISPLAY:
+        sys.exit(NO_DISPLAY)
+    import vtkmodules.vtkRenderingOpenGL2  # noqa: F401 - registers the renderer
+    from vtkmodules.util import numpy_support
+    from vtkmodules.vtkCommonCore import vtkLookupTable
+    from vtkmodules.vtkRenderingCore import (vtkActor, vtkLight, vtkPolyDataMapper,
+                                             vtkRenderer, vtkRenderWindow,
+                                             vtkWindowToImageFilter)
+
+    scene = np.load(BytesIO(source.read()))
 
     def colors_of(i):
         colors = vtkLookupTable()
@@ -207,15 +270,20 @@ def render(source):
         renderer.AddActor(actor)
         return actor
 
-    painter = vtkPolyDataMapper()
+    balls, edges = "diameters" in scene, []
+    if balls:
+        painter, data = balls_of(scene)
+    else:
+        painter = vtkPolyDataMapper()
+        painter.InterpolateScalarsBeforeMappingOn()
+        data, lines, sharp = body_of(scene)
+        edges = [(lines, 0.35, 0.3, 1.), (sharp, 0.15, 0.9, 2.)]
     painter.UseLookupTableScalarRangeOn()
-    painter.InterpolateScalarsBeforeMappingOn()
-    faces = add(painter, surface.GetOutput()).GetProperty()
+    faces = add(painter, data).GetProperty()
     faces.SetInterpolationToFlat()
-    faces.SetAmbient(0.68)
-    faces.SetDiffuse(0.36)
-    for data, color, opacity, width in ((lines, 0.35, 0.3, 1.), (sharp.GetOutput(), 0.15, 0.9,
-                                                                 2.)):
+    faces.SetAmbient(0.55 if balls else 0.68)
+    faces.SetDiffuse(0.5 if balls else 0.36)
+    for data, color, opacity, width in edges:
         mapper = vtkPolyDataMapper()
         mapper.ScalarVisibilityOff()
         mapper.SetResolveCoincidentTopologyToPolygonOffset()
@@ -227,29 +295,32 @@ def render(source):
         line.LightingOff()
     light = vtkLight()
     light.SetLightTypeToSceneLight()
-    light.SetPosition(*(0.3 * scene["towards"] + [0., 0.9, 0.] + 0.25 * scene["right"]))
+    light.SetPosition(*((0.6 if balls else 0.3) * scene["towards"] + [0., 0.9, 0.]
+                        + 0.25 * scene["right"]))
     light.SetFocalPoint(0., 0., 0.)
     renderer.AddLight(light)
 
     # The eye is before the middle of the picture, at the depth of the body.
-    middle = (low + high) / 2.
-    depth = places @ scene["towards"]
+    middle, points = (low + high) / 2., scene["points"]
+    beyond = scene["diameters"].max() / 2. if balls else 0.  # how far the body reaches
+    depth = points @ scene["towards"]
     focus = (middle[0] * scene["right"] + middle[1] * scene["up"]
              + depth.mean() * scene["towards"])
     camera = renderer.GetActiveCamera()
     camera.ParallelProjectionOn()
     camera.SetFocalPoint(focus)
-    camera.SetPosition(focus + 2. * np.ptp(depth) * scene["towards"])
+    camera.SetPosition(focus + 2. * (np.ptp(depth) + 2. * beyond) * scene["towards"])
     camera.SetViewUp(scene["up"])
     camera.SetParallelScale(size[1] / 2.)
-    renderer.ResetCameraClippingRange()
+    renderer.ResetCameraClippingRange(*np.transpose([points.min(axis=0) - beyond,
+                                                     points.max(axis=0) + beyond]).ravel())
     window = vtkRenderWindow()
     window.SetOffScreenRendering(True)
-    window.SetMultiSamples(8)
+    window.SetMultiSamples(0 if balls else 8)  # of edges of faces, which balls do not have
     window.SetSize(*map(int, pixels))
     window.AddRenderer(renderer)
     images = []
-    for i, kind in enumerate(kinds):
+    for i, kind in enumerate(scene["kinds"]):
         painter.SetLookupTable(colors_of(i))
         if kind == "cell":
             painter.SetScalarModeToUseCellFieldData()

@@ -3,7 +3,7 @@
 """Bodies in three dimensions. plastic_strain_rate.png: the faces of the cells that are
 seen from where most of the flow is, the body cut open where the flow is inside (by VTK where
 it is installed: rendered.py).
-plastic_strain.png: material points as balls, the nearest in front."""
+plastic_strain.png: material points as balls, by VTK too."""
 
 import numpy as np
 from matplotlib.cm import ScalarMappable
@@ -14,7 +14,7 @@ from matplotlib.patheffects import withStroke
 from geocone.plots.answer import heading, moment
 from geocone.plots.point_values import (STRAIN, per_cell, recovered, values_of, vertices_of,
                                         view_of)
-from geocone.plots.rendered import can_render, images_of
+from geocone.plots.rendered import can_render, images_of, images_of_balls
 from geocone.style import (RATES, SHOWN, STEPS, add_bar, areas_of, level, panels, save,
                            sizes_of)
 
@@ -138,10 +138,10 @@ def add_directions(axes, view, box):
 
 
 def add_image(axes, image, box):
-    """Shows an image of the box."""
+    """Shows an image of the box. @return it"""
     (left, bottom), (right, top) = box
-    axes.imshow(image, extent=(left, right, bottom, top), aspect="equal",
-                interpolation="antialiased", zorder=1)
+    return axes.imshow(image, extent=(left, right, bottom, top), aspect="equal",
+                       interpolation="antialiased", zorder=1)
 
 
 def box_of_flow(places, moving):
@@ -209,11 +209,10 @@ def draw_balls(run, field, rates, motion, of_rates, label):
     for axes, values, colors, norm, words in (
             (axes_of[0], rates, RATES, of_rates, label),
             (axes_of[1], size, STEPS, norm_of(level(size, sizes_of(field))), unit)):
-        drawn = look.collection(axes, field, values)
-        drawn.set(cmap=colors, norm=norm)
-        axes.add_collection(drawn)
+        look.draw(axes, field, values, colors, norm)
         look.finish(axes)
-        add_bar(axes, drawn, words, extend="both" if norm is of_rates else "max")
+        add_bar(axes, ScalarMappable(norm, colors), words,
+                extend="both" if norm is of_rates else "max")
     axes_of[0].set_title(f"plastic strain rate, {moment(run, field.time)}\n"
                          f"seen from {look.view.name()}")
     axes_of[1].set_title(f"magnitude of the {name}")
@@ -257,7 +256,7 @@ def seen_values(view, field, values):
 
 
 class SolidLook:
-    """Drawing of points in space (as points.Look): as balls, the nearest in front,
+    """Drawing of points in space (as points.Look): as balls, by VTK where it can be used,
     from the corner of the horizon from which most of the greatest plastic strains are
     seen at the end, or without them of the greatest values."""
 
@@ -273,18 +272,25 @@ class SolidLook:
         self.box = view_of([field._replace(points=self.view.seen(field.points))
                             for field in fields], lambda size: 3. * reach(size))
         self.words = f", seen from {self.view.name()}"
+        self.by_vtk = True  # until it has drawn nothing
 
-    def collection(self, axes, field, values):
-        """The points of a field, in the colours of their values."""
-        order = np.argsort(field.points @ self.view.towards)
-        size = (np.cbrt(field.data["volume"][order, 0]) if "volume" in field.data else
-                np.full(len(order), np.ptp(self.box, axis=0).max() / 100.))
+    def draw(self, axes, field, values, colors, norm):
+        """Draws the points of a field in the colours of their values. @return what is drawn"""
+        size = (np.cbrt(field.data["volume"][:, 0]) if "volume" in field.data else
+                np.full(len(values), np.ptp(self.box, axis=0).max() / 100.))
         # Points that fly may have grown without limit.
         size = 1.3 * np.minimum(size, np.quantile(size, 0.98))
-        return EllipseCollection(size, size, 0. * size, units="xy",
-                                 offsets=self.view.seen(field.points)[order],
-                                 array=values[order], edgecolors="#40404080",
-                                 linewidths=0.2, offset_transform=axes.transData)
+        images = self.by_vtk and images_of_balls(
+            field.points, size, [("point", part_of(norm, values), colors)], self.view, self.box)
+        self.by_vtk = bool(images)
+        if images:
+            return add_image(axes, images[0], self.box)
+        order = np.argsort(field.points @ self.view.towards)  # the nearest in front
+        return axes.add_collection(EllipseCollection(
+            size[order], size[order], 0. * size, units="xy",
+            offsets=self.view.seen(field.points)[order], array=values[order], cmap=colors,
+            norm=norm, edgecolors="#40404080", linewidths=0.2,
+            offset_transform=axes.transData))
 
     def finish(self, axes):
         """Further settings of the axes."""
