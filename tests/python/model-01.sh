@@ -72,6 +72,28 @@ for axes in axes_of:
     assert triangles in [len(c.get_paths()) for c in axes.collections] and not axes.texts
 PYTHON
 
+# The scene of all that a model may have in the plane: each thing is in the picture or its legend.
+"$program" "$root/prm/stages/road_beside_pit.prm" --dry-run --picture --quiet --output all
+PYTHONPATH=$root/python /usr/bin/python3 -B - <<'PYTHON'
+from pathlib import Path
+
+from geocone.plots.model import draw
+from geocone.style import kept
+
+assert Path("all/model.png").stat().st_size > 10000
+with kept() as figures:
+    draw(Path("all"), Path("all/again.png"))
+main, lower = figures[0].axes
+words = [text.get_text() for text in main.get_legend().get_texts()]
+for start in ("fill: Mohr-Coulomb", "clay: ", "sand: ", "road: 10 kPa", "fixed", "roller",
+              "water table", "observed points"):
+    assert sum(word.startswith(start) for word in words) == 1, (start, words)
+written = [text.get_text() for text in main.texts]
+assert "wall" in written and set("01234567") <= set(written), written
+assert [axes.get_title() for axes in lower.child_axes] == ["first lift: excavation",
+                                                           "second lift: excavation"]
+PYTHON
+
 # A material that changes and changes back is there at the start and looks as at the start; what is
 # dug away stays away until it is filled, in the plane and in space.
 PYTHONPATH=$root/python /usr/bin/python3 -B - <<'PYTHON'

@@ -346,7 +346,8 @@ def draw_supports(axes, model):
             ticks = np.stack([x, x + 0.45 * step * (n - 0.8 * t)], axis=1)
             axes.add_collection(LineCollection(ticks, colors=SUPPORT, linewidths=0.8, zorder=4))
             text = f"{condition['name']}: fixed ({when})" if when else "fixed"
-            entries[plain(text)] = Line2D([], [], color=SUPPORT, marker="|", markersize=9)
+            entries[plain(text)] = Line2D([], [], color=SUPPORT, markersize=9,
+                                          marker=[(-0.6, -0.8), (0., 0.)])
         else:
             x = x + 0.25 * step * n
             axes.plot(*x.T, "o", color=SUPPORT, markerfacecolor="white", markersize=3.6,
