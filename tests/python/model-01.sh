@@ -186,6 +186,10 @@ table = soils_of({"Materials/a/Tensile strength": "0", "Materials/a/Cohesion for
                   "Materials/b/Tensile strength": "none"}, ["a", "b"])
 assert table.head[2:] == ["c(x, y) (Pa)", "tension (kPa)"], table
 assert [row[2:] for row in table.rows] == [["1e3 + y", "0"], ["", ""]], table
+# A unit weight is used in place of the density, which has a default.
+table = soils_of({"Materials/a/Density": "2000", "Materials/a/Unit weight": "18000",
+                  "Materials/b/Density": "1900", "Materials/b/Unit weight": "0"}, ["a", "b"])
+assert [row[2:] for row in table.rows] == [["", "18"], ["1900", "0"]], table
 PYTHON
 fails "$program" "$root/prm/footing_mpm.prm" --picture 2>said
 grep -q -- '--picture goes with --dry-run' said

@@ -61,6 +61,9 @@ def soils_of(parameters, names, absent=()):
     """The table of the soils; a constant is a column if it is not zero in all of them, the
     tensile strength if it is given: zero is soil without tension."""
     values = [constants_of(parameters, name) for name in names]
+    for of in values:
+        if number(of.get("Unit weight")):  # which is used in place of the density
+            of.pop("Density", None)
     kilograms = mass_unit(parameters)
     keys = [key for key in CONSTANTS if any(
         number(of.get(key, "0")) != 0. or (key == "Tensile strength" and key in of)
