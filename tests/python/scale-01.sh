@@ -87,6 +87,14 @@ for slow, decades in (1e-3, 3.), (9., 1.):
     norm = rates.scale_of(Two, np.array([slow] * 3 + [10.] * 3))
     assert norm.vmax == 10.
     assert np.isclose(norm.vmax / norm.vmin, 10.**decades), (norm.vmin, norm.vmax)
+# The view of a narrow flow is as wide as high, but not wider than the body.
+class Body:
+    points = np.stack(np.meshgrid(np.arange(11.), np.arange(11.)), axis=-1).reshape(-1, 2)
+for left, narrow in (0., True), (4., True), (0., False):
+    flows = (Body.points[:, 0] >= left) & (Body.points[:, 0] <= left + (1. if narrow else 10.))
+    low, high = rates.view_of(Body, 1. * (flows & (Body.points[:, 1] > 1.)), 1.)
+    assert np.all(low >= -1.) and np.all(high <= 11.) and low[0] <= left, (low, high)
+    assert np.isclose(*(high - low)) or not narrow, (low, high)
 values = np.array([1.] * 3 + [3.] * 3)
 assert np.allclose(point_values.recovered(Two, values), [1., 2., 2., 2., 3., 2.])
 between, outer = overlay.borders_of(Two)

@@ -37,12 +37,19 @@ def scale_of(field, rates):
 
 
 def view_of(field, rates, most):
-    """The box (low, high) of the flow with a margin, at most a little beyond the domain."""
+    """The box (low, high) of the flow with a margin, at most a little beyond the domain, and as
+    wide as high where the domain is: titles of narrow panels would overlap."""
     points, flowing = field.points, field.points[rates > SHOWN * most]
     margin = np.max([0.1 * np.ptp(flowing, axis=0), 0.02 * np.ptp(points, axis=0)])
     beyond = 0.06 * np.ptp(flowing, axis=0).max()  # where a deformed mesh may be
-    return (np.maximum(flowing.min(axis=0) - margin, points.min(axis=0) - beyond),
-            np.minimum(flowing.max(axis=0) + margin, points.max(axis=0) + beyond))
+    least, greatest = points.min(axis=0) - beyond, points.max(axis=0) + beyond
+    low = np.maximum(flowing.min(axis=0) - margin, least)
+    high = np.minimum(flowing.max(axis=0) + margin, greatest)
+    lack = max((high - low)[1] - (high - low)[0], 0.)
+    low[0] = max(low[0] - lack / 2., least[0])
+    high[0] = min(low[0] + max(high - low), greatest[0])
+    low[0] = max(high[0] - max(high - low), least[0])
+    return low, high
 
 
 def cells_of(field, values):
