@@ -63,7 +63,7 @@ namespace geocone::GEOCONE_DIM
      *  inseparable, for oblique sides that are fixed in their normal direction.
      *  @param problem lower-bound problem */
     Json
-    obstacles_of(const BoundScene &given, const BoundProblem &problem)
+    obstacles_with_loads(const BoundScene &given, const BoundProblem &problem)
     {
       const Triangles   &triangles = given.triangles;
       const unsigned int first_dof =
@@ -134,7 +134,9 @@ namespace geocone::GEOCONE_DIM
      * midpoints of the edges in the upper-bound problem.
      */
     void
-    add_loads(const BoundScene &given, const BoundProblem &problem, Json &json)
+    add_loads_and_supports(const BoundScene   &given,
+                           const BoundProblem &problem,
+                           Json               &json)
     {
       const BoundProblem above     = upper_problem(given);
       const Triangles   &triangles = given.triangles;
@@ -281,7 +283,7 @@ namespace geocone::GEOCONE_DIM
                      {"multiple", claim.multiple},
                      {"speed", is_reaction ? given.units.velocity : 0.},
                      {"materials", materials_of(given)},
-                     {"obstacles", obstacles_of(given, problem)}};
+                     {"obstacles", obstacles_with_loads(given, problem)}};
     Json vertices = Json::array(), edges = Json::array();
     for (const auto &x : given.triangles.vertices)
       vertices.push_back(pair(x[0], x[1]));
@@ -292,7 +294,7 @@ namespace geocone::GEOCONE_DIM
     json["triangles"]  = given.triangles.cells;
     json["material"]   = given.triangles.material;
     json["interfaces"] = interfaces_of(given);
-    add_loads(given, problem, json);
+    add_loads_and_supports(given, problem, json);
     if (is_lower)
       add_stresses(given, claim.bound, json);
     else
