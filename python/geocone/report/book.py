@@ -12,13 +12,14 @@ import json
 import math
 import re
 import subprocess
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 
 from geocone.report.figures import COLORS, MARKERS, number, percent
 from geocone.report.schema import LINE, STANDINGS, takes
 from geocone.runner import ROOT
-from geocone.style import RATES, plain, subplots
+from geocone.style import RATES, areas_of, level, plain, subplots
 
 
 def bracket(row):
@@ -72,16 +73,20 @@ def brackets(rows, _):
     """Each run: bracket, gap, verdict of the checker with the largest residual, published values
     of the group's check.
     @throw ValueError if a published value contradicts a bracket"""
+    with ThreadPoolExecutor() as pool:  # each waits for a program
+        verdicts = pool.map(verified, [row["folder"] for row in rows])
     lines = []
-    for row in rows:
+    for row, verdict in zip(rows, verdicts):
         low, high = bracket(row)
         lines.append([
-            name_of(row), number(low, 5), number(high, 5), f"{100. * (high - low) / abs(low):.2f} %",
-            row["reason"] or verified(row["folder"]),
+            name_of(row), number(low, 5), number(high, 5),
+            f"{100. * (high - low) / abs(low):.2f} %",
+            row["reason"] or verdict,
             "; ".join(compared(low, high, *one) for one in published(row)) or "-",
             "`" + re.sub(r" --set 'Output/(Fields|Pictures|Expectations) =[^']*'", "",
                          row["command"]) + "`"])
-    return ["problem", "lower bound", "upper bound", "gap", "checker", "published", "command"], lines
+    return ["problem", "lower bound", "upper bound", "gap", "checker", "published",
+            "command"], lines
 
 
 @takes()
@@ -139,14 +144,15 @@ def mechanisms(rows, _):
     """Speeds of the velocities that prove the upper bounds."""
     columns = 5
     count = math.ceil(len(rows) / columns)
-    figure, panels = subplots(count, columns, figsize=(15., 2.3 * count), squeeze=False)
+    figure, panels = subplots(count, columns, figsize=(15., 2.1 * count), squeeze=False)
     for axes, row in zip(panels.ravel(), rows):
         data = json.loads((row["folder"] / "certificate_upper.json").read_text())
+        x, cells = np.array(data["vertices"]), np.array(data["triangles"])
         speed = np.linalg.norm(data["velocity"]["vertices"], axis=1)
-        axes.tripcolor(*np.array(data["vertices"]).T, data["triangles"], speed, cmap=RATES,
-                       shading="gouraud", vmin=0., vmax=np.percentile(speed, 99.) or 1.)
+        axes.tripcolor(*x.T, cells, speed, cmap=RATES, shading="gouraud", vmin=0.,
+                       vmax=level(speed[cells].mean(axis=1), areas_of(x[cells])) or 1.)
         axes.set_aspect("equal")
-        axes.set_title(plain(name_of(row)), fontsize=8)
+        axes.set_title(plain(name_of(row)), fontsize=7)
     for axes in panels.ravel():
         axes.axis("off")
     return figure
