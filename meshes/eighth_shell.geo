@@ -63,10 +63,10 @@ For k In {0 : 1}
 EndFor
 Transfinite Curve {21 : 27} = layers + 1;
 Transfinite Surface "*";
-If(!tetrahedra)
+If(!tetrahedra)  // transfinite tetrahedra of two blocks would not fit
   Recombine Surface "*";
+  Transfinite Volume "*";
 EndIf
-Transfinite Volume "*";
 Physical Surface("inside")  = {1, 2, 3};
 Physical Surface("outside") = {11, 12, 13};
 Physical Surface("z = 0")   = {31, 32};

@@ -1,8 +1,9 @@
 // The slope of slope.geo, of tetrahedra that bounds bisect. It is read by
-// prm/three/bounds_slope.prm.
+// prm/three/bounds_slope.prm. The cells at the crest have two free faces, which limits
+// gamma times their height in the lower bound: 1.5 c.
 tetrahedra = 1;
-across = 6;    // cells from the back to the face
-up     = 3;    // cells from the base to the top
+across = 5;    // cells from the back to the face
+up     = 5;    // cells from the base to the top
 along  = 3;    // from the middle to the end
 ratio  = 1;    // of a cell along z to the one nearer to the end
 front  = 1;    // of a cell to the one nearer to the face
