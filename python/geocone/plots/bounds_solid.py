@@ -20,7 +20,7 @@ DECADES = 1e-2  # shown of dissipation and gap
 
 
 class Panel:
-    """What a picture of the body shows: a value of each cell, its scale, and words."""
+    """A picture of the body: a value of each cell, its scale, and words."""
 
     def __init__(self, points, values, norm, colors, title, label):
         self.points, self.values, self.norm, self.colors = points, values, norm, colors
@@ -38,7 +38,7 @@ def deformed(field, vertices):
 
 
 def panels_of(field, vertices):
-    """What is drawn of a field."""
+    """Creates the panels of a field: mechanism, dissipation and, if there is any, the gap."""
     def of_cells(name):
         return field.data[name][field.cells[:, 0], 0]
 
