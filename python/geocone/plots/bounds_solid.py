@@ -75,12 +75,14 @@ def draw_mechanism(run, field, path):
     figure, axes_of = panels(len(shown), box)
     cell_of_point = np.empty(len(field.points), int)
     cell_of_point[field.cells] = np.arange(len(field.cells))[:, None]
-    for axes, panel in zip(axes_of, shown):
-        images = images_of(panel.points[first], vertices[field.cells],
-                           [("cell", part_of(panel.norm, panel.values), panel.colors)], view,
-                           box, cut)
-        if images:
-            add_image(axes, images[0], box)
+    images = []
+    for same in shown[:1], shown[1:]:  # those of the same points by one call
+        images += images_of(same[0].points[first], vertices[field.cells],
+                            [("cell", part_of(panel.norm, panel.values), panel.colors)
+                             for panel in same], view, box, cut)
+    for i, (axes, panel) in enumerate(zip(axes_of, shown)):
+        if len(images) == len(shown):
+            add_image(axes, images[i], box)
         else:
             of_faces = panel.values[cell_of_point[faces[:, 0]]]
             add_faces(axes, view, panel.points, faces, normals,

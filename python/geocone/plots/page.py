@@ -44,7 +44,7 @@ CAPTIONS = {
     "model.png": "The model", "load_displacement.png": "Load against displacement",
     "safety.png": "Displacement while the strength is reduced",
     "plates.png": "Moments, forces and displacements of plates at the ends of stages",
-    "mechanism.png": "Mechanisms of both bounds, and where these differ",
+    "mechanism.png": "How the body fails, and where the bounds differ",
     "dependence.png": "What the bounds depend on",
     "principal_stresses.png": "Principal stresses at the end",
     "plastic_strain_rate.png": "Where the soil yields at the end, and how it moves",
