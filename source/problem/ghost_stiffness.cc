@@ -139,9 +139,11 @@ namespace geocone::GEOCONE_DIM
         const auto place = mesh.place_in_grid(cell);
         for (unsigned int along = 0; along < dim; ++along)
           {
-            const auto is_last = [&](const unsigned int d) {
-              return place[d] + 2 == mesh.grid()[d].size();
+            const auto n_leaving = [&](const unsigned int d) {
+              return space.splines_along(d).n_leaving(place[d]);
             };
+            const unsigned int n_entering =
+              space.splines_along(along).n_entering(place[along]);
             // Lines of functions along a direction, by their first ones; those
             // shared with the next cell are left to it.
             for (unsigned int line = 0; line < nodes.size(); ++line)
@@ -149,8 +151,7 @@ namespace geocone::GEOCONE_DIM
                 const GridIndex first   = index_in_grid(line, n_along);
                 bool            is_mine = first[along] == 0;
                 for (unsigned int d = 0; d < dim; ++d)
-                  is_mine =
-                    is_mine && (d == along || first[d] == 0 || is_last(d));
+                  is_mine = is_mine && (d == along || first[d] < n_leaving(d));
                 if (!is_mine)
                   continue;
                 const auto number = [&](const unsigned int i) {
@@ -163,8 +164,8 @@ namespace geocone::GEOCONE_DIM
                   for (const bool up : {true, false})
                     {
                       // The outermost of the cells in the support of all three.
-                      if (up ? i < 2 || (i < p && place[along] > 0)
-                             : i + 2 > p || (i > 0 && !is_last(along)))
+                      if (up ? i < 2 || i + n_entering <= p
+                             : i + 2 > p || i >= n_leaving(along))
                         continue;
                       Triple triple;
                       for (unsigned int k = 0; k < 3; ++k)

@@ -25,23 +25,39 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    const UsedWhere used_space[] = {{"Discretisation/Element",
-                                     "Discretisation/Method",
-                                     {"FEM", "MPM", "explicit MPM"}},
-                                    {"Discretisation/B-bar",
-                                     "Discretisation/Method",
-                                     {"FEM", "MPM", "explicit MPM"}},
-                                    {"Discretisation/Basis",
-                                     "Discretisation/Method",
-                                     {"FEM", "MPM", "explicit MPM"}},
-                                    {"Discretisation/Tied sides",
-                                     "Discretisation/Method",
-                                     {"FEM", "MPM", "explicit MPM"}}};
+    const UsedWhere used_space[] = {
+      {"Discretisation/Element",
+       "Discretisation/Method",
+       {"FEM", "MPM", "explicit MPM"}},
+      {"Discretisation/B-bar",
+       "Discretisation/Method",
+       {"FEM", "MPM", "explicit MPM"}},
+      {"Discretisation/Basis",
+       "Discretisation/Method",
+       {"FEM", "MPM", "explicit MPM"}},
+      {"Discretisation/Tied sides",
+       "Discretisation/Method",
+       {"FEM", "MPM", "explicit MPM"}},
+      {"Discretisation/Double knots x",
+       "Discretisation/Element",
+       {"automatic", "B-spline 2", "B-spline 3"}},
+      {"Discretisation/Double knots y",
+       "Discretisation/Element",
+       {"automatic", "B-spline 2", "B-spline 3"}},
+      {"Discretisation/Double knots z",
+       "Discretisation/Element",
+       {"automatic", "B-spline 2", "B-spline 3"}}};
   } // namespace
 
   namespace
   {
     constexpr const char *tied_parameter = "Discretisation/Tied sides";
+
+    std::string
+    double_knots_parameter(const unsigned int direction)
+    {
+      return std::string("Double knots ") + coordinate[direction];
+    }
 
     /** The dofs of nodes, dim each: owned nodes are a contiguous range. */
     IndexSet
@@ -84,12 +100,54 @@ namespace geocone::GEOCONE_DIM
                   "the points of the cell, or for Q2 and Q3 its projection "
                   "onto polynomials of one degree less. In implicit steps of "
                   "dilatant soil the pressure is projected in the same way.");
+    for (unsigned int c = 0; c < dim; ++c)
+      add_parameter(
+        double_knots_parameter(c),
+        double_knots[c],
+        format("B-splines, not with explicit MPM: %c-coordinates [m] of "
+               "grid lines on which the velocity is one degree "
+               "less continuous (C1 with cubic, C0 with quadratic "
+               "B-splines), for instance the edges of a footing. "
+               "Empty: none.",
+               coordinate[c]));
     add_parameter("Tied sides",
                   tied_sides,
                   "FEM on one rank: SIDE: OTHER, ...: pairs of sides that move "
                   "equally (periodic sides), e.g. left: right for a part of an "
                   "infinite slope or layer. The sides are equal but for a "
                   "translation, and their nodes, too. Empty: none.");
+  }
+
+  std::vector<double>
+  Space::with_double_knots(const std::vector<double> &lines,
+                           const unsigned int         direction) const
+  {
+    std::vector<double> knots     = lines;
+    const double        tolerance = 1e-9 * (lines.back() - lines.front());
+    for (const double x : double_knots[direction])
+      {
+        const auto is_here = [&](const double line) {
+          return std::abs(line - x) < tolerance;
+        };
+        const auto line = std::find_if(knots.begin(), knots.end(), is_here);
+        const auto next =
+          std::min_element(lines.begin(), lines.end(), [&](double a, double b) {
+            return std::abs(a - x) < std::abs(b - x);
+          });
+        if (line == knots.end() || is_here(lines.front()) ||
+            is_here(lines.back()) || is_here(*std::next(line)))
+          throw InputError("Discretisation/" +
+                             double_knots_parameter(direction),
+                           x,
+                           "coordinates of inner grid lines, each once",
+                           format("the nearest grid line is at %c = %.10g: "
+                                  "change the cells so that one is there, or "
+                                  "leave the double knot out",
+                                  coordinate[direction],
+                                  *next));
+        knots.insert(line, *line);
+      }
+    return knots;
   }
 
   std::string
@@ -158,6 +216,12 @@ namespace geocone::GEOCONE_DIM
                        "the stable step of elements of higher degree is very "
                        "small: take splines, or P1 or Q1 on an unstructured "
                        "mesh");
+    for (unsigned int c = 0; c < dim; ++c)
+      if (method.is_explicit() && !double_knots[c].empty())
+        throw InputError("Discretisation/" + double_knots_parameter(c),
+                         double_knots[c].front(),
+                         "empty with explicit MPM",
+                         "leave it out, or set Discretisation/Method = MPM");
     if (basis == Basis::automatic)
       basis = method.is_mpm() ? Basis::bernstein : Basis::lagrange;
     if (has_ties() && method.is_mpm())
@@ -179,7 +243,8 @@ namespace geocone::GEOCONE_DIM
                  const Method         &method,
                  const bool            strongly_non_associated)
   {
-    mesh                  = &background;
+    mesh = &background;
+    splines.clear();
     const bool simplicial = mesh->is_simplicial();
     choose_element(
       simplicial, !mesh->grid()[0].empty(), method, strongly_non_associated);
@@ -235,9 +300,8 @@ namespace geocone::GEOCONE_DIM
   {
     if (is_spline())
       {
-        splines.clear();
         for (unsigned int c = 0; c < dim; ++c)
-          splines.emplace_back(p, mesh->grid()[c]);
+          splines[c].move(mesh->grid()[c]);
       }
     place_nodes();
   }
@@ -266,7 +330,8 @@ namespace geocone::GEOCONE_DIM
       {
         const auto place = mesh->place_in_grid(cell);
         for (unsigned int c = 0; c < dim; ++c)
-          x[c] = splines[c].greville(place[c] + lattice[i][c]);
+          x[c] = splines[c].greville(splines[c].first_function(place[c]) +
+                                     lattice[i][c]);
         return x;
       }
     if (basis == Basis::bernstein)
@@ -401,11 +466,11 @@ namespace geocone::GEOCONE_DIM
   IndexSet
   Space::prepare_splines(const BackgroundMesh &mesh)
   {
-    splines.clear();
     lattice.clear();
     spline_number.clear();
-    for (unsigned int c = 0; c < dim; ++c)
-      splines.emplace_back(p, mesh.grid()[c]);
+    if (splines.empty()) // not after a repartition: lines may have moved
+      for (unsigned int c = 0; c < dim; ++c)
+        splines.emplace_back(p, with_double_knots(mesh.grid()[c], c));
     for (unsigned int i = 0; i < n_nodes_per_cell; ++i)
       lattice.push_back(index_in_grid(i, equal_sizes(p + 1)));
 
@@ -417,7 +482,7 @@ namespace geocone::GEOCONE_DIM
     GridIndex          n_cells, n_functions;
     for (unsigned int c = 0; c < dim; ++c)
       {
-        n_cells[c]     = mesh.grid()[c].size() - 1;
+        n_cells[c]     = splines[c].n_intervals();
         n_functions[c] = splines[c].n_functions();
       }
     std::vector<unsigned int> rank_of_cell(
@@ -428,16 +493,13 @@ namespace geocone::GEOCONE_DIM
                    number_in_grid(mesh.place_in_grid(cell), n_cells)] =
         mesh.owner_of_cell()[cell->active_cell_index()];
 
-    const auto home = [&](const unsigned int function, const unsigned int n) {
-      return std::min(n - 1, function - std::min(function, p / 2));
-    };
     std::vector<unsigned int> rank_of_node;
     for (unsigned int layer = 0; layer < mesh.n_layers(); ++layer)
       for (std::size_t i = 0; i < grid_volume(n_functions); ++i)
         {
           GridIndex cell = index_in_grid(i, n_functions);
           for (unsigned int c = 0; c < dim; ++c)
-            cell[c] = home(cell[c], n_cells[c]);
+            cell[c] = splines[c].middle_interval(cell[c]);
           rank_of_node.push_back(
             rank_of_cell[layer * n_per_layer + number_in_grid(cell, n_cells)]);
         }
@@ -477,7 +539,7 @@ namespace geocone::GEOCONE_DIM
         for (unsigned int i = 0; i < n_nodes_per_cell; ++i)
           {
             for (unsigned int c = 0; c < dim; ++c)
-              function[c] = place[c] + lattice[i][c];
+              function[c] = splines[c].first_function(place[c]) + lattice[i][c];
             nodes[i] = spline_number[first + number_in_grid(function, sizes)];
           }
         return;
@@ -564,7 +626,8 @@ namespace geocone::GEOCONE_DIM
           {
             double product = 1.;
             for (unsigned int c = 0; c < dim; ++c)
-              product *= splines[c].integral(place[c] + lattice[i][c]);
+              product *= splines[c].integral(
+                splines[c].first_function(place[c]) + lattice[i][c]);
             integral[local_node(nodes[i])] = product;
           }
       }

@@ -3,6 +3,8 @@
 
 #include <geocone/space/spline_basis.h>
 
+#include <algorithm>
+
 namespace geocone::GEOCONE_DIM
 {
   SplineBasis::SplineBasis(const unsigned int         degree,
@@ -12,6 +14,31 @@ namespace geocone::GEOCONE_DIM
   {
     knots.insert(knots.end(), breaks.begin(), breaks.end());
     knots.insert(knots.end(), p, breaks.back());
+    for (unsigned int k = p; k + p + 1 < knots.size(); ++k)
+      if (knots[k + 1] > knots[k])
+        first.push_back(k - p);
+  }
+
+  void
+  SplineBasis::move(const std::vector<double> &breaks)
+  {
+    auto to = breaks.begin();
+    for (std::size_t k = 0; k < knots.size(); ++k)
+      {
+        const bool ends_interval =
+          k + 1 < knots.size() && knots[k + 1] > knots[k];
+        knots[k] = *to;
+        to += ends_interval;
+      }
+  }
+
+  unsigned int
+  SplineBasis::middle_interval(const unsigned int function) const
+  {
+    // Of simple knots: the interval function - p/2.
+    const auto after = std::upper_bound(
+      first.begin(), first.end(), function - std::min(function, p / 2));
+    return after - first.begin() - 1;
   }
 
   double
@@ -30,8 +57,8 @@ namespace geocone::GEOCONE_DIM
                         double            *dN) const
   {
     // Cox-de Boor recursion over the degree; knots are counted from the first
-    // one of function i.
-    const double *t      = &knots[i];
+    // one of the first function.
+    const double *t      = &knots[first[i]];
     const double  length = t[p + 1] - t[p];
     const double  x      = t[p] + xi * length;
     double        lower[max_degree + 1];

@@ -3,8 +3,9 @@
 
 // B-splines on graded intervals must be what is claimed of them: not negative,
 // with the sum 1, with the sum x of Greville abscissae times functions, with
-// derivatives that are those of the values, of continuity p - 1 and not more,
-// and with one function at each end. The Bernstein polynomials must be the
+// derivatives that are those of the values, of continuity p - 1 and not more
+// (p - 2 at a double knot, also after the intervals have been moved), and with
+// one function at each end. The Bernstein polynomials must be the
 // binomial ones, and reproduce x by i/p.
 
 #include <geocone/space/spline_basis.h>
@@ -98,65 +99,116 @@ namespace discretisation_spline_basis_01
       }
   }
 
+  /** Checks splines on the intervals between the breaks, and their continuity
+   *  at the breaks from @p first to @p last. */
+  void
+  check_splines(const unsigned int p,
+                const SplineBasis &basis,
+                const unsigned int first,
+                const unsigned int last)
+  {
+    const unsigned int n        = basis.n_intervals();
+    double             worst[4] = {};
+    for (unsigned int k = 0; k < n; ++k)
+      check_interval(
+        p,
+        breaks[k],
+        breaks[k + 1],
+        [&](const double xi, double *N, double *dN) {
+          basis.evaluate(k, xi, N, dN);
+        },
+        [&](const unsigned int i) {
+          return basis.greville(basis.first_function(k) + i);
+        },
+        worst);
+    print_interval(worst);
+
+    // Jumps of the derivatives at the inner breaks, where function i of the
+    // interval after the break is i + s of the one before.
+    double jump[4] = {};
+    for (unsigned int k = first; k <= last; ++k)
+      {
+        const unsigned int s = basis.n_entering(k);
+        double             left[4][max_degree + 1], right[4][max_degree + 1];
+        derivatives(basis, p, k - 1, 1., left);
+        derivatives(basis, p, k, 0., right);
+        for (unsigned int d = 0; d <= p; ++d)
+          for (unsigned int i = 0; i <= p; ++i)
+            jump[d] =
+              std::max({jump[d],
+                        std::abs(left[d][i] - (i < s ? 0. : right[d][i - s])),
+                        i + s > p ? std::abs(right[d][i]) : 0.});
+      }
+    for (unsigned int d = 0; d <= p; ++d)
+      std::printf("  derivative %u is continuous: %s\n",
+                  d,
+                  jump[d] < 1e-9 ? "yes" : "no");
+
+    double N[max_degree + 1], dN[max_degree + 1];
+    basis.evaluate(0, 0., N, dN);
+    bool ends = N[0] == 1.;
+    for (unsigned int i = 1; i <= p; ++i)
+      ends &= N[i] == 0.;
+    basis.evaluate(n - 1, 1., N, dN);
+    ends &= std::abs(N[p] - 1.) < 1e-15;
+    for (unsigned int i = 0; i < p; ++i)
+      ends &= std::abs(N[i]) < 1e-15;
+    print("one function at each end", ends);
+    print("Greville abscissae from end to end",
+          std::abs(basis.greville(0) - breaks.front()) < 1e-15 &&
+            std::abs(basis.greville(basis.n_functions() - 1) - breaks.back()) <
+              1e-15);
+  }
+
   void
   test()
   {
-    const unsigned int n = breaks.size() - 1;
     for (unsigned int p = 1; p <= max_degree; ++p)
       {
         const SplineBasis basis(p, breaks);
         std::printf("splines of degree %u: %u functions on %u intervals\n",
                     p,
                     basis.n_functions(),
-                    n);
-        double worst[4] = {};
-        for (unsigned int k = 0; k < n; ++k)
-          check_interval(
-            p,
-            breaks[k],
-            breaks[k + 1],
-            [&](const double xi, double *N, double *dN) {
-              basis.evaluate(k, xi, N, dN);
-            },
-            [&](const unsigned int i) { return basis.greville(k + i); },
-            worst);
-        print_interval(worst);
+                    basis.n_intervals());
+        check_splines(p, basis, 1, basis.n_intervals() - 1);
+      }
 
-        // Jumps of the derivatives at the inner breaks, where function i of the
-        // interval after the break is i + 1 of the one before.
-        double jump[4] = {};
-        for (unsigned int k = 1; k < n; ++k)
+    for (unsigned int p = 2; p <= max_degree; ++p)
+      {
+        std::vector<double> knots = breaks, elsewhere = breaks;
+        knots.insert(knots.begin() + 3, breaks[3]);
+        for (double &x : elsewhere)
+          x = 2. * x + 1.; // back by move()
+        elsewhere.insert(elsewhere.begin() + 3, elsewhere[3]);
+        SplineBasis basis(p, elsewhere);
+        basis.move(breaks);
+        std::printf("splines of degree %u with a double knot: %u functions on "
+                    "%u intervals\n",
+                    p,
+                    basis.n_functions(),
+                    basis.n_intervals());
+        check_splines(p, basis, 3, 3);
+        bool is_same = true;
+        for (unsigned int i = 0; i < basis.n_functions(); ++i)
+          is_same &= basis.greville(i) == SplineBasis(p, knots).greville(i);
+        print("moved like built there", is_same);
+        unsigned int entering = 0, leaving = 0;
+        bool         is_inside = true;
+        for (unsigned int k = 0; k < basis.n_intervals(); ++k)
           {
-            double left[4][max_degree + 1], right[4][max_degree + 1];
-            derivatives(basis, p, k - 1, 1., left);
-            derivatives(basis, p, k, 0., right);
-            for (unsigned int d = 0; d <= p; ++d)
-              {
-                jump[d] = std::max(
-                  {jump[d], std::abs(left[d][0]), std::abs(right[d][p])});
-                for (unsigned int i = 0; i < p; ++i)
-                  jump[d] =
-                    std::max(jump[d], std::abs(left[d][i + 1] - right[d][i]));
-              }
+            entering += basis.n_entering(k);
+            leaving += basis.n_leaving(k);
           }
-        for (unsigned int d = 0; d <= p; ++d)
-          std::printf("  derivative %u is continuous: %s\n",
-                      d,
-                      jump[d] < 1e-9 ? "yes" : "no");
-
-        double N[max_degree + 1], dN[max_degree + 1];
-        basis.evaluate(0, 0., N, dN);
-        bool ends = N[0] == 1.;
-        for (unsigned int i = 1; i <= p; ++i)
-          ends &= N[i] == 0.;
-        basis.evaluate(n - 1, 1., N, dN);
-        ends &= std::abs(N[p] - 1.) < 1e-15;
-        for (unsigned int i = 0; i < p; ++i)
-          ends &= std::abs(N[i]) < 1e-15;
-        print("one function at each end", ends);
-        print("Greville abscissae from end to end",
-              std::abs(basis.greville(0) - breaks.front()) < 1e-15 &&
-                std::abs(basis.greville(n + p - 1) - breaks.back()) < 1e-15);
+        for (unsigned int i = 0; i < basis.n_functions(); ++i)
+          {
+            const unsigned int at =
+              basis.first_function(basis.middle_interval(i));
+            is_inside &= at <= i && i <= at + p;
+          }
+        print("each function enters and leaves once",
+              entering == basis.n_functions() &&
+                leaving == basis.n_functions());
+        print("the middle of a support is in it", is_inside);
       }
 
     for (unsigned int p = 1; p <= max_degree; ++p)

@@ -51,7 +51,8 @@ namespace geocone::GEOCONE_DIM
    * component.
    *
    * Elements: P1, P2, P3 on triangles; Q1, Q2, Q3 on quadrilaterals; B-spline 2
-   * and B-spline 3 (C1 and C2, with clamped knots) on tensor-product grids. The
+   * and B-spline 3 (C1 and C2, with clamped knots) on tensor-product grids. On
+   * grid lines with double knots the continuity is C0 and C1. The
    * basis of P2, P3, Q2 and Q3 is the Lagrange basis (at Gauss-Lobatto nodes on
    * quadrilaterals) or the Bernstein basis, which is non-negative. The "node"
    * of a non-nodal basis function is its Greville abscissa: with the nodal
@@ -245,6 +246,13 @@ namespace geocone::GEOCONE_DIM
       return positions;
     }
 
+    /** Returns the univariate B-splines along a direction. */
+    const SplineBasis &
+    splines_along(const unsigned int direction) const
+    {
+      return splines[direction];
+    }
+
     /** Returns the integral of each spline basis function over the domain (m^2;
      *  m^3 in three dimensions). The order is that of the owned and ghost
      *  nodes. */
@@ -367,6 +375,15 @@ namespace geocone::GEOCONE_DIM
 
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> layout;
     std::vector<dealii::Point<dim>>                            positions;
+
+    /** Coordinates of the grid lines with double knots, by direction (m). */
+    std::array<std::vector<double>, dim> double_knots;
+
+    /** Returns grid lines with those of double knots twice.
+     *  @throws InputError if there is no grid line at a double knot */
+    std::vector<double>
+    with_double_knots(const std::vector<double> &lines,
+                      const unsigned int         direction) const;
   };
 
   /** Creates the cubic triangular element P3, with 1 degree of freedom per

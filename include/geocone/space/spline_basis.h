@@ -17,24 +17,67 @@ namespace geocone::GEOCONE_DIM
   constexpr unsigned int max_degree = 3;
 
   /**
-   * Univariate B-splines of degree p and continuity p - 1 on n intervals of
-   * arbitrary length. The knots are clamped: the first and last knots are
-   * repeated p + 1 times. Of the n + p basis functions, i, ..., i + p are
-   * non-zero on interval i. The basis functions are non-negative and a
-   * partition of unity; x is reproduced with the Greville abscissae as
+   * Univariate B-splines of degree p on intervals of arbitrary length. They
+   * have continuity p - 1 at simple knots and p - 2 at double knots. The knots
+   * are clamped: the first and last knots are repeated p + 1 times. On n
+   * intervals with m double knots there are n + m + p basis functions, of which
+   * p + 1 are non-zero on an interval. The basis functions are non-negative and
+   * a partition of unity; x is reproduced with the Greville abscissae as
    * coefficients. At each end only the first (last) basis function is non-zero.
    */
   class SplineBasis
   {
   public:
-    /** Constructs the basis. @param breaks interval boundaries, increasing (m) */
+    /** Constructs the basis. @param breaks interval boundaries, increasing (m);
+     *  an inner boundary given twice is a double knot (degree 2 and higher) */
     SplineBasis(const unsigned int degree, const std::vector<double> &breaks);
+
+    /** Moves the interval boundaries. @param breaks as many as before,
+     *  increasing, each once (m); double knots remain double */
+    void
+    move(const std::vector<double> &breaks);
 
     unsigned int
     n_functions() const
     {
       return knots.size() - p - 1;
     }
+
+    unsigned int
+    n_intervals() const
+    {
+      return first.size();
+    }
+
+    /** Returns the first of the p + 1 basis functions that are non-zero on an
+     *  interval. */
+    unsigned int
+    first_function(const unsigned int interval) const
+    {
+      return first[interval];
+    }
+
+    /** Returns the number of basis functions that are non-zero on an interval
+     *  and zero on all intervals before it. */
+    unsigned int
+    n_entering(const unsigned int interval) const
+    {
+      return interval == 0 ? p + 1 : first[interval] - first[interval - 1];
+    }
+
+    /** Returns the number of basis functions that are non-zero on an interval
+     *  and zero on all intervals after it. */
+    unsigned int
+    n_leaving(const unsigned int interval) const
+    {
+      return interval + 1 == first.size()
+               ? p + 1
+               : first[interval + 1] - first[interval];
+    }
+
+    /** Returns an interval in the middle of the support of a basis function. */
+    unsigned int
+    middle_interval(const unsigned int function) const;
 
     /** Returns the Greville abscissa of a basis function (m): the mean of its p
      *  inner knots. */
@@ -64,6 +107,9 @@ namespace geocone::GEOCONE_DIM
   private:
     const unsigned int  p;
     std::vector<double> knots;
+
+    /** First non-zero basis function of each interval. */
+    std::vector<unsigned int> first;
   };
 
   /**
