@@ -52,8 +52,8 @@ namespace geocone::GEOCONE_DIM
     if (!with_fields)
       return;
     // All ranks have the whole flow.
-    SimplexTable table(flow.triangles(),
-                        dealii::Utilities::MPI::this_mpi_process(comm) == 0);
+    SimplexTable  table(flow.triangles(),
+                       dealii::Utilities::MPI::this_mpi_process(comm) == 0);
     const auto   &vertices = flow.triangles().vertices;
     const auto   &material = flow.triangles().material;
     const auto    q        = flow.velocities();
