@@ -226,6 +226,72 @@ namespace geocone::GEOCONE_DIM
           }
     }
 
+    /** Rejects tetrahedra whose faces do not fit, e.g. with two diagonals of a
+     *  square: the faces would be outer ones, and the sides of a crack. */
+    void
+    check_faces_of_tetrahedra(const CoarseMesh    &mesh,
+                              const std::string   &what,
+                              const ApartVertices &are_apart)
+    {
+      using Box = dealii::BoundingBox<dim>;
+      std::set<CoarseMesh::Face> outer;
+      for (const CoarseMesh::Face &face : mesh.outer_faces())
+        outer.insert(CoarseMesh::sorted(face));
+      const auto vertices_of = [&](const unsigned int c) {
+        std::array<unsigned int, 4> v;
+        std::copy_n(mesh.cells[c].vertices.begin(), 4, v.begin());
+        return v;
+      };
+      std::vector<std::pair<Box, unsigned int>> boxes;
+      for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+        {
+          std::vector<Point<dim>> corners;
+          for (const unsigned int v : vertices_of(c))
+            corners.push_back(mesh.points[v]);
+          boxes.emplace_back(Box(corners), c);
+        }
+      const auto tree = dealii::pack_rtree(boxes);
+      std::vector<std::pair<Box, unsigned int>> near;
+      std::vector<Point<dim>>                   points = mesh.points;
+      points.emplace_back(); // beyond a face
+      const unsigned int beyond   = mesh.points.size();
+      const auto         contains = [&](const unsigned int c) {
+        const double volume = sixfold_volume(points, vertices_of(c));
+        for (unsigned int i = 0; i < 4; ++i)
+          {
+            auto v = vertices_of(c);
+            v[i]   = beyond;
+            if (sixfold_volume(points, v) / volume <= 0.)
+              return false;
+          }
+        return true;
+      };
+      for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+        for (unsigned int i = 0; i < 4; ++i)
+          {
+            const auto       v    = vertices_of(c);
+            CoarseMesh::Face face = {{v[(i + 1) % 4], v[(i + 2) % 4]}};
+            face[2]               = v[(i + 3) % 4];
+            face[3]               = CoarseMesh::no_vertex;
+            if (outer.count(CoarseMesh::sorted(face)) == 0)
+              continue;
+            const Point<dim> centre = mesh.centre(face);
+            points[beyond] = centre + 1e-3 * (centre - mesh.points[v[i]]);
+            near.clear();
+            tree.query(boost::geometry::index::intersects(points[beyond]),
+                       std::back_inserter(near));
+            for (const auto &[box, other] : near)
+              if (other != c && contains(other) &&
+                  !are_apart(v[i], vertices_of(other)[0]))
+                throw InputError(
+                  what + ": the face of a tetrahedron at " + place(centre) +
+                  " does not fit the cell beside it\n"
+                  "  allowed: conforming meshes, whose cells share whole "
+                  "faces\n  remedy:  in gmsh, Coherence before meshing; a side "
+                  "that is meshed by both its bodies has one mesh");
+          }
+    }
+
     /** A vertex inside another cell's edge leaves a gap there, unless the cells
      *  belong to bodies in contact. */
     void
@@ -235,7 +301,12 @@ namespace geocone::GEOCONE_DIM
     {
       const ApartVertices are_apart(mesh, contacts);
       if (dim == 3)
-        return check_double_nodes(mesh, what, are_apart);
+        {
+          check_double_nodes(mesh, what, are_apart);
+          if (mesh.has_simplices())
+            check_faces_of_tetrahedra(mesh, what, are_apart);
+          return;
+        }
       const auto                edges = mesh.outer_faces();
       std::vector<unsigned int> vertices;
       for (const auto &edge : edges)
