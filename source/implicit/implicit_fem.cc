@@ -8,6 +8,7 @@
 #include <geocone/implicit/implicit_fem.h>
 #include <geocone/points/point_record.h>
 #include <geocone/points/quadrature_points.h>
+#include <geocone/problem/consolidation.h>
 #include <geocone/time_stepping/check_removal.h>
 
 #include <deal.II/base/mpi.h>
@@ -21,7 +22,9 @@ namespace geocone::GEOCONE_DIM
   namespace
   {
     const UsedWhere used_implicit_fem[] = {
-      {"Time stepping/Inertia", "Discretisation/Method", {"FEM"}}};
+      {"Time stepping/Inertia", "Discretisation/Method", {"FEM"}},
+      {"Time stepping/Consolidation", "Discretisation/Method", {"FEM"}},
+      {"Time stepping/Drained sides", "Time stepping/Consolidation", {"true"}}};
   } // namespace
 
   namespace
@@ -76,6 +79,18 @@ namespace geocone::GEOCONE_DIM
                   "Whether inertia is included. false: quasi-static; the "
                   "density enters only the weight. true: lumped mass (row "
                   "sums; for P2 the scaled diagonal).");
+    add_parameter(
+      "Consolidation",
+      has_consolidation,
+      "Whether the excess pore pressures of undrained soil "
+      "('Materials/NAME/Pore fluid bulk modulus') dissipate by flow "
+      "through its 'Permeability', in time steps of backward Euler. "
+      "false: each point keeps its water.");
+    add_parameter("Drained sides",
+                  drained_sides,
+                  "Sides on which the excess pore pressure of consolidating "
+                  "soil is zero, comma-separated. All other sides are "
+                  "impervious, except those of 'Seepage'.");
     integration.declare(
       *this,
       ". Time integration of FEM with inertia. The midpoint rule and Newmark's "
@@ -129,6 +144,16 @@ namespace geocone::GEOCONE_DIM
         bars = std::make_unique<Bars>(scene->structures, mesh_, space_);
       }
     ScaledLoads::check(*scene);
+    if (has_consolidation)
+      {
+        check_consolidation();
+        if (newton.linear_solver().name ==
+            LinearSolverParameters::Name::multigrid)
+          throw InputError("Linear solver/Name",
+                           newton.linear_solver().name.word(),
+                           "a direct solver with 'Time stepping/Consolidation'",
+                           "set it to automatic");
+      }
     check_axisymmetric_body(*scene);
     integration.check(*scene, "Time stepping/");
     points = make_quadrature_points(*scene, mesh_, space_);
@@ -160,7 +185,10 @@ namespace geocone::GEOCONE_DIM
     system = std::make_unique<LinearSystem>(
       newton.linear_solver(),
       mesh_.triangulation().get_communicator(),
-      scene->materials.traits().symmetric && !obstacles->exists());
+      scene->materials.traits().symmetric && !obstacles->exists() &&
+        !has_consolidation);
+    if (has_consolidation)
+      pore_pressure.reinit(space_.partitioner());
     begin(points, timer);
     unknowns = constraints->n_rows;
     constraints->check_axis(mesh_, space_);
@@ -192,6 +220,68 @@ namespace geocone::GEOCONE_DIM
     if (!begun)
       begin(points, timer);
     return warning;
+  }
+
+  void
+  ImplicitFEM::check_consolidation() const
+  {
+    const std::string parameter = "Time stepping/Consolidation";
+    const auto        refuse    = [&](const std::string &allowed,
+                            const std::string &remedy) {
+      throw InputError(parameter, "true", allowed, remedy);
+    };
+    if (dim == 3)
+      refuse("false in three dimensions",
+             "compute a plane or axisymmetric scene");
+    scene->refuse_contact(parameter + " = true",
+                          "leave out contact, or consolidation");
+    if (inertia)
+      refuse("false with inertia", "set Time stepping/Inertia = false");
+    if (scene->loading.changes_body())
+      refuse("false with stages that remove, add or change material",
+             "compute these stages with undrained or drained soil");
+    if (space->is_spline() || space->degree() < 2 || space->has_b_bar())
+      throw InputError("Discretisation/Element",
+                       space->element() +
+                         (space->has_b_bar() ? " with B-bar" : ""),
+                       "P2, P3, Q2 or Q3 without B-bar, with " + parameter,
+                       "pressures are linear: velocities of degree 1 give "
+                       "oscillating ones");
+    if (space->has_ties())
+      refuse("false with tied sides", "leave out 'Discretisation/Tied sides'");
+    if (scene->water.flow_steps().size() > 1)
+      refuse("false where the steady pore pressures change in time",
+             "keep the water levels of all stages");
+  }
+
+  std::vector<bool>
+  ImplicitFEM::drained_nodes() const
+  {
+    std::vector<bool> is_drained(space->n_local_nodes(), false);
+    const auto       &sides = mesh->named_sides();
+    for (const std::string &name : drained_sides)
+      {
+        const auto side = sides.find(name);
+        if (side == sides.end())
+          {
+            std::string known;
+            for (const auto &[other, id] : sides)
+              known += (known.empty() ? "" : ", ") + other;
+            throw InputError("Time stepping/Drained sides",
+                             name,
+                             "names of sides: " + known,
+                             "leave it out where no water leaves");
+          }
+        for (const unsigned int node : space->nodes_on_sides({side->second}))
+          is_drained[node] = true;
+      }
+    for (const auto &boundary : scene->water.seepage.list)
+      for (const auto &[name, id] : sides)
+        if (boundary->drain.empty() && boundary->is_on_side(name))
+          for (const unsigned int node : space->nodes_on_sides({id}))
+            if (boundary->holds_at(space->node_positions()[node]))
+              is_drained[node] = true;
+    return is_drained;
   }
 
   void
@@ -235,6 +325,18 @@ namespace geocone::GEOCONE_DIM
       problem->add(*absorbing);
     if (bars)
       problem->add(*bars);
+    if constexpr (dim == 2)
+      if (has_consolidation)
+        {
+          flow = std::make_unique<Consolidation>(*scene,
+                                                 *mesh,
+                                                 *space,
+                                                 points,
+                                                 *constraints,
+                                                 drained_nodes(),
+                                                 pore_pressure);
+          problem->add(*flow);
+        }
     system->set_pattern(*problem, timer);
     has_pattern = begun = true;
   }
@@ -446,6 +548,8 @@ namespace geocone::GEOCONE_DIM
     save_points(archive, points);
     if (scene->loading.changes_body())
       ramped.save(archive, *mesh, *space);
+    if (has_consolidation)
+      save_nodes(archive, "pore pressure", *mesh, *space, pore_pressure);
     if (bars)
       {
         StateRow forces;
@@ -471,6 +575,8 @@ namespace geocone::GEOCONE_DIM
     take_points(archive, points);
     if (scene->loading.changes_body())
       ramped.load(archive, *mesh, *space);
+    if (has_consolidation)
+      load_nodes(archive, "pore pressure", *mesh, *space, pore_pressure);
     if (bars)
       {
         StateRow forces = archive.read_row("bars");

@@ -248,7 +248,8 @@ namespace geocone::GEOCONE_DIM
     const TimeStep    step   = integration.step(t, h);
     const ScaledLoads scaled = begin_step(step, kinematics, points, timer);
     StepReport        report;
-    report.unknowns = unknowns = constraints->n_rows;
+    report.unknowns = unknowns =
+      constraints->n_rows + (flow ? flow->n_rows() : 0);
     report.multipliers         = constraints->multipliers.n_rows();
     report.rows                = constraints->multipliers.n_given();
     Vector v = problem->make_vector(), residual = v;
@@ -286,6 +287,11 @@ namespace geocone::GEOCONE_DIM
       residual, points, forces.total_stress(), step.solved_at);
     add_works(step, points, v, residual, report);
     report.works.dissipation = update_points(step, points);
+    if (flow)
+      {
+        report.water = flow->commit();
+        report.works.dissipation += report.water.dissipation;
+      }
     constraints->turn_back(v_end);
     constraints->turn_back(v);
     report.contact.dissipation += update_nodes(step, v_end, v, kinematics);

@@ -8,6 +8,8 @@
 
 #include <Eigen/LU>
 
+#include <algorithm>
+
 namespace geocone::GEOCONE_DIM
 {
   using dealii::TimerOutput;
@@ -29,11 +31,14 @@ namespace geocone::GEOCONE_DIM
                         next.global_index != matrix.global_index;
     matrix      = std::move(next);
     has_pattern = true;
+    pressures   = problem.pressures();
+    if (pressures != nullptr)
+      coupled = pressures->make_pattern(matrix);
     if (dealii::Utilities::MPI::max(changes, comm) == 0)
       return;
     if (solver->wants_nodal_rows())
       solver->set_nodal_rows(problem.nodal_rows());
-    solver->analyse(matrix);
+    solver->analyse(pressures != nullptr ? coupled : matrix);
   }
 
   bool
@@ -46,14 +51,16 @@ namespace geocone::GEOCONE_DIM
       low_rank = problem.linearise(matrix, elastic_blend);
     }
     TimerOutput::Scope scope(timer, "factorise");
-    if (!solver->factorise(matrix))
+    if (pressures != nullptr)
+      pressures->assemble(matrix, coupled);
+    if (!solver->factorise(pressures != nullptr ? coupled : matrix))
       return false;
     const unsigned int m = low_rank.rank();
     if (m == 0)
       return true;
     std::vector<double> columns(low_rank.U.data(),
                                 low_rank.U.data() + low_rank.U.size());
-    solver->solve(columns, m);
+    solve_factorised(columns, m);
     solved_U =
       Eigen::Map<Eigen::MatrixXd>(columns.data(), low_rank.U.rows(), m);
     Eigen::MatrixXd S = low_rank.W.transpose() * solved_U;
@@ -67,10 +74,28 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
+  LinearSystem::solve_factorised(std::vector<double> &columns,
+                                 const unsigned int   n_columns)
+  {
+    if (pressures == nullptr)
+      {
+        solver->solve(columns, n_columns);
+        return;
+      }
+    const std::size_t   n = matrix.n_owned, n_all = coupled.n_owned;
+    std::vector<double> all(n_all * n_columns, 0.);
+    for (unsigned int k = 0; k < n_columns; ++k)
+      std::copy_n(&columns[n * k], n, &all[n_all * k]);
+    solver->solve(all, n_columns);
+    for (unsigned int k = 0; k < n_columns; ++k)
+      std::copy_n(&all[n_all * k], n, &columns[n * k]);
+  }
+
+  void
   LinearSystem::solve_columns(std::vector<double> &columns,
                               const unsigned int   n_columns)
   {
-    solver->solve(columns, n_columns);
+    solve_factorised(columns, n_columns);
     if (low_rank.rank() == 0)
       return;
     Eigen::Map<Eigen::MatrixXd> x(

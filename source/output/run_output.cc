@@ -11,10 +11,12 @@ namespace geocone::GEOCONE_DIM
   RunOutput::prepare(const RunOptions &options,
                      const Scene      &of_run,
                      const bool        points_move_,
-                     const bool        points_leave_)
+                     const bool        points_leave_,
+                     const bool        consolidates_)
   {
     points_move  = points_move_;
     points_leave = points_leave_;
+    consolidates = consolidates_;
     begin(options, of_run);
     if (const auto &load = scene->observation.reference)
       reference_case.set_default("limit_load/value", *load);
@@ -226,6 +228,15 @@ namespace geocone::GEOCONE_DIM
   void
   RunOutput::add_pressure_columns()
   {
+    if (consolidates)
+      {
+        table.add(scene->geometry.is_axisymmetric()
+                    ? "outflow of water (m^3/s)"
+                    : "outflow of water (m^2/s)",
+                  [](const Record &r) { return r.last.water.outflow; });
+        table.add("error of the water balance (-)",
+                  [](const Record &r) { return r.last.water.error; });
+      }
     if (scene->materials.traits().undrained)
       for (unsigned int i = 0; i < scene->observation.points.size(); ++i)
         table.add(

@@ -64,6 +64,8 @@ namespace geocone::GEOCONE_DIM
     if (inertia)
       inertia->begin_step(h, velocity_L);
     ghost.begin_step(h);
+    if (pore_pressures != nullptr)
+      pore_pressures->begin_step(h);
     elastic_diagonal.reinit(0);
     row_factors = Multipliers::Factors();
   }

@@ -305,9 +305,10 @@ namespace geocone::GEOCONE_DIM
   {
     for (unsigned int p = 0; p < pressure.size(); ++p)
       {
-        const double volume_strain = trace(whole_strain(p));
-        pressure[p] =
-          points.excess_pressure(p) - fluid_modulus(p) * volume_strain;
+        pressure[p] = flow != nullptr
+                        ? flow->at(p)
+                        : points.excess_pressure(p) -
+                            fluid_modulus(p) * trace(whole_strain(p));
         total[p] = stress[p] - pressure[p] * unit_tensor<n_mandel>();
       }
   }
@@ -347,6 +348,8 @@ namespace geocone::GEOCONE_DIM
         strain_zz);
     else
       update_materials(false);
+    if (flow != nullptr)
+      flow->update(v);
     update_pressures();
     sum_forces(
       total_stress(),
@@ -613,6 +616,8 @@ namespace geocone::GEOCONE_DIM
     });
     part.compress(VectorOperation::add);
     dst += part;
+    if (flow != nullptr)
+      flow->add_tangent(dst, dv);
   }
 
   void

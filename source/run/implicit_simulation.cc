@@ -262,6 +262,11 @@ namespace geocone::GEOCONE_DIM
       stepper = &implicit_fem;
     std::vector<std::string> warnings = {
       stepper->prepare(scene, mesh, space, newton, timer, kinematics, points)};
+    if (!start_of_run.folder.empty() && stepper->consolidates())
+      throw InputError("Initial stress/Run",
+                       start_of_run.folder,
+                       "empty with 'Time stepping/Consolidation'",
+                       "compute the earlier stages in the same run");
     if (!start_of_run.folder.empty() && !options.resumes)
       checkpoint.read(
         start_of_run.folder,
@@ -281,7 +286,10 @@ namespace geocone::GEOCONE_DIM
                              warn_of_fixed_ends(scene.structures, mesh)})
       warnings.insert(warnings.end(), more.begin(), more.end());
     warnings.push_back(outside_strength(points, scene.materials, comm));
-    for (const auto &more : {space.warnings(scene.materials.traits(), method),
+    LawTraits traits = scene.materials.traits();
+    // Taylor-Hood elements do not lock.
+    traits.undrained = traits.undrained && !stepper->consolidates();
+    for (const auto &more : {space.warnings(traits, method),
                              {scene.warn_of_effective_loads()},
                              scene.materials.warnings()})
       warnings.insert(warnings.end(), more.begin(), more.end());
@@ -292,6 +300,11 @@ namespace geocone::GEOCONE_DIM
     else
       observed_points.prepare_field(scene, mesh, space);
     freezer.check(scene);
+    if (stepper->consolidates() && freezer.is_used())
+      throw InputError("Output/Freeze steps",
+                       "steps or failures",
+                       "none with 'Time stepping/Consolidation'",
+                       "leave 'Output/Freeze steps' and 'Freeze failures' out");
     return warnings;
   }
 
@@ -301,7 +314,8 @@ namespace geocone::GEOCONE_DIM
     run_output.prepare(options,
                        scene,
                        stepper->has_moving_points(),
-                       stepper->points_may_leave());
+                       stepper->points_may_leave(),
+                       stepper->consolidates());
     freezer.prepare(run_output.folder());
     run_output.set_initial_energy(
       stepper->state_energies(kinematics, points, 0.));

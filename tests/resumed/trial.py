@@ -63,6 +63,9 @@ METHODS = {
         "Loading/dig/Step size": "5e4"}),
     # Excess pore pressures, and a load factor.
     "undrained": ("fem/undrained_footing-01.prm", {"Loading/push/Output every": "2"}),
+    # Excess pore pressures that are unknowns.
+    "consolidation": ("../prm/consolidation/terzaghi.prm", {
+        "Loading/consolidate/Output every": "5"}),
     "raised": ("fem/raised_footing-01.prm", {"Loading/raise/Output every": "2"}),
     # Sides that move and absorb, by explicit steps.
     "sides": ("explicit/traction_wave-01.prm", {"Loading/shake/Output every": "5"}),

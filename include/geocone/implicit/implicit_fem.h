@@ -7,6 +7,9 @@
 #include <geocone/conditions/loads.h>
 #include <geocone/implicit/implicit_stepper.h>
 
+#include <string>
+#include <vector>
+
 namespace geocone::GEOCONE_DIM
 {
   /**
@@ -114,9 +117,23 @@ namespace geocone::GEOCONE_DIM
     void
     take_cells(const std::vector<bool> &is_there, MaterialPoints &points) const;
 
+    /** Rejects scenes and elements without consolidation.
+     *  @throws InputError */
+    void
+    check_consolidation() const;
+
+    /** Nodes with zero excess pore pressure, by local node. Collective.
+     *  @throws InputError for unknown sides */
+    std::vector<bool>
+    drained_nodes() const;
+
     bool                   inertia = false;
     std::unique_ptr<Loads> loads;
     Vector                 weight_per_g;
+
+    bool                     has_consolidation = false;
+    std::vector<std::string> drained_sides;
+    Vector                   pore_pressure; ///< excess, see Consolidation
   };
 } // namespace geocone::GEOCONE_DIM
 

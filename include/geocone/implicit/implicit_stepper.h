@@ -10,6 +10,7 @@
 #include <geocone/implicit/scaled_loads.h>
 #include <geocone/implicit/time_integration.h>
 #include <geocone/problem/absorbing_boundary.h>
+#include <geocone/problem/pore_pressures.h>
 #include <geocone/time_stepping/time_stepper.h>
 
 namespace geocone::GEOCONE_DIM
@@ -57,6 +58,12 @@ namespace geocone::GEOCONE_DIM
     n_nonzeros() const final
     {
       return system->n_nonzeros();
+    }
+
+    bool
+    consolidates() const final
+    {
+      return flow != nullptr;
     }
 
     const std::vector<RigidMotion> &
@@ -247,6 +254,7 @@ namespace geocone::GEOCONE_DIM
     std::unique_ptr<ObstacleContact>    obstacles;
     std::unique_ptr<AbsorbingBoundary>  absorbing;
     std::unique_ptr<Bars>               bars; ///< null without structures
+    std::unique_ptr<PorePressures>      flow; ///< null without consolidation
     std::unique_ptr<IncrementalProblem> problem;
     std::unique_ptr<LinearSystem>       system;
     unsigned int                        unknowns = 0;     ///< of the last step

@@ -20,7 +20,8 @@ namespace geocone::GEOCONE_DIM
    * The systems are
    *   [K -H'; H 0] (dv, dlambda) = (r, q),   K = dR/dv on the free dofs.
    * The constraint rows H are eliminated by the Schur complement H K^-1 H',
-   * with one additional right-hand side per row. The contribution of free
+   * with one additional right-hand side per row. Pore pressures add rows to K
+   * (PorePressures). The contribution of free
    * obstacles to K, U W' of low rank, is inverted by Woodbury's formula, with
    * one additional right-hand side per column of U.
    */
@@ -84,9 +85,17 @@ namespace geocone::GEOCONE_DIM
     }
 
   private:
+    /** Solves with the factorised matrix, without the low-rank contribution.
+     *  Rows of pore pressures have zero right-hand sides. */
+    void
+    solve_factorised(std::vector<double> &columns,
+                     const unsigned int   n_columns);
+
     std::unique_ptr<LinearSolver> solver;
     MPI_Comm                      comm;
-    SparseMatrix                  matrix;
+    SparseMatrix                  matrix;  ///< of the velocities
+    SparseMatrix                  coupled; ///< with rows of pore pressures
+    PorePressures                *pressures = nullptr;
     LowRank                       low_rank;
     Eigen::MatrixXd               solved_U;  ///< K^-1 U, K without U W'
     Eigen::MatrixXd               to_change; ///< (1 + W' K^-1 U)^-1, Woodbury

@@ -78,6 +78,7 @@ namespace geocone::GEOCONE_DIM
      * Creates the output folder, or reopens the folder of a resumed run.
      * @param points_move whether points move through the mesh
      * @param points_leave whether points can leave the mesh
+     * @param consolidates whether excess pore pressures dissipate by flow
      * @throws InputError if the folder exists and may not be used, or cannot be
      * written
      */
@@ -85,7 +86,8 @@ namespace geocone::GEOCONE_DIM
     prepare(const RunOptions &options,
             const Scene      &scene,
             const bool        points_move,
-            const bool        points_leave);
+            const bool        points_leave,
+            const bool        consolidates);
 
     void
     state_of_run(StateRow &row) override;
@@ -242,6 +244,7 @@ namespace geocone::GEOCONE_DIM
 
     bool         points_move  = false;
     bool         points_leave = false;
+    bool         consolidates = false;
     unsigned int n_load_jumps = 0;
   };
 } // namespace geocone::GEOCONE_DIM

@@ -91,6 +91,23 @@ namespace geocone::GEOCONE_DIM
       terms.push_back(bars);
     }
 
+    /** Adds excess pore pressures to the unknowns. They must outlive the
+     *  problem. */
+    void
+    add(PorePressures &pressures)
+    {
+      pore_pressures = &pressures;
+      internal.take_pressures(pressures);
+    }
+
+    /** Excess pore pressures that are unknowns of the problem; null without
+     *  consolidation. */
+    PorePressures *
+    pressures() const
+    {
+      return pore_pressures;
+    }
+
     bool
     has_bars() const
     {
@@ -137,11 +154,12 @@ namespace geocone::GEOCONE_DIM
     StepTraits
     traits() const;
 
-    /** Returns true if the Jacobian is symmetric positive definite. */
+    /** Returns true if the Jacobian is symmetric positive definite. It is
+     *  indefinite if pore pressures are unknowns. */
     bool
     is_symmetric() const
     {
-      return materials.traits().symmetric && !contact_term;
+      return materials.traits().symmetric && !contact_term && !pore_pressures;
     }
 
     bool
@@ -303,6 +321,7 @@ namespace geocone::GEOCONE_DIM
     std::optional<Contact> contact_term;
     std::vector<Term *>    terms;          ///< terms of the residual
     Bars                  *bars = nullptr; ///< null without bars
+    PorePressures         *pore_pressures = nullptr;
 
     bool of_particles = false;
 

@@ -8,6 +8,7 @@
 #include <geocone/materials/material_library.h>
 #include <geocone/points/material_points.h>
 #include <geocone/problem/cell_pressures.h>
+#include <geocone/problem/pore_pressures.h>
 #include <geocone/problem/term.h>
 #include <geocone/problem/turned_dofs.h>
 
@@ -79,7 +80,8 @@ namespace geocone::GEOCONE_DIM
    * from the constitutive law,
    *   s_p(v) = material(h B_p v, state at t_n).
    * Undrained soil additionally has an excess pore pressure,
-   *   p_p(v) = p_p - K_w/n tr(h B_p v).
+   *   p_p(v) = p_p - K_w/n tr(h B_p v),
+   * or, if it consolidates, that of PorePressures.
    * Equilibrium uses the total stress s_p - p_p I; the law, its modes and its
    * checks use the effective stress s_p. With dilatant soil, B-bar includes
    * CellPressures. The state at t_n is const; the trial states stored here are
@@ -92,6 +94,14 @@ namespace geocone::GEOCONE_DIM
                    const Materials      &materials,
                    const Unknowns       &unknowns,
                    const MPI_Comm        comm);
+
+    /** Takes the excess pore pressures of the points from unknowns of the step.
+     *  The object must outlive this one. */
+    void
+    take_pressures(PorePressures &of_flow)
+    {
+      flow = &of_flow;
+    }
 
     /** Sets the size of the step. @param step h (s) */
     void
@@ -335,11 +345,13 @@ namespace geocone::GEOCONE_DIM
     }
 
     /** Bulk modulus K_w/n of the pore fluid, divided by the porosity, at a
-     *  point (Pa). */
+     *  point that keeps its water (Pa); 0 in consolidating soil. */
     double
     fluid_modulus(const unsigned int point) const
     {
-      return materials[points.material[point]].fluid_modulus();
+      return flow != nullptr
+               ? 0.
+               : materials[points.material[point]].fluid_modulus();
     }
 
     /** Updates the trial excess pore pressures and total stresses. */
@@ -354,6 +366,7 @@ namespace geocone::GEOCONE_DIM
     const Materials      &materials;
     const MPI_Comm        comm;
     TurnedDofs            turned;
+    PorePressures        *flow = nullptr; ///< null unless soil consolidates
 
     double            h = 0.;
     NaturalMap::Error map_error;

@@ -71,6 +71,7 @@ namespace geocone::GEOCONE_DIM
     Quality      quality;
     Energies     of_lost; ///< energies of particles that left the mesh
     Works        works;   ///< work in the step
+    WaterBalance water;   ///< of consolidating soil
 
     unsigned int unknowns    = 0;
     unsigned int multipliers = 0; ///< independent rows of H
@@ -107,6 +108,7 @@ namespace geocone::GEOCONE_DIM
           quality,
           of_lost,
           works,
+          water,
           unknowns,
           multipliers,
           rows,
@@ -307,6 +309,13 @@ namespace geocone::GEOCONE_DIM
      *  these points. */
     virtual bool
     points_may_leave() const
+    {
+      return false;
+    }
+
+    /** Returns true if excess pore pressures are unknowns of the steps. */
+    virtual bool
+    consolidates() const
     {
       return false;
     }

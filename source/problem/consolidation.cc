@@ -1,0 +1,510 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/exceptions.h>
+#include <geocone/base/over_ranks.h>
+#include <geocone/points/quadrature_points.h>
+#include <geocone/problem/consolidation.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace geocone::GEOCONE_DIM
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** Linear shape functions of the vertices of a cell and their gradients in
+     *  unit coordinates. */
+    struct VertexFunctions
+    {
+      std::vector<double>         value;
+      std::vector<Tensor<1, dim>> gradient;
+    };
+
+    VertexFunctions
+    vertex_functions(const bool simplicial, const Point<dim> &unit)
+    {
+      const double x = unit[0], y = unit[1];
+      const auto   vector = [](const double a, const double b) {
+        return Tensor<1, dim>({a, b});
+      };
+      if (simplicial)
+        return {{1. - x - y, x, y},
+                {vector(-1., -1.), vector(1., 0.), vector(0., 1.)}};
+      return {{(1. - x) * (1. - y), x * (1. - y), (1. - x) * y, x * y},
+              {vector(y - 1., x - 1.),
+               vector(1. - y, -x),
+               vector(-y, 1. - x),
+               vector(y, x)}};
+    }
+
+    /** Mobility k/gamma of each material (m^2/(Pa s)).
+     *  @throws InputError for a material without pore fluid or permeability */
+    std::vector<SymmetricTensor<2, dim>>
+    mobilities(const Scene &scene)
+    {
+      std::vector<SymmetricTensor<2, dim>> all;
+      for (unsigned int m = 0; m < scene.materials.size(); ++m)
+        {
+          const ConstitutiveLaw &law = scene.materials.law(m);
+          if (!(law.fluid_modulus() > 0.))
+            throw InputError("Materials/" + scene.materials.name(m) +
+                               "/Pore fluid bulk modulus",
+                             law.fluid_modulus(),
+                             "> 0 Pa with 'Time stepping/Consolidation'",
+                             "K_w/n is 2.2e9 Pa over the porosity");
+          all.push_back(law.permeability() / scene.water.weight());
+        }
+      return all;
+    }
+  } // namespace
+
+  Consolidation::Consolidation(const Scene             &scene,
+                               const BackgroundMesh    &mesh,
+                               const Space             &space,
+                               const MaterialPoints    &points,
+                               const Unknowns          &unknowns,
+                               const std::vector<bool> &is_drained,
+                               Vector                  &pressure)
+    : points(points)
+    , materials(scene.materials)
+    , unknowns(unknowns)
+    , turned(points, unknowns)
+    , is_drained(is_drained)
+    , pressure(pressure)
+    , of_point(points.n_points())
+    , n_vertices(mesh.is_simplicial() ? 3 : 4)
+    , mobility(mobilities(scene))
+  {
+    const Quadrature<dim>        quadrature = stress_quadrature(space, mesh);
+    std::vector<VertexFunctions> functions;
+    for (const Point<dim> &unit : quadrature.get_points())
+      functions.push_back(vertex_functions(mesh.is_simplicial(), unit));
+    for (const BackgroundMesh::Cell &cell : points.cells)
+      for (unsigned int q = 0; q < quadrature.size(); ++q)
+        {
+          const Tensor<2, dim> to_unit =
+            mesh.inverse_jacobian(cell, quadrature.point(q));
+          for (unsigned int i = 0; i < n_vertices; ++i)
+            {
+              N.push_back(functions[q].value[i]);
+              gradient.push_back(functions[q].gradient[i] * to_unit);
+            }
+        }
+    number_rows();
+    const MPI_Comm comm = pressure.get_mpi_communicator();
+    solver              = Utilities::MPI::n_mpi_processes(comm) == 1
+                            ? make_cholmod(LinearSolverParameters::IndexSize::automatic)
+                            : make_mumps(comm, true, "");
+    solver->analyse(A);
+    trial = pressure;
+    trial.update_ghost_values();
+  }
+
+  void
+  Consolidation::number_rows()
+  {
+    const MPI_Comm comm = pressure.get_mpi_communicator();
+    // Vertices of cells of any rank, then their global rows.
+    Vector number(pressure.get_partitioner());
+    for (unsigned int c = 0; c < points.n_cells(); ++c)
+      for (unsigned int i = 0; i < n_vertices; ++i)
+        number.local_element(dim * node_of(c, i)) += 1.;
+    number.compress(VectorOperation::add);
+    const unsigned int n_owned_nodes = number.locally_owned_size() / dim;
+    A.comm                           = comm;
+    A.symmetric                      = true;
+    for (unsigned int node = 0; node < n_owned_nodes; ++node)
+      A.n_owned += number.local_element(dim * node) > 0.;
+    const std::vector<int> n_of_rank =
+      Utilities::MPI::all_gather(comm, A.n_owned);
+    int next = 0;
+    for (unsigned int r = 0; r < n_of_rank.size(); ++r)
+      {
+        A.n_global += n_of_rank[r];
+        if (r < Utilities::MPI::this_mpi_process(comm))
+          next += n_of_rank[r];
+      }
+    for (unsigned int node = 0; node < n_owned_nodes; ++node)
+      number.local_element(dim * node) =
+        number.local_element(dim * node) > 0. ? next++ : -1;
+    number.update_ghost_values();
+    row.assign(is_drained.size(), -1);
+    int n_rows = 0;
+    for (unsigned int node = 0; node < row.size(); ++node)
+      if (const int global = std::lround(number.local_element(dim * node));
+          global >= 0)
+        {
+          row[node] = n_rows++;
+          A.global_index.push_back(global);
+        }
+
+    std::vector<std::vector<int>> columns(n_rows);
+    for (unsigned int c = 0; c < points.n_cells(); ++c)
+      for (unsigned int i = 0; i < n_vertices; ++i)
+        for (unsigned int j = 0; j < n_vertices; ++j)
+          if (row[node_of(c, j)] <= row[node_of(c, i)])
+            columns[row[node_of(c, i)]].push_back(row[node_of(c, j)]);
+    for (int r = 0; r < n_rows; ++r)
+      {
+        columns[r].push_back(r);
+        std::sort(columns[r].begin(), columns[r].end());
+        columns[r].erase(std::unique(columns[r].begin(), columns[r].end()),
+                         columns[r].end());
+        A.column.insert(A.column.end(), columns[r].begin(), columns[r].end());
+        A.row_start.push_back(A.column.size());
+      }
+    A.value.assign(A.column.size(), 0.);
+  }
+
+  void
+  Consolidation::begin_step(const double step)
+  {
+    if (step == h)
+      return;
+    h = step;
+    std::fill(A.value.begin(), A.value.end(), 0.);
+    for (unsigned int c = 0; c < points.n_cells(); ++c)
+      for (unsigned int p = points.first_point[c];
+           p < points.first_point[c + 1];
+           ++p)
+        {
+          const unsigned int m       = points.material[p];
+          const double       storage = 1. / materials.law(m).fluid_modulus();
+          for (unsigned int i = 0; i < n_vertices; ++i)
+            for (unsigned int j = 0; j < n_vertices; ++j)
+              {
+                const unsigned int a = node_of(c, i), b = node_of(c, j);
+                if (row[b] > row[a] || is_drained[a] || is_drained[b])
+                  continue;
+                const unsigned int first = n_vertices * p;
+                A.value[A.entry(row[a], row[b])] +=
+                  points.weight[p] *
+                  (storage * N[first + i] * N[first + j] +
+                   h * (gradient[first + i] *
+                        (mobility[m] * gradient[first + j])));
+              }
+        }
+    for (unsigned int node = 0; node < row.size(); ++node)
+      if (row[node] >= 0 && row[node] < A.n_owned && is_drained[node])
+        A.value[A.entry(row[node], row[node])] = 1.;
+    if (!solver->factorise(A))
+      throw RunError("the water balance of a step of " + std::to_string(h) +
+                     " s is singular\n  remedy:  check 'Permeability' and "
+                     "'Pore fluid bulk modulus'");
+  }
+
+  Vector
+  Consolidation::divergence(const Vector &v) const
+  {
+    Vector              sum(pressure.get_partitioner());
+    const unsigned int  n = points.n_nodes;
+    std::vector<double> cell_v(dim * n);
+    for (unsigned int c = 0; c < points.n_cells(); ++c)
+      {
+        for (unsigned int i = 0; i < n; ++i)
+          for (unsigned int d = 0; d < dim; ++d)
+            cell_v[dim * i + d] =
+              v.local_element(dim * points.nodes[c * n + i] + d);
+        turned.velocities_to_xy(c, cell_v.data());
+        for (unsigned int p = points.first_point[c];
+             p < points.first_point[c + 1];
+             ++p)
+          {
+            double rate = 0.;
+            for (unsigned int i = 0; i < n; ++i)
+              {
+                for (unsigned int d = 0; d < dim; ++d)
+                  rate += points.gradients[n * (dim * p + d) + i] *
+                          cell_v[dim * i + d];
+                if (!points.hoop.empty())
+                  rate += points.hoop[n * p + i] * cell_v[dim * i];
+              }
+            for (unsigned int i = 0; i < n_vertices; ++i)
+              sum.local_element(dim * node_of(c, i)) +=
+                points.weight[p] * N[n_vertices * p + i] * rate;
+          }
+      }
+    sum.compress(VectorOperation::add);
+    return sum;
+  }
+
+  Vector
+  Consolidation::storage(const Vector &p) const
+  {
+    Vector sum(pressure.get_partitioner());
+    for (unsigned int c = 0; c < points.n_cells(); ++c)
+      for (unsigned int q = points.first_point[c];
+           q < points.first_point[c + 1];
+           ++q)
+        {
+          const double water =
+            points.weight[q] * value(p, c, q) /
+            materials.law(points.material[q]).fluid_modulus();
+          for (unsigned int i = 0; i < n_vertices; ++i)
+            sum.local_element(dim * node_of(c, i)) +=
+              N[n_vertices * q + i] * water;
+        }
+    sum.compress(VectorOperation::add);
+    return sum;
+  }
+
+  double
+  Consolidation::value(const Vector      &p,
+                       const unsigned int cell,
+                       const unsigned int point) const
+  {
+    double sum = 0.;
+    for (unsigned int i = 0; i < n_vertices; ++i)
+      sum +=
+        N[n_vertices * point + i] * p.local_element(dim * node_of(cell, i));
+    return sum;
+  }
+
+  Vector
+  Consolidation::solve(const Vector &b) const
+  {
+    std::vector<double> x(A.n_owned);
+    for (unsigned int node = 0; node < row.size(); ++node)
+      if (row[node] >= 0 && row[node] < A.n_owned)
+        x[row[node]] = is_drained[node] ? 0. : b.local_element(dim * node);
+    solver->solve(x);
+    Vector result(pressure.get_partitioner());
+    for (unsigned int node = 0; node < row.size(); ++node)
+      if (row[node] >= 0 && row[node] < A.n_owned)
+        result.local_element(dim * node) = x[row[node]];
+    result.update_ghost_values();
+    return result;
+  }
+
+  void
+  Consolidation::update(const Vector &v)
+  {
+    inflow = divergence(v);
+    pressure.update_ghost_values();
+    Vector b = storage(pressure);
+    pressure.zero_out_ghost_values();
+    b.add(-h, inflow);
+    trial = solve(b);
+    for (unsigned int c = 0; c < points.n_cells(); ++c)
+      for (unsigned int p = points.first_point[c];
+           p < points.first_point[c + 1];
+           ++p)
+        of_point[p] = value(trial, c, p);
+  }
+
+  void
+  Consolidation::coupling_of_cell(const unsigned int   c,
+                                  std::vector<double> &G) const
+  {
+    const unsigned int n = points.n_nodes;
+    G.resize(dim * n * n_vertices);
+    std::vector<double> column(dim * n);
+    for (unsigned int j = 0; j < n_vertices; ++j)
+      {
+        std::fill(column.begin(), column.end(), 0.);
+        for (unsigned int p = points.first_point[c];
+             p < points.first_point[c + 1];
+             ++p)
+          {
+            const double weight = points.weight[p] * N[n_vertices * p + j];
+            for (unsigned int i = 0; i < n; ++i)
+              {
+                for (unsigned int d = 0; d < dim; ++d)
+                  column[dim * i + d] +=
+                    weight * points.gradients[n * (dim * p + d) + i];
+                if (!points.hoop.empty())
+                  column[dim * i] += weight * points.hoop[n * p + i];
+              }
+          }
+        turned.forces_to_dofs(c, column.data());
+        for (unsigned int i = 0; i < dim * n; ++i)
+          G[n_vertices * i + j] = column[i];
+      }
+  }
+
+  void
+  Consolidation::add_tangent(Vector &dst, const Vector &dv) const
+  {
+    const Vector        change = solve(divergence(dv)); // -dp/h
+    Vector              part(pressure.get_partitioner());
+    std::vector<double> G;
+    for (unsigned int c = 0; c < points.n_cells(); ++c)
+      {
+        coupling_of_cell(c, G);
+        for (unsigned int i = 0; i < dim * points.n_nodes; ++i)
+          for (unsigned int j = 0; j < n_vertices; ++j)
+            part.local_element(
+              dim * points.nodes[c * points.n_nodes + i / dim] + i % dim) +=
+              h * G[n_vertices * i + j] *
+              change.local_element(dim * node_of(c, j));
+      }
+    part.compress(VectorOperation::add);
+    dst += part;
+  }
+
+  SparseMatrix
+  Consolidation::make_pattern(const SparseMatrix &K)
+  {
+    // Owned rows of velocities and pressures come first, on each rank.
+    const int n_K = K.n_rows(), n_A = A.n_rows();
+    row_of_velocity.resize(n_K);
+    row_of_pressure.resize(n_A);
+    for (int r = 0; r < n_K; ++r)
+      row_of_velocity[r] = r < K.n_owned ? r : r + A.n_owned;
+    for (int r = 0; r < n_A; ++r)
+      row_of_pressure[r] = r < A.n_owned ? K.n_owned + r : n_K + r;
+
+    SparseMatrix matrix;
+    matrix.comm     = K.comm;
+    matrix.n_global = K.n_global + A.n_global;
+    matrix.n_owned  = K.n_owned + A.n_owned;
+    matrix.global_index.resize(n_K + n_A);
+    const auto owned = Utilities::MPI::all_gather(
+      K.comm, std::array<int, 2>{{K.n_owned, A.n_owned}});
+    // Rows of the other kind that precede a row in the coupled system.
+    const auto preceding = [&](const int row, const unsigned int kind) {
+      int begin = 0, others = 0;
+      for (const auto &n : owned)
+        {
+          if (row < begin + n[kind])
+            return others + (kind == 1 ? n[0] : 0);
+          begin += n[kind];
+          others += n[1 - kind];
+        }
+      return others;
+    };
+    for (int r = 0; r < n_K; ++r)
+      matrix.global_index[row_of_velocity[r]] =
+        K.global_index[r] + preceding(K.global_index[r], 0);
+    for (int r = 0; r < n_A; ++r)
+      matrix.global_index[row_of_pressure[r]] =
+        A.global_index[r] + preceding(A.global_index[r], 1);
+
+    std::vector<std::vector<int>> columns(n_K + n_A);
+    for (int r = 0; r < n_K; ++r)
+      for (int e = K.row_start[r]; e < K.row_start[r + 1]; ++e)
+        columns[row_of_velocity[r]].push_back(row_of_velocity[K.column[e]]);
+    for (int r = 0; r < n_A; ++r)
+      for (int e = A.row_start[r]; e < A.row_start[r + 1]; ++e)
+        {
+          const int a = row_of_pressure[r], b = row_of_pressure[A.column[e]];
+          columns[a].push_back(b);
+          columns[b].push_back(a);
+        }
+    for (unsigned int c = 0; c < points.n_cells(); ++c)
+      for (unsigned int i = 0; i < dim * points.n_nodes; ++i)
+        if (const int velocity = row_of_dof(c, i); velocity >= 0)
+          for (unsigned int j = 0; j < n_vertices; ++j)
+            {
+              const int p = row_of_pressure[row[node_of(c, j)]];
+              columns[velocity].push_back(p);
+              columns[p].push_back(velocity);
+            }
+    for (std::vector<int> &list : columns)
+      {
+        std::sort(list.begin(), list.end());
+        list.erase(std::unique(list.begin(), list.end()), list.end());
+        matrix.column.insert(matrix.column.end(), list.begin(), list.end());
+        matrix.row_start.push_back(matrix.column.size());
+      }
+    matrix.value.assign(matrix.column.size(), 0.);
+    return matrix;
+  }
+
+  int
+  Consolidation::row_of_dof(const unsigned int cell, const unsigned int i) const
+  {
+    const int free =
+      unknowns.free_row[dim * points.nodes[cell * points.n_nodes + i / dim] +
+                        i % dim];
+    return free < 0 ? -1 : row_of_velocity[free];
+  }
+
+  void
+  Consolidation::assemble(const SparseMatrix &K, SparseMatrix &matrix) const
+  {
+    std::fill(matrix.value.begin(), matrix.value.end(), 0.);
+    for (int r = 0; r < K.n_rows(); ++r)
+      for (int e = K.row_start[r]; e < K.row_start[r + 1]; ++e)
+        matrix.value[matrix.entry(row_of_velocity[r],
+                                  row_of_velocity[K.column[e]])] = K.value[e];
+    for (int r = 0; r < A.n_rows(); ++r)
+      for (int e = A.row_start[r]; e < A.row_start[r + 1]; ++e)
+        {
+          const int a = row_of_pressure[r], b = row_of_pressure[A.column[e]];
+          matrix.value[matrix.entry(a, b)] -= A.value[e] / h;
+          if (a != b)
+            matrix.value[matrix.entry(b, a)] -= A.value[e] / h;
+        }
+    std::vector<double> G;
+    for (unsigned int c = 0; c < points.n_cells(); ++c)
+      {
+        coupling_of_cell(c, G);
+        for (unsigned int i = 0; i < dim * points.n_nodes; ++i)
+          if (const int velocity = row_of_dof(c, i); velocity >= 0)
+            for (unsigned int j = 0; j < n_vertices; ++j)
+              if (const unsigned int node = node_of(c, j); !is_drained[node])
+                {
+                  const int    p = row_of_pressure[row[node]];
+                  const double g = G[n_vertices * i + j];
+                  matrix.value[matrix.entry(velocity, p)] -= g;
+                  matrix.value[matrix.entry(p, velocity)] -= g;
+                }
+      }
+  }
+
+  WaterBalance
+  Consolidation::commit()
+  {
+    pressure.update_ghost_values();
+    Vector change = storage(trial);
+    change -= storage(pressure);
+    pressure.zero_out_ghost_values();
+    // Sums of the balance: all terms, those at drained sides, and sizes.
+    std::array<double, 4> sums = {};
+    Vector                seepage(pressure.get_partitioner());
+    for (unsigned int c = 0; c < points.n_cells(); ++c)
+      for (unsigned int p = points.first_point[c];
+           p < points.first_point[c + 1];
+           ++p)
+        {
+          const unsigned int first = n_vertices * p;
+          Tensor<1, dim>     slope;
+          for (unsigned int i = 0; i < n_vertices; ++i)
+            slope +=
+              trial.local_element(dim * node_of(c, i)) * gradient[first + i];
+          const Tensor<1, dim> flow = mobility[points.material[p]] * slope;
+          sums[3] += h * points.weight[p] * (slope * flow);
+          for (unsigned int i = 0; i < n_vertices; ++i)
+            seepage.local_element(dim * node_of(c, i)) +=
+              h * points.weight[p] * (gradient[first + i] * flow);
+        }
+    seepage.compress(VectorOperation::add);
+    for (unsigned int node = 0; node < row.size(); ++node)
+      if (row[node] >= 0 && row[node] < A.n_owned)
+        {
+          const unsigned int dof     = dim * node;
+          const double       stored  = change.local_element(dof),
+                       volume        = h * inflow.local_element(dof),
+                       through_edges = seepage.local_element(dof);
+          sums[0] += stored + volume;
+          if (is_drained[node])
+            sums[1] += stored + volume + through_edges;
+          sums[2] += std::abs(stored) + std::abs(volume);
+        }
+    sum_over_ranks(sums, pressure.get_mpi_communicator());
+    for (unsigned int i = 0; i < pressure.locally_owned_size(); ++i)
+      pressure.local_element(i) = trial.local_element(i);
+    return {-sums[1] / h,
+            std::abs(sums[0] - sums[1]) /
+              std::max(sums[2], std::numeric_limits<double>::min()),
+            sums[3]};
+  }
+} // namespace geocone::GEOCONE_DIM
