@@ -25,7 +25,7 @@ namespace geocone::GEOCONE_DIM
                   const double        tolerance,
                   const double        question)
   {
-    InteriorPoint::Options options;
+    ConicOptions options;
     options.tolerance             = tolerance;
     options.equilibrium_tolerance = tolerance;
     options.question              = question;
@@ -33,9 +33,9 @@ namespace geocone::GEOCONE_DIM
     // gap; for phi = 0 a projection removes them.
     options.flow_tolerance = above.has_incompressible() ? 1e-6 : 1e-8;
     const double margin    = 10. * options.flow_tolerance;
-    const auto   solve     = [&]() {
+    const auto   certified = [&]() {
       CertifiedBounds::Side side;
-      side.solution   = InteriorPoint::solve(above, options);
+      side.solution   = solve(above, options);
       side.n_unknowns = above.n_unknowns();
       side.bound      = certify_upper(bound, above, side.solution);
       return side;
@@ -43,14 +43,14 @@ namespace geocone::GEOCONE_DIM
     // No field is known that repairs what is missed beside obstacles.
     if (above.n_interfaces() > 0)
       options.flow_margin = margin;
-    CertifiedBounds::Side side = solve();
+    CertifiedBounds::Side side = certified();
     if (side.bound.certified || side.bound.violation == 0. ||
         !side.solution.converged || options.flow_margin > 0.)
       return side;
     // Prescribed velocities allow none of the fields that repair: once more, with a
     // margin, which costs the margin's part of the load.
     options.flow_margin          = margin;
-    CertifiedBounds::Side second = solve();
+    CertifiedBounds::Side second = certified();
     second.solution.factorisations += side.solution.factorisations;
     return second.bound.certified ? second : side;
   }
@@ -58,15 +58,13 @@ namespace geocone::GEOCONE_DIM
   CertifiedBounds::Side
   certified_upper(const BoundScene &bound, const double tolerance)
   {
-    return certified_upper(
-      bound, upper_problem(bound), tolerance, no_question);
+    return certified_upper(bound, upper_problem(bound), tolerance, no_question);
   }
 
   CertifiedBounds::Side
   certified_lower(const BoundScene &bound, const double tolerance)
   {
-    return certified_lower(
-      bound, lower_problem(bound), tolerance, no_question);
+    return certified_lower(bound, lower_problem(bound), tolerance, no_question);
   }
 
   CertifiedBounds::Side
@@ -75,7 +73,7 @@ namespace geocone::GEOCONE_DIM
                   const double        tolerance,
                   const double        question)
   {
-    InteriorPoint::Options options;
+    ConicOptions options;
     options.tolerance             = tolerance;
     options.flow_tolerance        = tolerance;
     options.equilibrium_tolerance = 1e-7; // the repair may violate the cone
@@ -84,7 +82,7 @@ namespace geocone::GEOCONE_DIM
     if (!below.can_be_scaled())
       options.strength_margin = 1e-5;
     CertifiedBounds::Side side;
-    side.solution   = InteriorPoint::solve(below, options);
+    side.solution   = solve(below, options);
     side.n_unknowns = below.n_unknowns();
     side.bound      = certify_lower(bound, below, side.solution);
     const auto e    = below.B.rates(side.solution.q);
@@ -137,7 +135,7 @@ namespace geocone::GEOCONE_DIM
       [&]() { bounds.lower = certified_lower(bound, tolerance); },
       n_threads);
 
-    bounds.gap    = gap_of_cells(above, bounds.upper.bound, bounds.lower.bound);
+    bounds.gap = gap_of_cells(above, bounds.upper.bound, bounds.lower.bound);
     bounds.refinement_indicator = uneven_gap(bound, bounds.gap, bounds.lower);
     const double work =
       above.has_factor() ? above.live.dot(bounds.upper.bound.q) : 1.;

@@ -53,13 +53,6 @@ namespace geocone
     });
   }
 
-  void
-  PointStrains::divide_normal(const unsigned int point, const double by)
-  {
-    for (unsigned int k = 0; k < n_columns; ++k)
-      values[3 * n_columns * point + k] /= by;
-  }
-
   std::vector<Eigen::Vector3d>
   PointStrains::rates(const Eigen::VectorXd &q) const
   {

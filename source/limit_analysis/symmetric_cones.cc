@@ -14,6 +14,26 @@ namespace geocone
                   solver.eigenvectors().transpose());
   }
 
+  double
+  SemidefiniteCone::excess(const V &x)
+  {
+    return std::max(
+      -Eigen::SelfAdjointEigenSolver<M>(matrix(x), Eigen::EigenvaluesOnly)
+         .eigenvalues()[0],
+      0.);
+  }
+
+  SemidefiniteCone::V
+  SemidefiniteCone::correction(const V &v, const double target)
+  {
+    const Eigen::SelfAdjointEigenSolver<M> solver(matrix(v));
+    Eigen::Vector3d                        c = solver.eigenvalues();
+    for (double &value : c)
+      value = correction_of_eigenvalue(value, target);
+    return vector(solver.eigenvectors() * c.asDiagonal() *
+                  solver.eigenvectors().transpose());
+  }
+
   SemidefiniteCone::Scaling::Scaling(const V &x, const V &z)
   {
     const M L_1 = matrix(x).llt().matrixL(), L_2 = matrix(z).llt().matrixL();

@@ -39,7 +39,7 @@ namespace cone_symmetric_cones_01
     using V = typename Cone::V;
     Random  random;
     Largest scaling, division, inner, transpose, sum, boundary, identity,
-      raised;
+      raised, excess, corrected, uncorrected;
     for (unsigned int i = 0; i < 2000; ++i)
       {
         const auto inside = [&]() {
@@ -71,6 +71,15 @@ namespace cone_symmetric_cones_01
           boundary.add(-least<Cone>(Cone::unit() + 0.999 / 0.99 * d));
         const V r = Cone::raised(u, 0.3);
         raised.add(0.3 - least<Cone>(r));
+        excess.add(-least<Cone>(u + Cone::excess(u) * Cone::unit()));
+        excess.add(Cone::excess(x));
+        const double target = std::pow(10., random(-2., 1.));
+        corrected.add(0.1 * target -
+                      least<Cone>(u + Cone::correction(u, target)));
+        uncorrected.add(
+          Cone::correction(target * Cone::unit() + 0.2 * target / u.norm() * u,
+                           target)
+            .norm());
       }
     std::cout << name << "\n";
     print_below("W z = W^-T x = lambda", scaling, "1e-9");
@@ -81,6 +90,9 @@ namespace cone_symmetric_cones_01
     print_below("x.z = lambda.lambda", sum, "1e-9");
     print_below("a step ends on the boundary", boundary, "1e-12");
     print_below("raised eigenvalues", raised, "1e-12");
+    print_below("x + excess(x) unit in the cone", excess, "1e-12");
+    print_below("corrected eigenvalues", corrected, "1e-12");
+    print_below("no correction near the target", uncorrected, "1e-12");
   }
 
   void

@@ -4,7 +4,7 @@
 #ifndef geocone_limit_analysis_certificate_h
 #define geocone_limit_analysis_certificate_h
 
-#include <geocone/limit_analysis/interior_point.h>
+#include <geocone/limit_analysis/bound_solution.h>
 
 #include <string>
 #include <vector>

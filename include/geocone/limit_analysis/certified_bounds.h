@@ -58,7 +58,7 @@ namespace geocone::GEOCONE_DIM
   certified_lower(const BoundScene &bound, const double tolerance);
 
   /** Solves a given upper-bound problem until it is decided whether the upper
-   *  bound is below a given load. See InteriorPoint::Options::question.
+   *  bound is below a given load. See ConicOptions::question.
    *  @param question the load */
   CertifiedBounds::Side
   certified_upper(const BoundScene   &bound,
@@ -67,7 +67,7 @@ namespace geocone::GEOCONE_DIM
                   const double        question);
 
   /** Solves a given lower-bound problem until it is decided whether the lower
-   *  bound is above a given load. See InteriorPoint::Options::question.
+   *  bound is above a given load. See ConicOptions::question.
    *  @param question the load */
   CertifiedBounds::Side
   certified_lower(const BoundScene   &bound,

@@ -88,6 +88,7 @@ namespace geocone::cone_algebra
     double        eta;
     ConeVector<N> w;
 
+    Scaling() = default;
     Scaling(const ConeVector<N> &x, const ConeVector<N> &z)
     {
       const double dx = root_of_determinant(x), dz = root_of_determinant(z);

@@ -6,6 +6,7 @@
 
 #include <geocone/limit_analysis/point_group.h>
 
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -50,6 +51,20 @@ namespace geocone
     double       equilibrium_tolerance = 1e-7; ///< residual / forces
     double       flow_margin    = 0.; ///< of rates in their cones, likewise
     unsigned int max_iterations = 80;
+
+    /** True to return the stresses of the lower bound, false to return the
+     *  velocities of the upper bound. */
+    bool stresses = false;
+
+    /** Reduction of the strength k that keeps the computed stresses inside
+     *  the yield cones with a safety margin, where stresses cannot be scaled back
+     *  (dead loads, no cohesion): they are then admissible after fewer iterations. */
+    double strength_margin = 0.;
+
+    /** Load with which the bound is compared; NaN: the optimal bound is computed. The
+     *  iterations end as soon as a lower bound (stresses) above this load, or an upper
+     *  bound (velocities) below this load, is found or excluded. */
+    double question = std::numeric_limits<double>::quiet_NaN();
   };
 
   struct ConicSolution
@@ -64,12 +79,18 @@ namespace geocone
 
   /**
    * Solves a conic problem of limit analysis by a primal-dual interior-point
-   * method. The method uses Nesterov-Todd scaling and Mehrotra's corrector, for
-   * any symmetric cones. Cone variables are eliminated at each point, so that
-   * an iteration requires only one sparse Cholesky factorisation with the
+   * method. The method starts from an infeasible point, with Nesterov-Todd scaling,
+   * Mehrotra's corrector and Gondzio's further correctors, for any symmetric cones, all
+   * of which have the same weight in the barrier. Cone variables are eliminated at each
+   * point, so that an iteration requires only one sparse Cholesky factorisation with the
    * sparsity pattern of the elastic stiffness. Constrained rates (e.g. the
    * volumetric strain rate for phi = 0) are found by the method of multipliers.
-   * The stresses of the solution are stored in the groups.
+   *
+   * Stresses must be in equilibrium to rounding. The residual of an iterate is removed in
+   * the metric of its cones, which violates them less the farther the iterate is from
+   * their boundaries: the last iterate is not always the best one. If stresses are
+   * returned, they are those of the iterate with the highest load after all stresses are
+   * scaled back into their cones. The stresses of the solution are stored in the groups.
    */
   ConicSolution
   solve(ConicProblem &problem, const ConicOptions &options);

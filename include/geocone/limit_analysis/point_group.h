@@ -12,7 +12,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace geocone
@@ -50,10 +51,14 @@ namespace geocone
     virtual bool
     has_free_direction() const = 0;
 
+    /** Returns the largest strength k of the points. */
+    virtual double
+    largest_strength() const = 0;
+
     /** Sets the weight of each point in the barrier function: the volume V
-     *  divided by the mean volume. */
+     *  divided by the mean volume. @param margin reduction of the strength k */
     virtual void
-    begin(const double mean_volume) = 0;
+    begin(const double mean_volume, const double margin) = 0;
 
     /** Adds the elastic stiffness matrix of each point to the global matrix. It
      *  is V B'(1 + stiffness E) B, where E is the projection onto the
@@ -77,25 +82,25 @@ namespace geocone
                           const double           stiffness,
                           Eigen::VectorXd       &F) const = 0;
 
-    /** Returns two sums over the points: of V |B q|^2 (weight V, strain rate B
-     *  q) and of the weights V. */
+    /** Sets the dual variables Z to those of the strain rates B q.
+     *  @return two sums over the points: of V |Z|^2 and of the weights V */
     virtual std::array<double, 2>
-    rate_square(const Eigen::VectorXd &q) const = 0;
+    start_rates(const Eigen::VectorXd &q) = 0;
 
-    /** Sets the initial stress variables y and dual variables Z. The eigenvalues of Z are
-     *  at least the mean rate. */
+    /** Raises the eigenvalues of Z to the mean rate, and sets the initial stress
+     *  variables. */
     virtual void
-    start(const Eigen::VectorXd &q, const double mean_rate) = 0;
+    start(const double mean_rate) = 0;
 
     /** Sums of complementarity products and residuals over the points of the
      *  group, for the current iterate. */
     struct Sums
     {
-      double product              = 0.; ///< X.Z
-      double gap                  = 0.; ///< V/w X.Z
-      double flow_residual        = 0.; ///< V |flow residual/w|^2
-      double size                 = 0.; ///< V |B q|^2
-      double largest_stress_ratio = 0.; ///< largest X over k
+      double product        = 0.; ///< X.Z
+      double gap            = 0.; ///< V/w X.Z
+      double flow_residual  = 0.; ///< V |flow residual/w|^2
+      double size           = 0.; ///< V |B q|^2
+      double largest_stress = 0.; ///< mean eigenvalue of X, or unbounded stress
     };
 
     /** Computes the residuals of the conic problem, and their sums over the
@@ -125,10 +130,20 @@ namespace geocone
      *  d = -lambda + lambda \ (target e - x_hat o z_hat). */
     virtual void
     correct(const double target) = 0;
+    /** Adds Gondzio's correction to the right-hand side: after the steps t_x and t_z,
+     *  the eigenvalues of x o z would be in the neighbourhood of the target. The
+     *  direction is kept for take_back(). */
+    virtual void
+    correct_further(const double target,
+                    const double t_x,
+                    const double t_z) = 0;
+    /** Restores the direction before correct_further(). */
+    virtual void
+    take_back() = 0;
     /** Adds the internal forces due to the part of the search direction that is
      *  independent of the velocity increments dq. */
     virtual void
-    add_given_forces(Eigen::VectorXd &F) const = 0;
+    add_given_forces(Eigen::VectorXd &F) = 0;
     /** Completes the search direction for given velocity increments dq.
      *  @return the largest steps of X and Z */
     virtual std::array<double, 2>
@@ -146,6 +161,11 @@ namespace geocone
     virtual void
     polish(const Eigen::VectorXd &x) = 0;
 
+    /** Returns the largest part of the stresses that is in the cones, at most 1; zero if
+     *  there is none. */
+    virtual double
+    admissible_part() const = 0;
+
     /** Stores a copy of the current iterate. The function restore() returns to this
      *  copy. */
     virtual void
@@ -153,39 +173,53 @@ namespace geocone
     virtual void
     restore() = 0;
 
+    /** Stores a copy of the stresses of the current iterate. The function
+     *  restore_stresses() returns to this copy. */
+    virtual void
+    keep_stresses() = 0;
+    virtual void
+    restore_stresses() = 0;
+
     /** Returns the stress of a point as a vector of Law::rows components. */
     virtual Eigen::VectorXd
     stress(const unsigned int point) const = 0;
   };
 
   /** Group of points with a given strength law and number of dofs per point.
-   *  @tparam Law strength law @tparam n_columns number of dofs per point */
+   *  @tparam Law strength law (StrengthLaw, or a law with the same members)
+   *  @tparam n_columns number of dofs per point */
   template <typename Law, int n_columns>
   class PointGroupOf : public PointGroup
   {
   public:
-    static constexpr int columns = n_columns, rows = Law::rows,
-                         n_y = Law::columns, size = Law::size;
-    using Cone    = typename Law::Cone;
-    using Y       = typename Law::Y;
-    using S       = typename Law::S;
-    using X       = typename Law::X;
-    using Strains = Eigen::Matrix<double, rows, columns>;
+    static constexpr int columns = n_columns, rows = Law::rows;
+    using Cone = typename Law::Cone;
+    using Y    = typename Law::Y;
+    using S    = typename Law::S;
+    using X    = typename Law::X;
+
+    /** True for points whose matrices are multiplied with sizes known at compile time. */
+    static constexpr bool is_small = rows <= 3;
+    using Strains                  = Eigen::Matrix<double,
+                                  rows,
+                                  columns,
+                                  is_small ? Eigen::RowMajor : Eigen::ColMajor>;
 
     /** Creates a group without points. @param laws strength laws of the points */
     explicit PointGroupOf(const std::vector<Law> &laws)
       : laws(laws)
     {}
 
+    template <typename Matrix, typename Dofs>
     void
-    add(const Strains                           &B_p,
-        const std::array<unsigned int, columns> &dofs_p,
-        const double                             V,
-        const unsigned int                       law_p,
-        const double                             k_p)
+    add(const Matrix      &B_p,
+        const Dofs        &dofs_p,
+        const double       V,
+        const unsigned int law_p,
+        const double       k_p)
     {
       B.push_back(B_p);
-      dofs.insert(dofs.end(), dofs_p.begin(), dofs_p.end());
+      dofs.insert(dofs.end(), &dofs_p[0], &dofs_p[0] + columns);
       volume.push_back(V);
       law.push_back(law_p);
       k.push_back(k_p);
@@ -205,30 +239,31 @@ namespace geocone
     has_free_direction() const override
     {
       return std::any_of(law.begin(), law.end(), [&](const unsigned int l) {
-        return laws[l].null_vector.squaredNorm() > 0.;
+        return laws[l].constrained_rate().squaredNorm() > 0.;
       });
+    }
+    double
+    largest_strength() const override
+    {
+      return k.empty() ? 0. : *std::max_element(k.begin(), k.end());
     }
 
     void
-    begin(const double mean_volume) override
+    begin(const double mean_volume, const double margin) override
     {
       const unsigned int n = n_points();
+      strength_margin      = margin;
       w.resize(n);
       for (unsigned int p = 0; p < n; ++p)
         w[p] = volume[p] / mean_volume;
-      y.resize(n);
+      if constexpr (!Law::x_is_variable)
+        y.resize(n);
       z.resize(n);
       x.resize(n);
       residual.resize(n);
-      rate.resize(n);
-      local.resize(n);
+      elimination.resize(n);
       d.resize(n);
-      g.resize(n);
-      dy.resize(n);
-      dx.resize(n);
-      dz.resize(n);
-      x_hat.resize(n);
-      z_hat.resize(n);
+      along.resize(n);
     }
 
     void
@@ -276,27 +311,26 @@ namespace geocone
     }
 
     std::array<double, 2>
-    rate_square(const Eigen::VectorXd &q) const override
+    start_rates(const Eigen::VectorXd &q) override
     {
       std::array<double, 2> sums = {{0., 0.}};
       for (unsigned int p = 0; p < n_points(); ++p)
         {
-          sums[0] += volume[p] * rate_of(p, q).squaredNorm();
+          z[p] = law_of(p).rates_of_cone(w[p] * rate_of(p, q));
+          sums[0] += volume[p] * z[p].squaredNorm();
           sums[1] += volume[p];
         }
       return sums;
     }
 
     void
-    start(const Eigen::VectorXd &q, const double mean_rate) override
+    start(const double mean_rate) override
     {
       scale_of_rate = mean_rate;
       for (unsigned int p = 0; p < n_points(); ++p)
         {
-          const Law &own = laws[law[p]];
-          y[p]           = k[p] * own.start;
-          z[p]           = Cone::raised(
-            own.pseudo_inverse * extended(w[p] * rate_of(p, q)), mean_rate);
+          z[p]           = Cone::raised(z[p], mean_rate);
+          variables()[p] = law_of(p).start_variable(k[p]);
         }
     }
 
@@ -306,19 +340,24 @@ namespace geocone
       Sums sums;
       for (unsigned int p = 0; p < n_points(); ++p)
         {
-          const Law &own = laws[law[p]];
-          x[p]           = k[p] * own.o - own.A * y[p];
-          rate[p]        = rate_of(p, q);
-          residual[p] =
-            extended(w[p] * (rate[p] - margin * scale_of_rate * own.inside)) -
-            own.A.transpose() * z[p];
+          const Law &own = law_of(p);
+          if constexpr (!Law::x_is_variable)
+            {
+              x[p]                = own.cone_variable(y[p], strength(p));
+              sums.largest_stress = std::max(
+                sums.largest_stress, std::abs(own.unbounded_stress(y[p])));
+            }
+          const S rate = rate_of(p, q);
+          residual[p]  = Law::extended(w[p] * (rate - margin * scale_of_rate *
+                                                       own.rate_inside())) -
+                        own.flow(z[p]);
           const double xz = x[p].dot(z[p]);
           sums.product += xz;
           sums.gap += volume[p] / w[p] * xz;
           sums.flow_residual += volume[p] * (residual[p] / w[p]).squaredNorm();
-          sums.size += volume[p] * rate[p].squaredNorm();
-          sums.largest_stress_ratio =
-            std::max(sums.largest_stress_ratio, x[p].norm() / k[p]);
+          sums.size += volume[p] * rate.squaredNorm();
+          sums.largest_stress = std::max(sums.largest_stress,
+                                         x[p].dot(Cone::unit()) / Cone::degree);
         }
       return sums;
     }
@@ -327,68 +366,28 @@ namespace geocone
     add_forces(Eigen::VectorXd &F) const override
     {
       for (unsigned int p = 0; p < n_points(); ++p)
-        add_force(p, y[p].template head<rows>(), F);
+        add_force(p, stress_of(p), F);
     }
 
     void
     scale() override
     {
       for (unsigned int p = 0; p < n_points(); ++p)
-        {
-          const Law                           &own = laws[law[p]];
-          const typename Cone::Scaling         W(x[p], z[p]);
-          Local                               &here = local[p];
-          Eigen::Matrix<double, size + 1, n_y> scaled;
-          for (int j = 0; j < n_y; ++j)
-            scaled.col(j).template head<size>() = W.x_hat(own.A.col(j));
-          scaled.template bottomRows<1>() =
-            std::sqrt(w[p] / bulk) * own.null_vector.transpose();
-          small_matrices::factorise(
-            size + 1, n_y, scaled.data(), here.Q.data(), here.T_inverse.data());
-          const Eigen::Matrix<double, rows, n_y> upper =
-            here.T_inverse.template topRows<rows>();
-          small_matrices::multiply_transpose(
-            rows, rows, n_y, upper.data(), upper.data(), w[p], here.C.data());
-          here.from_null.setZero();
-          if (const int m = own.n_null; m > 0)
-            {
-              Eigen::Matrix<double, size, size> WN, Q_2, T_2, T_turned, N_T;
-              for (int j = 0; j < m; ++j)
-                WN.col(j) = W.z_hat(own.null.col(j));
-              small_matrices::factorise(
-                size, m, WN.data(), Q_2.data(), T_2.data());
-              for (int i = 0; i < m; ++i)
-                for (int j = 0; j < m; ++j)
-                  T_turned.data()[j + m * i] = T_2.data()[i + m * j];
-              small_matrices::multiply_transpose(
-                size, m, m, own.null.data(), T_turned.data(), 1., N_T.data());
-              small_matrices::multiply_transpose(size,
-                                                 size,
-                                                 m,
-                                                 N_T.data(),
-                                                 Q_2.data(),
-                                                 1.,
-                                                 here.from_null.data());
-            }
-          here.scaling = W;
-        }
+        elimination[p].scale(law_of(p), x[p], z[p], w[p]);
     }
 
     void
     add_blocks(BlockMatrix &matrix, const unsigned int set) const override
     {
       for (unsigned int p = 0; p < n_points(); ++p)
-        add_block(matrix, set, p, local[p].C);
+        add_block(matrix, set, p, elimination[p].stiffness(w[p]));
     }
 
     void
     predict() override
     {
       for (unsigned int p = 0; p < n_points(); ++p)
-        {
-          d[p] = -local[p].scaling->lambda;
-          set_given(p);
-        }
+        d[p] = -elimination[p].scaling.lambda;
     }
 
     void
@@ -396,18 +395,43 @@ namespace geocone
     {
       for (unsigned int p = 0; p < n_points(); ++p)
         {
-          const auto &W = *local[p].scaling;
-          d[p]          = -W.lambda + W.divide(target * Cone::unit() -
-                                      Cone::product(x_hat[p], z_hat[p]));
-          set_given(p);
+          const auto &W = elimination[p].scaling;
+          d[p] =
+            -W.lambda + W.divide(target * Cone::unit() -
+                                 Cone::product(along.x_hat[p], along.z_hat[p]));
         }
     }
 
     void
-    add_given_forces(Eigen::VectorXd &F) const override
+    correct_further(const double target,
+                    const double t_x,
+                    const double t_z) override
     {
       for (unsigned int p = 0; p < n_points(); ++p)
-        add_force(p, g[p].template head<rows>(), F);
+        {
+          const auto &W = elimination[p].scaling;
+          const X     c =
+            Cone::correction(Cone::product(X(W.lambda + t_x * along.x_hat[p]),
+                                           X(W.lambda + t_z * along.z_hat[p])),
+                             target);
+          if (!c.isZero(0.))
+            d[p] += W.divide(c);
+        }
+      std::swap(along, before);
+      along.resize(n_points());
+    }
+
+    void
+    take_back() override
+    {
+      std::swap(along, before);
+    }
+
+    void
+    add_given_forces(Eigen::VectorXd &F) override
+    {
+      for (unsigned int p = 0; p < n_points(); ++p)
+        add_force(p, elimination[p].given(d[p], residual[p], w[p]), F);
     }
 
     std::array<double, 2>
@@ -416,22 +440,25 @@ namespace geocone
       std::array<double, 2> steps = {{1. / 0.99, 1. / 0.99}};
       for (unsigned int p = 0; p < n_points(); ++p)
         {
-          const Law   &own  = laws[law[p]];
-          const Local &here = local[p];
-          const auto  &W    = *here.scaling;
-          const Y      de   = extended(w[p] * rate_of(p, dq));
-          dy[p] = g[p] + here.T_inverse * (here.T_inverse.transpose() * de);
-          dx[p] = -(own.A * dy[p]);
-          const Y goal =
-            residual[p] + de -
-            w[p] / bulk * own.null_vector * own.null_vector.dot(dy[p]);
-          // Flow exactly, whatever the accuracy of C; the rest from complementarity.
-          const X least = own.pseudo_inverse * goal;
-          dz[p]         = least + here.from_null * (d[p] - W.z_hat(least));
-          x_hat[p]      = W.x_hat(dx[p]);
-          z_hat[p]      = W.z_hat(dz[p]);
-          steps[0]      = std::min(steps[0], W.step(x_hat[p]));
-          steps[1]      = std::min(steps[1], W.step(z_hat[p]));
+          const auto &here = elimination[p];
+          const auto &W    = here.scaling;
+          const S     de   = rate_of(p, dq);
+          if constexpr (Law::x_is_variable)
+            here.complete(
+              law_of(p), d[p], residual[p], de, w[p], along.x[p], along.z[p]);
+          else
+            here.complete(law_of(p),
+                          d[p],
+                          residual[p],
+                          de,
+                          w[p],
+                          along.y[p],
+                          along.x[p],
+                          along.z[p]);
+          along.x_hat[p] = W.x_hat(along.x[p]);
+          along.z_hat[p] = W.z_hat(along.z[p]);
+          steps[0]       = std::min(steps[0], W.step(along.x_hat[p]));
+          steps[1]       = std::min(steps[1], W.step(along.z_hat[p]));
         }
       return steps;
     }
@@ -441,7 +468,7 @@ namespace geocone
     {
       double sum = 0.;
       for (unsigned int p = 0; p < n_points(); ++p)
-        sum += (x[p] + a_x * dx[p]).dot(z[p] + a_z * dz[p]);
+        sum += (x[p] + a_x * along.x[p]).dot(z[p] + a_z * along.z[p]);
       return sum;
     }
 
@@ -450,8 +477,11 @@ namespace geocone
     {
       for (unsigned int p = 0; p < n_points(); ++p)
         {
-          y[p] += b_x * dy[p];
-          z[p] += b_z * dz[p];
+          if constexpr (Law::x_is_variable)
+            x[p] += b_x * along.x[p];
+          else
+            y[p] += b_x * along.y[p];
+          z[p] += b_z * along.z[p];
         }
     }
 
@@ -459,46 +489,100 @@ namespace geocone
     polish(const Eigen::VectorXd &q) override
     {
       for (unsigned int p = 0; p < n_points(); ++p)
-        y[p] += local[p].T_inverse * (local[p].T_inverse.transpose() *
-                                      extended(w[p] * rate_of(p, q)));
+        variables()[p] += elimination[p].response(rate_of(p, q), w[p]);
+    }
+
+    double
+    admissible_part() const override
+    {
+      double part = 1.;
+      for (unsigned int p = 0; p < n_points(); ++p)
+        if (const double f = Cone::excess(x[p]) - strength_margin; f > 0.)
+          part = std::min(part, k[p] / (k[p] + f));
+      return part;
     }
 
     void
     keep() override
     {
-      kept_y = y;
-      kept_z = z;
+      kept_variables = variables();
+      kept_z         = z;
     }
     void
     restore() override
     {
-      y = kept_y;
-      z = kept_z;
+      variables() = kept_variables;
+      z           = kept_z;
+    }
+    void
+    keep_stresses() override
+    {
+      best_variables = variables();
+    }
+    void
+    restore_stresses() override
+    {
+      variables() = best_variables;
     }
 
     Eigen::VectorXd
     stress(const unsigned int point) const override
     {
-      return y[point].template head<rows>();
+      return stress_of(point);
     }
 
   private:
-    /** Penalty stiffness, in the method of multipliers, of the strain rates
-     *  that the flow rule constrains to zero. Strength, lengths and velocities
-     *  are of order one. */
-    static constexpr double bulk = 1e6;
+    using Variables = std::vector<
+      std::conditional_t<Law::x_is_variable, typename Law::X, typename Law::Y>>;
 
-    /** QR factors of the matrix A of a point's strength law, scaled by the
-     *  Nesterov-Todd scaling W. Products of the factors are far more accurate
-     *  than the inverse of A'W^-1W^-T A. */
-    struct Local
+    /** Direction of the iterate; y is empty if X is the variable. */
+    struct Direction
     {
-      Eigen::Matrix<double, size + 1, n_y>  Q;
-      Eigen::Matrix<double, n_y, n_y>       T_inverse;
-      Eigen::Matrix<double, rows, rows>     C;
-      Eigen::Matrix<double, size, size>     from_null; ///< N T_2^-1 Q_2'
-      std::optional<typename Cone::Scaling> scaling;
+      std::vector<Y> y;
+      std::vector<X> x, z, x_hat, z_hat; ///< x_hat = W^-T dX, z_hat = W dZ
+
+      void
+      resize(const unsigned int n)
+      {
+        if constexpr (!Law::x_is_variable)
+          y.resize(n);
+        x.resize(n);
+        z.resize(n);
+        x_hat.resize(n);
+        z_hat.resize(n);
+      }
     };
+
+    const Law &
+    law_of(const unsigned int p) const
+    {
+      return std::is_empty_v<Law> ? laws.front() : laws[law[p]];
+    }
+
+    /** Strength k of a point less the margin. */
+    double
+    strength(const unsigned int p) const
+    {
+      return k[p] - strength_margin;
+    }
+
+    Variables &
+    variables()
+    {
+      if constexpr (Law::x_is_variable)
+        return x;
+      else
+        return y;
+    }
+
+    S
+    stress_of(const unsigned int p) const
+    {
+      if constexpr (Law::x_is_variable)
+        return Law::stress(x[p], strength(p));
+      else
+        return y[p].template head<rows>();
+    }
 
     void
     add_block(BlockMatrix                             &matrix,
@@ -507,8 +591,15 @@ namespace geocone
               const Eigen::Matrix<double, rows, rows> &C) const
     {
       Eigen::Matrix<double, columns, columns> block;
-      small_matrices::congruence(
-        rows, columns, B[p].data(), C.data(), volume[p], block.data());
+      if constexpr (is_small)
+        {
+          Strains CB;
+          CB.noalias()    = (volume[p] * C).eval().lazyProduct(B[p]);
+          block.noalias() = B[p].transpose().lazyProduct(CB);
+        }
+      else
+        small_matrices::congruence(
+          rows, columns, B[p].data(), C.data(), volume[p], block.data());
       matrix.add<columns>(set, p, block);
     }
 
@@ -516,60 +607,56 @@ namespace geocone
     rate_of(const unsigned int p, const Eigen::VectorXd &q) const
     {
       const unsigned int *const own = &dofs[columns * p];
-      S                         e   = S::Zero();
-      for (int j = 0; j < columns; ++j)
-        e += q[own[j]] * B[p].col(j);
+      S                         e;
+      if constexpr (is_small)
+        {
+          Eigen::Matrix<double, 1, columns> q_p;
+          for (int j = 0; j < columns; ++j)
+            q_p[j] = q[own[j]];
+          for (int i = 0; i < rows; ++i)
+            e[i] = B[p].row(i).dot(q_p);
+        }
+      else
+        {
+          e.setZero();
+          for (int j = 0; j < columns; ++j)
+            e += q[own[j]] * B[p].col(j);
+        }
       return e;
     }
 
     void
     add_force(const unsigned int p, const S &s, Eigen::VectorXd &F) const
     {
-      const unsigned int *const own = &dofs[columns * p];
+      const unsigned int *const         own      = &dofs[columns * p];
+      const S                           weighted = volume[p] * s;
+      Eigen::Matrix<double, 1, columns> f        = weighted[0] * B[p].row(0);
+      for (int i = 1; i < rows; ++i)
+        f += weighted[i] * B[p].row(i);
       for (int j = 0; j < columns; ++j)
-        F[own[j]] += volume[p] * B[p].col(j).dot(s);
-    }
-
-    /** Returns the strain rate e, extended by zeros for the internal variables of the
-     *  strength law. */
-    static Y
-    extended(const S &e)
-    {
-      Y all                     = Y::Zero();
-      all.template head<rows>() = e;
-      return all;
+        F[own[j]] += f[j];
     }
 
     Eigen::Matrix<double, rows, rows>
     elastic(const unsigned int p, const double stiffness) const
     {
-      const S free = laws[law[p]].null_vector.template head<rows>();
-      Eigen::Matrix<double, rows, rows> C =
-        Eigen::Matrix<double, rows, rows>::Identity();
-      if (free.squaredNorm() > 0.)
-        C += stiffness / free.squaredNorm() * free * free.transpose();
-      return C;
-    }
-
-    void
-    set_given(const unsigned int p)
-    {
-      const Local &here = local[p];
-      g[p] =
-        here.T_inverse * (here.T_inverse.transpose() * residual[p] -
-                          here.Q.template topRows<size>().transpose() * d[p]);
+      const S constrained = law_of(p).constrained_rate();
+      return Eigen::Matrix<double, rows, rows>::Identity() +
+             stiffness * constrained * constrained.transpose();
     }
 
     std::vector<Law>          laws;
     std::vector<Strains>      B;
     std::vector<unsigned int> law;
     std::vector<double>       k, w;
-    double                    scale_of_rate = 1.;
+    double                    scale_of_rate = 1., strength_margin = 0.;
 
-    std::vector<Y>     y, residual, g, dy, kept_y;
-    std::vector<X>     x, z, d, dx, dz, x_hat, z_hat, kept_z;
-    std::vector<S>     rate, multipliers;
-    std::vector<Local> local;
+    std::vector<Y>                         y, residual;
+    std::vector<X>                         x, z, d, kept_z;
+    Variables                              kept_variables, best_variables;
+    std::vector<S>                         multipliers;
+    Direction                              along, before;
+    std::vector<typename Law::Elimination> elimination;
   };
 } // namespace geocone
 

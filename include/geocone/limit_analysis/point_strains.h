@@ -44,11 +44,6 @@ namespace geocone
     bool
     is_removed(const unsigned int point) const;
 
-    /** Divides the normal-strain row of the strain-displacement matrix B of a
-     *  point by a number. */
-    void
-    divide_normal(const unsigned int point, const double by);
-
     unsigned int
     n_points() const
     {

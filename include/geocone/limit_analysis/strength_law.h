@@ -4,6 +4,7 @@
 #ifndef geocone_limit_analysis_strength_law_h
 #define geocone_limit_analysis_strength_law_h
 
+#include <geocone/limit_analysis/cone_elimination.h>
 #include <geocone/limit_analysis/small_matrices.h>
 #include <geocone/limit_analysis/symmetric_cones.h>
 
@@ -31,6 +32,11 @@ namespace geocone
     using S = Eigen::Matrix<double, rows, 1>;
     using X = typename Cone::V;
 
+    using Elimination = ConeElimination<StrengthLaw>;
+
+    /** True if the variable of an iterate is X, which determines the stress. */
+    static constexpr bool x_is_variable = false;
+
     Eigen::Matrix<double, size, columns> A;
     X                                    o = X::Zero();
 
@@ -55,6 +61,55 @@ namespace geocone
     {
       n_null = small_matrices::pseudo_inverse_of_transpose(
         size, columns, A.data(), pseudo_inverse.data(), null.data());
+    }
+
+    /** Returns the strain rate e, extended by zeros for the internal variables. */
+    static Y
+    extended(const S &e)
+    {
+      Y all                     = Y::Zero();
+      all.template head<rows>() = e;
+      return all;
+    }
+    X
+    cone_variable(const Y &y, const double k) const
+    {
+      return k * o - A * y;
+    }
+    /** Returns A'Z. */
+    Y
+    flow(const X &z) const
+    {
+      return A.transpose() * z;
+    }
+    /** Returns the least Z whose flow is the strain rate e. */
+    X
+    rates_of_cone(const S &e) const
+    {
+      return pseudo_inverse * extended(e);
+    }
+    /** Returns the unit strain rate that the flow rule constrains to zero, or zero. */
+    S
+    constrained_rate() const
+    {
+      const S e = null_vector.template head<rows>();
+      return e.squaredNorm() > 0. ? S(e.normalized()) : e;
+    }
+    /** Returns the stress component that is conjugate to the constrained rate. */
+    double
+    unbounded_stress(const Y &y) const
+    {
+      return null_vector.dot(y);
+    }
+    const S &
+    rate_inside() const
+    {
+      return inside;
+    }
+    Y
+    start_variable(const double k) const
+    {
+      return k * start;
     }
   };
 

@@ -17,6 +17,9 @@
  *   unit()        identity of the Jordan product, unit.unit = degree,
  *   raised(x, e)  x with eigenvalues of at least e,
  *   product(u, v) Jordan product; unit.product(u, v) = u.v,
+ *   excess(x)     the least e >= 0 for which x + e unit is in the cone (summed over the
+ *                 factors of a product of cones),
+ *   correction(v, target) eigenvalues of v moved to the neighbourhood of a target, less v,
  *   Scaling(x, z) Nesterov-Todd scaling of x and z inside the cone: lambda = W z = W^-T x,
  *                 x_hat(d) = W^-T d, z_hat(d) = W d, z_of(d) = W^-1 d,
  *                 divide(d): the y with product(lambda, y) = d,
@@ -25,6 +28,16 @@
  */
 namespace geocone
 {
+  /** Returns the change of an eigenvalue of x o z that moves it to the neighbourhood
+   *  [0.1, 10] of a target, in Gondzio's corrector (1996). */
+  inline double
+  correction_of_eigenvalue(const double value, const double target)
+  {
+    constexpr double near = 0.1;
+    return std::max(std::clamp(value, near * target, target / near) - value,
+                    -target / near);
+  }
+
   /** Second-order cone {|x_t| <= x_0} in N dimensions. For N = 1 it is the half-line. */
   template <int N>
   struct SecondOrderCone
@@ -54,8 +67,29 @@ namespace geocone
       return cone_algebra::product<N>(u, v);
     }
 
+    static double
+    excess(const V &x)
+    {
+      return std::max(x.template tail<N - 1>().norm() - x[0], 0.);
+    }
+
+    static V
+    correction(const V &v, const double target)
+    {
+      const double T = v.template tail<N - 1>().norm(),
+                   a = correction_of_eigenvalue(v[0] + T, target),
+                   b = correction_of_eigenvalue(v[0] - T, target);
+      V c            = V::Zero();
+      c[0]           = (a + b) / 2.;
+      if (T > 0.)
+        c.template tail<N - 1>() =
+          (a - b) / (2. * T) * v.template tail<N - 1>();
+      return c;
+    }
+
     struct Scaling
     {
+      Scaling() = default;
       Scaling(const V &x, const V &z)
         : w(x, z)
         , lambda(w.times(z))
@@ -137,6 +171,12 @@ namespace geocone
       return vector(matrix(u) * matrix(v));
     }
 
+    static double
+    excess(const V &x);
+
+    static V
+    correction(const V &v, const double target);
+
     /**
      * Nesterov-Todd scaling of two positive definite matrices X and Z, defined
      * by a matrix R. It satisfies R^-1 X R^-T = R' Z R = diag(l). For X = L_1
@@ -146,6 +186,7 @@ namespace geocone
      */
     struct Scaling
     {
+      Scaling() = default;
       Scaling(const V &x, const V &z);
 
       V
@@ -223,9 +264,21 @@ namespace geocone
       return both(A::product(first(u), first(v)),
                   B::product(second(u), second(v)));
     }
+    static double
+    excess(const V &x)
+    {
+      return A::excess(first(x)) + B::excess(second(x));
+    }
+    static V
+    correction(const V &v, const double target)
+    {
+      return both(A::correction(first(v), target),
+                  B::correction(second(v), target));
+    }
 
     struct Scaling
     {
+      Scaling() = default;
       Scaling(const V &x, const V &z)
         : a(first(x), first(z))
         , b(second(x), second(z))
