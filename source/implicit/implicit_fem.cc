@@ -223,6 +223,16 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
+  ImplicitFEM::refuse_consolidation() const
+  {
+    if (has_consolidation)
+      throw InputError("Time stepping/Consolidation",
+                       "true",
+                       "false with particles",
+                       "set Discretisation/Method = FEM");
+  }
+
+  void
   ImplicitFEM::check_consolidation() const
   {
     const std::string parameter = "Time stepping/Consolidation";

@@ -257,7 +257,10 @@ namespace geocone::GEOCONE_DIM
     space.prepare(
       mesh, method, scene.materials.traits().strongly_non_associated);
     if (method.is_mpm())
-      stepper = &implicit_mpm;
+      {
+        implicit_fem.refuse_consolidation();
+        stepper = &implicit_mpm;
+      }
     else
       stepper = &implicit_fem;
     std::vector<std::string> warnings = {

@@ -27,6 +27,11 @@ namespace geocone::GEOCONE_DIM
       return inertia;
     }
 
+    /** Rejects consolidation if another method is used.
+     *  @throws InputError */
+    void
+    refuse_consolidation() const;
+
     std::string
     prepare(const Scene           &scene,
             BackgroundMesh        &mesh,
