@@ -4,7 +4,6 @@
 #include <geocone/limit_analysis/block_matrix.h>
 
 #include <algorithm>
-#include <mutex>
 #include <numeric>
 
 namespace geocone
@@ -21,13 +20,7 @@ namespace geocone
     // The rows are in elimination order, so that CHOLMOD neither permutes nor
     // transposes the matrix of each iteration.
     set_pattern(sets, n_rows);
-    const std::vector<int> place_of = [&]() {
-      // METIS replaces signal handlers of the process, and must not do so on two
-      // threads at the same time.
-      static std::mutex                 mutex;
-      const std::lock_guard<std::mutex> lock(mutex);
-      return factors.fill_reducing_order(matrix);
-    }();
+    const std::vector<int> place_of = factors.fill_reducing_order(matrix);
     for (int &row : row_of_dof)
       if (row >= 0)
         row = place_of[row];

@@ -32,10 +32,7 @@ namespace geocone::GEOCONE_DIM
        {"limit load", "strength reduction", "reliability"}},
       {"Analysis/Solver tolerance",
        "Analysis/Kind",
-       {"limit load", "strength reduction", "reliability"}},
-      {"Analysis/Threads",
-       "Analysis/Kind",
-       {"limit load", "strength reduction"}}};
+       {"limit load", "strength reduction", "reliability"}}};
 
     constexpr bool    is_plane      = dim == 2;
     const std::string name_of_cells = is_plane ? "triangles" : "tetrahedra";
@@ -80,14 +77,6 @@ namespace geocone::GEOCONE_DIM
         (is_plane ? " Smaller values localise the mechanism in fewer cells, "
                     "which impairs adaptive refinement."
                   : ""));
-    add_parameter(
-      "Threads",
-      n_threads,
-      "2: the lower and the upper bound are computed at the same time, "
-      "on two threads; 1: one after the other, with half of the memory "
-      "and the same result.",
-      prm,
-      dealii::Patterns::Integer(1, 2));
   }
 
   void

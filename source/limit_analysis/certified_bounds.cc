@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/limit_analysis/certified_bounds.h>
-#include <geocone/linear/two_threads.h>
 
 #include <algorithm>
 #include <cmath>
@@ -122,18 +121,12 @@ namespace geocone::GEOCONE_DIM
   }
 
   CertifiedBounds
-  certified_bounds(const BoundScene  &bound,
-                   const double       tolerance,
-                   const unsigned int n_threads)
+  certified_bounds(const BoundScene &bound, const double tolerance)
   {
     CertifiedBounds    bounds;
     const BoundProblem above = upper_problem(bound);
-    run_both(
-      [&]() {
-        bounds.upper = certified_upper(bound, above, tolerance, no_question);
-      },
-      [&]() { bounds.lower = certified_lower(bound, tolerance); },
-      n_threads);
+    bounds.upper             = certified_upper(bound, above, tolerance, no_question);
+    bounds.lower             = certified_lower(bound, tolerance);
 
     bounds.gap = gap_of_cells(above, bounds.upper.bound, bounds.lower.bound);
     bounds.refinement_indicator = uneven_gap(bound, bounds.gap, bounds.lower);

@@ -175,8 +175,8 @@ namespace geocone::GEOCONE_DIM
   BoundLevel
   LimitAnalysis::bound_load()
   {
-    bounds = certified_bounds(
-      bounded_load.on(scene, *triangles), inner_tolerance(), n_threads);
+    bounds =
+      certified_bounds(bounded_load.on(scene, *triangles), inner_tolerance());
     print_reasons(figures_of(bounds.upper), figures_of(bounds.lower));
     const BoundLevel level = level_of(bounded_load.load_of_unit_factor());
     if (!bounded_load.is_reaction() && level.upper_certified &&
@@ -207,8 +207,7 @@ namespace geocone::GEOCONE_DIM
       [&](const double F) {
         return bounded_load.reduced(scene, *triangles, F);
       },
-      inner_tolerance(),
-      n_threads);
+      inner_tolerance());
     reduction        = next;
     bounds           = std::move(reduced.bounds);
     BoundLevel level = level_of(1.);
@@ -436,8 +435,7 @@ namespace geocone::GEOCONE_DIM
             [&](const double F) {
               return bounded_load.by_davis(scene, *triangles, F, variant);
             },
-            inner_tolerance(),
-            n_threads);
+            inner_tolerance());
         estimates.push_back(
           {{estimate.lower.value_or(0.), estimate.upper.value_or(0.)}});
       }

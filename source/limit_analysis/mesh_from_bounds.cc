@@ -65,7 +65,7 @@ namespace geocone::GEOCONE_DIM
           try
             {
               const CertifiedBounds bounds =
-                certified_bounds(load.on(scene, triangles), tolerance, 1);
+                certified_bounds(load.on(scene, triangles), tolerance);
               const double lower = bounds.lower.bound.load,
                            upper = bounds.upper.bound.load;
               if (!std::isfinite(lower + upper) ||

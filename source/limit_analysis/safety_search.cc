@@ -4,7 +4,6 @@
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
 #include <geocone/limit_analysis/safety_search.h>
-#include <geocone/linear/two_threads.h>
 
 #include <algorithm>
 #include <cmath>
@@ -85,7 +84,7 @@ namespace geocone
   }
 
   SafetySearch::Level
-  SafetySearch::on_mesh(Solver &solver, const unsigned int n_threads)
+  SafetySearch::on_mesh(Solver &solver)
   {
     Level level;
     // The last solution far from the root: factor and load.
@@ -132,13 +131,10 @@ namespace geocone
         constexpr double near = 0.03;
         if (std::abs(std::log(next / factor)) < near || attempt == 30)
           {
-            const auto confirm = [&](const Side side) {
+            for (const Side side : {lower, upper})
               if (both[side].is_usable())
                 (side == lower ? level.lower : level.upper) =
                   prove(solver, side, both[side].load, level.iterations[side]);
-            };
-            run_both(
-              [&]() { confirm(lower); }, [&]() { confirm(upper); }, n_threads);
             factor = next;
             return level;
           }

@@ -6,7 +6,6 @@
 #include <geocone/limit_analysis/solid_fields.h>
 #include <geocone/limit_analysis/solid_gap.h>
 #include <geocone/limit_analysis/solid_limit_analysis.h>
-#include <geocone/linear/two_threads.h>
 #include <geocone/mesh/bisection.h>
 #include <geocone/mesh/fitted_mesh.h>
 #include <geocone/scene/magnitudes.h>
@@ -104,14 +103,8 @@ namespace geocone::GEOCONE_DIM
   SolidLimitAnalysis::bound_load()
   {
     const SolidScene bound = load.on(scene, *tetrahedra);
-    run_both(
-      [&]() {
-        upper = certified_upper(bound, degree(velocities), inner_tolerance());
-      },
-      [&]() {
-        lower = certified_lower(bound, degree(stresses), inner_tolerance());
-      },
-      n_threads);
+    upper = certified_upper(bound, degree(velocities), inner_tolerance());
+    lower = certified_lower(bound, degree(stresses), inner_tolerance());
     for (const SolidBound *side : {&upper, &lower})
       if (side->grows && !side->certified)
         throw StepFailure(
@@ -139,18 +132,15 @@ namespace geocone::GEOCONE_DIM
     std::array<SafetySearch::Attempt, 2>
     both(const double F) override
     {
-      std::array<SafetySearch::Attempt, 2> found;
-      run_both(
-        [&]() { found[SafetySearch::lower] = one(F, SafetySearch::lower); },
-        [&]() { found[SafetySearch::upper] = one(F, SafetySearch::upper); },
-        of.n_threads);
+      const auto below = one(F, SafetySearch::lower),
+                 above = one(F, SafetySearch::upper);
       of.gap   = gap_of_cells(of.load.reduced(of.scene, *of.tetrahedra, F),
                             degree(of.velocities),
                             degree(of.stresses),
                             of.upper,
                             of.lower);
       of.share = of.share_of_gap();
-      return found;
+      return {{below, above}};
     }
 
     SafetySearch::Attempt
@@ -189,7 +179,7 @@ namespace geocone::GEOCONE_DIM
     // A stopped level is repeated.
     SafetySearch              next = search;
     Reduced                   reduced(*this);
-    const SafetySearch::Level found = next.on_mesh(reduced, n_threads);
+    const SafetySearch::Level found = next.on_mesh(reduced);
     search                          = next;
     if (reduced.proof_lower)
       lower = *reduced.proof_lower;

@@ -12,18 +12,16 @@ namespace geocone::GEOCONE_DIM
     public:
       ReducedPlane(const StrengthReduction::Reduced &reduced,
                    const double                      tolerance,
-                   const unsigned int                n_threads,
                    StrengthReduction::Level         &level)
         : reduced(reduced)
         , tolerance(tolerance)
-        , n_threads(n_threads)
         , level(level)
       {}
 
       std::array<SafetySearch::Attempt, 2>
       both(const double F) override
       {
-        level.bounds = certified_bounds(reduced(F), tolerance, n_threads);
+        level.bounds = certified_bounds(reduced(F), tolerance);
         return {
           {figures_of(level.bounds.lower), figures_of(level.bounds.upper)}};
       }
@@ -31,17 +29,17 @@ namespace geocone::GEOCONE_DIM
       SafetySearch::Attempt
       one(const double F, const SafetySearch::Side side) override
       {
-        last[side] = side == SafetySearch::lower
-                       ? certified_lower(reduced(F), tolerance)
-                       : certified_upper(reduced(F), tolerance);
-        return figures_of(last[side]);
+        last = side == SafetySearch::lower
+                 ? certified_lower(reduced(F), tolerance)
+                 : certified_upper(reduced(F), tolerance);
+        return figures_of(last);
       }
 
       void
       keep(const SafetySearch::Side side) override
       {
         (side == SafetySearch::lower ? level.lower_proof : level.upper_proof) =
-          last[side];
+          last;
       }
 
     private:
@@ -55,23 +53,19 @@ namespace geocone::GEOCONE_DIM
                 side.bound.rejection};
       }
 
-      const StrengthReduction::Reduced    &reduced;
-      const double                         tolerance;
-      const unsigned int                   n_threads;
-      StrengthReduction::Level            &level;
-      std::array<CertifiedBounds::Side, 2> last; ///< by SafetySearch::Side
+      const StrengthReduction::Reduced &reduced;
+      const double                      tolerance;
+      StrengthReduction::Level         &level;
+      CertifiedBounds::Side             last;
     };
   } // namespace
 
   StrengthReduction::Level
-  StrengthReduction::on_mesh(const Reduced     &reduced,
-                             const double       tolerance,
-                             const unsigned int n_threads)
+  StrengthReduction::on_mesh(const Reduced &reduced, const double tolerance)
   {
     Level        level;
-    ReducedPlane solver(reduced, tolerance, n_threads, level);
-    static_cast<SafetySearch::Level &>(level) =
-      search.on_mesh(solver, n_threads);
+    ReducedPlane solver(reduced, tolerance, level);
+    static_cast<SafetySearch::Level &>(level) = search.on_mesh(solver);
     return level;
   }
 } // namespace geocone::GEOCONE_DIM

@@ -203,7 +203,6 @@ namespace geocone::GEOCONE_DIM
     double       growth        = 2.;
     unsigned int most_cells    = 20000;
     unsigned int most_levels   = 12;
-    unsigned int n_threads     = 2;
   };
 } // namespace geocone::GEOCONE_DIM
 

@@ -76,12 +76,9 @@ namespace geocone::GEOCONE_DIM
                   const double        question);
 
   /** Solves the upper-bound and lower-bound problems on a mesh and certifies the results.
-   *  @param tolerance of the interior-point method, relative to the load
-   *  @param n_threads 2: both problems at the same time */
+   *  @param tolerance of the interior-point method, relative to the load */
   CertifiedBounds
-  certified_bounds(const BoundScene  &bound,
-                   const double       tolerance,
-                   const unsigned int n_threads);
+  certified_bounds(const BoundScene &bound, const double tolerance);
 
   /** Returns the refinement indicator of each triangle
    *  (CertifiedBounds::refinement_indicator).

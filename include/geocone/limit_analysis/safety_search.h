@@ -60,12 +60,12 @@ namespace geocone
       both(const double F) = 0;
 
       /** Computes the lower or upper bound on the load factor for a given
-       *  strength reduction factor F. Both may be computed at the same time. */
+       *  strength reduction factor F. */
       virtual Attempt
       one(const double F, const Side side) = 0;
 
-      /** Stores the last lower-bound or upper-bound solution of one(), which
-       *  certifies a bound on the factor of safety. */
+      /** Stores the last lower-bound or upper-bound solution, which certifies a
+       *  bound on the factor of safety. */
       virtual void
       keep(const Side side) = 0;
     };
@@ -86,11 +86,10 @@ namespace geocone
     };
 
     /** Computes both bounds on the factor of safety, using a given mesh.
-     *  @param n_threads 2: both bounds are confirmed at the same time
      *  @throws StepFailure if the body fails for no factor F, or for all
      *  factors */
     Level
-    on_mesh(Solver &solver, const unsigned int n_threads);
+    on_mesh(Solver &solver);
 
     void
     state(StateRow &row)

@@ -31,13 +31,10 @@ namespace geocone::GEOCONE_DIM
 
     /** Computes both bounds on the factor of safety, using a given mesh.
      *  @param tolerance of the interior-point method, relative to the load
-     *  @param n_threads 2: both bounds at the same time
      *  @throws StepFailure if the body fails for no factor F, or for all
      *  factors */
     Level
-    on_mesh(const Reduced     &reduced,
-            const double       tolerance,
-            const unsigned int n_threads);
+    on_mesh(const Reduced &reduced, const double tolerance);
 
     void
     state(StateRow &row)
