@@ -17,7 +17,7 @@ done
 dpkg-deb -x "$package" tree
 zcat tree/usr/share/doc/geocone/changelog.gz | grep -qx ' -- Ada Example <ada@example.org>  .*'
 # Nothing that only a source tree can use, and nothing that a run has left.
-[ "$(ls tree/usr/share/geocone/scripts | xargs)" = 'plot study' ]
+[ "$(ls tree/usr/share/geocone/scripts | xargs)" = 'check_certificate plot study' ]
 [ -z "$(find tree -name '*.pyc' -o -name results -o -name '*.part')" ]
 (cd tree && md5sum --quiet -c <(dpkg-deb -I "$package" md5sums))
 [ -s tree/usr/share/bash-completion/completions/geocone ]
@@ -34,7 +34,7 @@ assert geocone.example("footing_fem.prm").is_relative_to(tree)'
 /usr/bin/python3 - <<'PYTHON'
 import pathlib, re
 folder = pathlib.Path("tree/usr/share/doc/geocone")
-pages = [*folder.glob("cookbook/*.md"), *folder.glob("theory/*.md"),
+pages = [*folder.glob("book/*.md"), *folder.glob("cookbook/*.md"), *folder.glob("theory/*.md"),
          *folder.glob("tutorials/*.md"), *folder.glob("*.md"),
          *folder.glob("notebooks/*.ipynb")]
 seen = 0
