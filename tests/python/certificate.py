@@ -1,4 +1,4 @@
-"""The checker proves the bounds of four runs, and finds changes of their files."""
+"""The checker proves the bounds of five runs, and finds changes of their files."""
 
 import contextlib
 import io
@@ -19,39 +19,107 @@ def verdict(function, path):
     return found, words.getvalue()
 
 
-for folder in "reaction", "weight", "factor", "obstacles":
+for folder in "reaction", "weight", "factor", "obstacles", "rigid":
     good, text = verdict("check_folder", folder)
     assert good and text.count(" proved for ") == 2
 
-# Changed values: folder, side, place in the file, factor, reason.
-CHANGES = (
-    ("reaction", "lower", ("stress", 3, 1, 0), 1.0001, "tractions"),
-    ("reaction", "lower", ("materials", 0, "cohesion"), 0.9, "only"),
-    ("reaction", "upper", ("value",), 0.999, "only"),
-    ("weight", "lower", ("body_force", "live", 5, 1), 1.0001, "div s + b"),
-    ("weight", "upper", ("materials", 0, "tensile_strength"), 2., "only"),
-    ("factor", "lower", ("strength_factor",), 1.1, "load factor"),
-    ("factor", "upper", ("strength_factor",), 0.9, "flow rule"),
-    ("obstacles", "lower", ("obstacles", 0, "friction"), 0.5, "strength"),
-    ("obstacles", "lower", ("interfaces", "traction", 0, 0, 1), 1.0001, "tractions"),
-    ("obstacles", "upper", ("obstacles", 0, "friction"), 4., "flow of interfaces"),
-)
-for folder, side, place, factor, reason in CHANGES:
-    content = json.loads(Path(folder, f"certificate_{side}.json").read_text())
-    data = content
-    for key in place[:-1]:
-        data = data[key]
-    data[place[-1]] *= factor
-    changed = Path("changed.json")
-    changed.write_text(json.dumps(content))
-    body, text = verdict("check", changed)
-    assert body is None and reason in text.partition("NOT PROVED")[2], (place, text)
+rigid = json.loads(Path("rigid", "certificate_upper.json").read_text())
+assert 6000. <= rigid["value"] < 6060.  # weight times friction is exact
 
-# A lower and an upper bound of different problems.
-other = Path("other")
-other.mkdir()
-for side, folder in ("lower", "reaction"), ("upper", "weight"):
-    name = f"certificate_{side}.json"
-    (other / name).write_text(Path(folder, name).read_text())
-good, text = verdict("check_folder", other)
-assert not good and "different problems" in text
+SPEED = 1. + 9e-6
+
+
+def changed(folder, side, *changes):
+    """The file of a bound with changes (place in the file, function of its value)."""
+    content = json.loads(Path(folder, f"certificate_{side}.json").read_text())
+    for place, change in changes:
+        data = content
+        for key in place[:-1]:
+            data = data[key]
+        data[place[-1]] = change(data[place[-1]])
+    return content
+
+
+def times(factor):
+    """A change of a value by a factor."""
+    return lambda value: value * factor
+
+
+def to(value):
+    """A change to another value."""
+    return lambda _: value
+
+
+# Changed values: folder, side, reason, changes.
+CHANGES = (
+    ("reaction", "lower", "tractions", (("stress", 3, 1, 0), times(1.0001))),
+    ("reaction", "lower", "only", (("materials", 0, "cohesion"), times(0.9))),
+    ("reaction", "upper", "only", (("value",), times(0.999))),
+    ("reaction", "lower", "strength factor", (("strength_factor",), to(0.5))),
+    ("reaction", "lower", "stated magnitude",
+     (("speed",), times(1. / SPEED)), (("value",), times(SPEED))),
+    ("reaction", "lower", "cohesion is not finite", (("materials", 0, "cohesion"), to(None))),
+    ("reaction", "upper", "cohesion is not finite", (("materials", 0, "cohesion"), to(None))),
+    ("reaction", "lower", "bound is not finite", (("multiple",), to(float("inf")))),
+    ("reaction", "upper", "friction_angle is negative",
+     (("materials", 0, "friction_angle"), to(-1.))),
+    ("reaction", "lower", "number of a part", (("material", 0), to(-1))),
+    ("reaction", "lower", "neither", (("bound",), to("both"))),
+    ("reaction", "lower", "same side",
+     (("vertices",), to([[0., 0.], [1., 0.], [0., 1.], [0.2, 0.5]])),
+     (("triangles",), to([[0, 1, 2], [0, 1, 3]])),
+     (("edges",), to([[0, 1], [0, 2], [1, 2], [0, 3], [1, 3]]))),
+    ("weight", "lower", "div s + b", (("body_force", "live", 5, 1), times(1.0001))),
+    ("weight", "upper", "only", (("materials", 0, "tensile_strength"), times(2.))),
+    ("factor", "lower", "load factor", (("strength_factor",), times(1.1))),
+    ("factor", "upper", "flow rule", (("strength_factor",), times(0.9))),
+    ("factor", "lower", "only", (("value",), to(5.))),
+    ("factor", "upper", "only", (("value",), to(0.3))),
+    ("factor", "lower", "stated magnitude", (("speed",), to(1.))),
+    ("obstacles", "lower", "strength", (("obstacles", 0, "friction"), times(0.5))),
+    ("obstacles", "lower", "tractions", (("interfaces", "traction", 0, 0, 1), times(1.0001))),
+    ("obstacles", "upper", "flow of interfaces", (("obstacles", 0, "friction"), times(4.))),
+    ("obstacles", "upper", "listed twice",
+     (("interfaces",), lambda faces: {key: [*part, part[0]] for key, part in faces.items()})),
+)
+for folder, side, reason, *changes in CHANGES:
+    name = Path("changed.json")
+    name.write_text(json.dumps(changed(folder, side, *changes)))
+    body, text = verdict("check", name)
+    assert body is None and reason in text.partition("NOT PROVED")[2], (changes, text)
+
+
+def refused(lower, upper, reason):
+    """Looks for the reason for which two proved bounds are not a bracket."""
+    other = Path("other")
+    other.mkdir(exist_ok=True)
+    for side, content in ("lower", lower), ("upper", upper):
+        (other / f"certificate_{side}.json").write_text(json.dumps(content))
+    good, text = verdict("check_folder", other)
+    assert not good and text.count(" proved for ") == 2 and reason in text, text
+
+
+# Proved bounds of different problems: others, moved, with other parts.
+DIFFERENT = "different problems"
+refused(changed("reaction", "lower"), changed("weight", "upper"), DIFFERENT)
+refused(changed("reaction", "lower"), changed(
+    "reaction", "upper", (("vertices",), lambda x: [[a + 1e-6, b] for a, b in x])), DIFFERENT)
+TWICE = ("materials",), lambda laws: [*laws, laws[0]]
+refused(changed("weight", "lower", TWICE),
+        changed("weight", "upper", TWICE, (("material", 0), to(1))), DIFFERENT)
+refused(changed("obstacles", "lower"),
+        changed("obstacles", "upper", (("obstacles", 0, "centre", 0), to(1.))), DIFFERENT)
+AGAIN = ("obstacles",), lambda laws: [*laws, laws[0]]
+refused(changed("obstacles", "lower", AGAIN), changed(
+    "obstacles", "upper", AGAIN, (("interfaces", "obstacle", 0), to(2)),
+    (("velocity", "obstacles"), lambda motion: [*motion, motion[0]])), DIFFERENT)
+# One millionth of a small quantity is not rounding.
+SMALL = ("obstacles", 0, "adhesion")
+refused(changed("obstacles", "lower"), changed("obstacles", "upper", (SMALL, to(1e-7))), DIFFERENT)
+lower = changed("reaction", "lower")
+refused(lower, lower, "not a lower and an upper bound")
+
+# Bounds that contradict each other, from a wrong formula.
+CHECKER["check_folder"].__globals__["upper_bound"] = lambda body: 1.
+good, text = verdict("check_folder", "reaction")
+assert not good and "the lower bound is above the upper one" in text
