@@ -3,9 +3,10 @@
 """The book of certified answers: brackets of limit loads and factors of safety, each verified by
 scripts/check_certificate, beside published values.
 
-A published value is exact, an upper or lower bound, or an estimate. An exact value outside the
-bracket, an upper bound below it or a lower bound above it contradicts the bracket. An estimate
-outside is wrong by at least its distance from the bracket.
+A published value is exact, an upper or lower bound, an estimate, or that of another problem. An
+exact value outside the bracket, an upper bound below it or a lower bound above it contradicts the
+bracket. An estimate outside differs from the exact value by at least its distance from the
+bracket. Values of other problems are not compared.
 """
 
 import json
@@ -41,18 +42,32 @@ def name_of(row):
     return ", ".join(word for word in (row["group"], row["label"]) if word)
 
 
-def compared(low, high, value, kind, source):
+def rounding(value):
+    """The half of the last digit of a text; of a number, one of the sixth digit."""
+    if isinstance(value, str):
+        return 0.5 * 10.**-len(value.partition(".")[2])
+    return 10.**(math.floor(math.log10(abs(value))) - 5) if value else 0.
+
+
+def compared(low, high, printed, kind, source):
     """A published value beside a bracket, in words.
     @throw ValueError if it contradicts the bracket"""
-    digits = 10.**(math.floor(math.log10(abs(value))) - 5)  # as many as values are given with
+    if kind == "other problem":
+        return f"{number(printed, 6)}, {kind} ({source})"
+    value, digits = float(printed), rounding(printed)
     above, below = value - high > digits, low - value > digits
     if (kind == "exact" and (above or below) or kind == "upper bound" and below or
             kind == "lower bound" and above):
         raise ValueError(f"{value:g} ({kind}, {source}) contradicts {low:.7g} to {high:.7g}")
-    near = high if above else low
-    where = ("inside" if not above and not below else percent((value - near) / abs(near), 1) +
-             (" or more" if kind == "estimate" else f" from the {'upper' if above else 'lower'}"))
-    return f"{number(value, 6)}, {kind}: {where} ({source})"
+    if above or below:
+        near = high if above else low
+        if kind == "estimate" and isinstance(printed, str):  # whatever it was before rounding
+            value += -digits if above else digits
+        where = percent((value - near) / abs(near), 1) + (
+            " or more" if kind == "estimate" else f" from the {'upper' if above else 'lower'}")
+    else:
+        where = "-" if math.isnan(low + high) else "inside"
+    return f"{number(printed, 6)}, {kind}: {where} ({source})"
 
 
 def verified(folder):
@@ -80,7 +95,7 @@ def brackets(rows, _):
         low, high = bracket(row)
         lines.append([
             name_of(row), number(low, 5), number(high, 5),
-            f"{100. * (high - low) / abs(low):.2f} %",
+            "-" if math.isnan(low + high) else f"{100. * (high - low) / abs(low):.2f} %",
             row["reason"] or verdict,
             "; ".join(compared(low, high, *one) for one in published(row)) or "-",
             "`" + re.sub(r" --set 'Output/(Fields|Pictures|Expectations) =[^']*'", "",
@@ -91,7 +106,7 @@ def brackets(rows, _):
 
 @takes()
 def chart(rows, _):
-    """Brackets as error bars about their middle, with the published values."""
+    """Brackets as error bars about their middle, with the published values of their problems."""
     figure, axes = subplots(figsize=(9.5, 1.2 + 0.24 * len(rows)))
     seen = set()
     for i, row in enumerate(rows):
@@ -100,8 +115,10 @@ def chart(rows, _):
         axes.errorbar(0., i, xerr=50. * (high - low) / size, color=COLORS[0], capsize=3.,
                       linewidth=2.)
         for value, kind, _ in published(row):
+            if kind == "other problem":
+                continue
             number_of = STANDINGS.index(kind)
-            axes.plot(100. * (value - middle) / size, i, MARKERS[number_of],
+            axes.plot(100. * (float(value) - middle) / size, i, MARKERS[number_of],
                       color=COLORS[1 + number_of], markersize=5.,
                       label=None if kind in seen else kind)
             seen.add(kind)

@@ -103,12 +103,17 @@ TEMPLATE = Kind(lambda value: isinstance(value, dict) and value.keys() == {"valu
                 list_of(any_of(LINE, NUMBER), 1, MOST_RUNS).holds(value["values"]) and
                 SETTINGS.holds(value["set"]) and all("{" in part for part in value["set"]),
                 "{values = [numbers or texts], set = [settings with {} for the value]}")
-# Published values of a quantity that is bounded: exact, bounds of others, estimates.
-STANDINGS = "exact", "upper bound", "lower bound", "estimate"
+# Published values of a quantity that is bounded: exact, bounds of others, estimates, values of a
+# problem that differs. A number as a text has been rounded to its digits.
+STANDINGS = "exact", "upper bound", "lower bound", "estimate", "other problem"
+DIGITS = Kind(lambda value: isinstance(value, str) and
+              re.fullmatch(r"-?\d{1,15}(\.\d{1,15})?", value, re.ASCII) is not None,
+              "digits as a text")
 PUBLISHED = list_of(Kind(
-    lambda value: isinstance(value, list) and len(value) == 3 and NUMBER.holds(value[0]) and
-    words(*STANDINGS).holds(value[1]) and LINE.holds(value[2]),
-    f"[number, {' | '.join(STANDINGS)}, source]"))
+    lambda value: isinstance(value, list) and len(value) == 3 and
+    any_of(NUMBER, DIGITS).holds(value[0]) and words(*STANDINGS).holds(value[1]) and
+    LINE.holds(value[2]),
+    f"[number or \"digits as printed\", {' | '.join(STANDINGS)}, source]"))
 AXIS = any_of(Kind(VALUES.holds, "a list of the values of a parameter, one or more: numbers, "
                    "texts, true, false"), TEMPLATE, LABELS)
 TABLE = Kind(lambda value: isinstance(value, dict), "a table")
