@@ -67,7 +67,8 @@ for key, values in {
                   "{value = 'x', low = 1, high = 0}", "{value = 'x', low = nan}",
                   "{value = 'x', reference = {20 = 'x'}}", "{value = 'x', reference = {20 = 1}}",
                   "{value = 'x', reference = {20 = 1}, by = 'x'}", "{published = {20 = []}}",
-                  "{published = [[1, 'guess', 'x']]}", "{published = [], divisor = 0}"]}.items():
+                  "{published = [[1, 'guess', 'x']]}", "{published = [['1,4', 'exact', 'x']]}",
+                  "{published = [], divisor = 0}"]}.items():
     for value in values:
         base = "".join(line + "\n" for line in GROUP.splitlines() if not line.startswith(key))
         refused("the group 'a': " * (key != "name") + ("check" if key == "check" else key),
@@ -85,6 +86,15 @@ for options in ("kind = 1", "kind = 'bounds.gaps'\ntolerance = 'x'",
 for kind in ("speed.none", "none.table", "figures.np", "study.os", "runs.write_csv", "page.find",
              "schema.takes", "figures.", ".columns", "", "..figures.columns", "figures.math.exp"):
     refused("unknown figure or table", FIGURE + f"kind = '{kind}'\n")
+
+# Keys of tables are values of the axis.
+VARIED = GROUP + "[group.vary]\nx = [1, 2.5]\n"
+refused("'2,5' is no value of the axis 'x'", VARIED + "[group.check]\nby = 'x'\n"
+        "published = {1 = [], '2,5' = []}\n")
+refused("'3' is no value of the axis 'x'", VARIED + "[group.check]\nby = 'x'\nvalue = 'y'\n"
+        "reference = {1 = 0, 3 = 0}\n")
+accepted(VARIED + "[group.check]\nby = 'x'\n"
+         "published = {1 = [['1.40', 'estimate', 'z']], '2.5' = []}\n")
 
 # Settings with the values of axes.
 refused("'{psi/2}' in the setting", GROUP + "set = ['Materials/soil/Dilatancy angle = {psi/2}']\n")

@@ -125,11 +125,16 @@ def check_check(path, where, check, axes):
     """Refuses a check that cannot be made."""
     check_table(path, where, check, CHECK,
                 () if {"status", "published"} & check.keys() else ("value",))
-    by_axis = any(isinstance(check.get(key), dict) for key in ("reference", "published"))
+    tables = [check[key] for key in ("reference", "published") if isinstance(check.get(key), dict)]
+    by_axis = bool(tables)
     if by_axis or "by" in check:
         require(by_axis and check.get("by") in axes, path,
                 f"{where}: by = {shown(check.get('by', ''))}",
                 "with references of a table, the name of the group's axis")
+        known = [str(value) for value, _ in axes[check["by"]]]
+        for key in itertools.chain(*tables):
+            require(key in known, path, f"{where}: {shown(key)} is no value of the axis "
+                    f"{shown(check['by'])}", ", ".join(known))
     require(check.get("low", -math.inf) <= check.get("high", math.inf), path,
             f"{where}: low = {check.get('low')}, high = {check.get('high')}", "low <= high")
 
