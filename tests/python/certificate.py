@@ -113,6 +113,16 @@ AGAIN = ("obstacles",), lambda laws: [*laws, laws[0]]
 refused(changed("obstacles", "lower", AGAIN), changed(
     "obstacles", "upper", AGAIN, (("interfaces", "obstacle", 0), to(2)),
     (("velocity", "obstacles"), lambda motion: [*motion, motion[0]])), DIFFERENT)
+# A support more, of an edge without a traction.
+refused(changed("weight", "lower", (("boundary", "held"), lambda held: [
+    [True, True] if i == held.index([False, False]) else one for i, one in enumerate(held)])),
+        changed("weight", "upper"), DIFFERENT)
+# Weight moved between two triangles, at the same total.
+data = changed("weight", "upper", (("value",), times(2.)))
+A, live = CHECKER["Body"](data).A, data["body_force"]["live"]
+live[0][1] *= 0.9
+live[1][1] *= 1. + 0.1 * A[0] / A[1]
+refused(changed("weight", "lower"), data, DIFFERENT)
 # One millionth of a small quantity is not rounding.
 SMALL = ("obstacles", 0, "adhesion")
 refused(changed("obstacles", "lower"), changed("obstacles", "upper", (SMALL, to(1e-7))), DIFFERENT)
