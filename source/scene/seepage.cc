@@ -35,7 +35,7 @@ namespace geocone::GEOCONE_DIM
       rain_text,
       "Rain on the sides per horizontal area [m/s], a number, a formula in t "
       "or 'record FILE.csv', a time history; the part that cannot infiltrate "
-      "runs off.");
+      "runs off. The mean of 64 values acts in a time step of the flow.");
     add_parameter(
       "Drain",
       drain,
@@ -273,6 +273,23 @@ namespace geocone::GEOCONE_DIM
                        stage.flow_steps,
                        "0 where no water flows",
                        "name the boundaries of the flow in 'Seepage/Names'");
+    // Rain is checked at the ends and in the middle of all steps.
+    const unsigned int n_parts    = 2 * std::max(stage.flow_steps, 1U);
+    bool               is_changed = false;
+    for (const auto &boundary : list)
+      for (unsigned int k = 0; k <= n_parts; ++k)
+        {
+          const double t = begin + stage.duration * k / n_parts;
+          is_changed =
+            is_changed || boundary->rain(t) != boundary->rain(begin) ||
+            boundary->prescribed_level(t) != boundary->prescribed_level(begin);
+        }
+    if (stage.flow_steps == 0 && is_changed)
+      throw InputError("Loading/" + stage.name + "/Flow steps",
+                       0,
+                       "> 0 where 'Level' or 'Rain' of 'Seepage' changes in "
+                       "the stage",
+                       "20 to 100 are usual");
     if (stage.flow_steps == 0)
       return stage.water_levels.empty()
                ? std::vector<Step>()
