@@ -203,7 +203,8 @@ namespace geocone::GEOCONE_DIM
       take(first_mesh);
     discharge_before.reset();
     rate_of_storage = 0.;
-    solve_on_mesh(conditions(step.levels, step.time), hydrostatic(step.levels));
+    solve_on_mesh(conditions(step.levels, step.time, 0.),
+                  hydrostatic(step.levels));
   }
 
   void
@@ -217,7 +218,7 @@ namespace geocone::GEOCONE_DIM
     std::vector<double> start;
     for (const Point<dim> &x : mesh.vertices)
       start.push_back(last.value(x));
-    solve_on_mesh(conditions(step.levels, step.time), std::move(start));
+    solve_on_mesh(conditions(step.levels, step.time, 0.), std::move(start));
   }
 
   void
@@ -272,7 +273,7 @@ namespace geocone::GEOCONE_DIM
   FlowOnMesh::advance(const Seepage::Step &step)
   {
     const double   before  = stored();
-    FlowConditions next    = conditions(step.levels, step.time);
+    FlowConditions next    = conditions(step.levels, step.time, step.duration);
     next.storage           = drainable;
     next.saturation_before = saturation();
     for (double &volume : next.storage)
@@ -305,10 +306,14 @@ namespace geocone::GEOCONE_DIM
         const double    part   = std::min(1. - (left - h) / step.duration, 1.);
         Seepage::Levels levels = step.levels;
         for (unsigned int b = 0; b < levels.size(); ++b)
-          if (from[b] && levels[b])
+          if (const auto prescribed =
+                scene.water.seepage.list[b]->prescribed_level(step.time - left +
+                                                              h))
+            levels[b] = prescribed;
+          else if (from[b] && levels[b])
             *levels[b] = (1. - part) * *from[b] + part * *levels[b];
         auto [next, converged] =
-          flow.step(conditions(levels, step.time - left + h / 2.),
+          flow.step(conditions(levels, step.time - left + h, h),
                     h,
                     solution.head,
                     solution.s);
@@ -442,7 +447,9 @@ namespace geocone::GEOCONE_DIM
   }
 
   FlowConditions
-  FlowOnMesh::conditions(const Seepage::Levels &levels, const double time) const
+  FlowOnMesh::conditions(const Seepage::Levels &levels,
+                         const double           time,
+                         const double           duration) const
   {
     using Kind                = FlowConditions::Kind;
     const unsigned int n      = mesh.vertices.size();
@@ -461,6 +468,16 @@ namespace geocone::GEOCONE_DIM
           if (all.head[v] > 1e-9 * (1. + std::abs(mesh.vertices[v][1])))
             all.kind[v] = Kind::head;
         }
+    std::vector<double> rain; // means over the step
+    for (const auto &boundary : listed)
+      {
+        constexpr unsigned int n_samples = 64;
+        const unsigned int     n_used    = duration > 0. ? n_samples : 1;
+        double                 sum       = 0.;
+        for (unsigned int k = 0; k < n_used; ++k)
+          sum += boundary->rain(time - duration * (k + 0.5) / n_used);
+        rain.push_back(sum / n_used);
+      }
     for (unsigned int e = 0; e < mesh.edges.size(); ++e)
       if (boundary_of_edge[e] >= 0)
         {
@@ -468,7 +485,7 @@ namespace geocone::GEOCONE_DIM
           const Point<dim> &a    = mesh.vertices[ends[0]],
                            &b    = mesh.vertices[ends[1]];
           const double flow =
-            listed[boundary_of_edge[e]]->rain(time) * std::abs(b[0] - a[0]) *
+            rain[boundary_of_edge[e]] * std::abs(b[0] - a[0]) *
             Geometry::measure(scene.geometry.symmetry, a + 0.5 * (b - a));
           for (const unsigned int v : ends)
             all.rain[v] += flow / 2.;

@@ -153,9 +153,13 @@ namespace geocone::GEOCONE_DIM
     void
     check(const Seepage::Levels &levels) const;
 
-    /** @param time at which the rainfall rate is evaluated (s) */
+    /** @param time end of the step (s)
+     *  @param duration of the step, whose mean rainfall rate is taken (s); 0:
+     *  the rate at that time */
     FlowConditions
-    conditions(const Seepage::Levels &levels, const double time) const;
+    conditions(const Seepage::Levels &levels,
+               const double           time,
+               const double           duration) const;
 
     void
     solve_on_mesh(const FlowConditions &conditions, std::vector<double> start);
