@@ -497,7 +497,7 @@ namespace geocone::GEOCONE_DIM
               }
             const double stress =
               (elasticity_at_start(materials, points, p).normal_stiffness() +
-               dim * fluid_modulus(p)) *
+               dim * materials[points.material[p]].fluid_modulus()) *
               h * terms;
             sum += squares * std::pow(points.weight[p] * stress, 2);
           }
