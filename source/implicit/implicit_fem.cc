@@ -259,6 +259,10 @@ namespace geocone::GEOCONE_DIM
                        "oscillating ones");
     if (space->has_ties())
       refuse("false with tied sides", "leave out 'Discretisation/Tied sides'");
+    for (const auto &boundary : scene->water.seepage.list)
+      if (!boundary->drain.empty())
+        refuse("false with drains in the body",
+               "leave out 'Seepage/" + boundary->name + "/Drain'");
     if (scene->water.flow_steps().size() > 1)
       refuse("false where the steady pore pressures change in time",
              "keep the water levels of all stages");
