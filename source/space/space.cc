@@ -139,7 +139,8 @@ namespace geocone::GEOCONE_DIM
           throw InputError("Discretisation/" +
                              double_knots_parameter(direction),
                            x,
-                           "coordinates of inner grid lines, each once",
+                           "coordinates of inner grid lines, each once; not "
+                           "those at the ends",
                            format("the nearest grid line is at %c = %.10g: "
                                   "change the cells so that one is there, or "
                                   "leave the double knot out",
@@ -222,6 +223,12 @@ namespace geocone::GEOCONE_DIM
                          double_knots[c].front(),
                          "empty with explicit MPM",
                          "leave it out, or set Discretisation/Method = MPM");
+    for (unsigned int c = 0; c < dim; ++c)
+      if (!is_spline() && !double_knots[c].empty())
+        throw InputError("Discretisation/" + double_knots_parameter(c),
+                         double_knots[c].front(),
+                         "empty, as the element is " + element(),
+                         "leave it out, or take B-splines on a grid");
     if (basis == Basis::automatic)
       basis = method.is_mpm() ? Basis::bernstein : Basis::lagrange;
     if (has_ties() && method.is_mpm())
