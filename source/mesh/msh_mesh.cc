@@ -261,7 +261,8 @@ namespace geocone::GEOCONE_DIM
           {
             auto v = vertices_of(c);
             v[i]   = beyond;
-            if (sixfold_volume(points, v) / volume <= 0.)
+            // The point may lie between two cells.
+            if (sixfold_volume(points, v) / volume < -1e-9)
               return false;
           }
         return true;
@@ -276,7 +277,7 @@ namespace geocone::GEOCONE_DIM
             if (outer.count(CoarseMesh::sorted(face)) == 0)
               continue;
             const Point<dim> centre = mesh.centre(face);
-            points[beyond] = centre + 1e-3 * (centre - mesh.points[v[i]]);
+            points[beyond] = centre + 1e-6 * (centre - mesh.points[v[i]]);
             near.clear();
             tree.query(boost::geometry::index::intersects(points[beyond]),
                        std::back_inserter(near));
