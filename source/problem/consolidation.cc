@@ -58,7 +58,7 @@ namespace geocone::GEOCONE_DIM
                                "/Pore fluid bulk modulus",
                              law.fluid_modulus(),
                              "> 0 Pa with 'Time stepping/Consolidation'",
-                             "K_w/n is 2.2e9 Pa over the porosity");
+                             "water has 2.2 GPa; divide it by the porosity");
           all.push_back(law.permeability() / scene.water.weight());
         }
       return all;

@@ -290,7 +290,7 @@ namespace geocone::GEOCONE_DIM
       warnings.insert(warnings.end(), more.begin(), more.end());
     warnings.push_back(outside_strength(points, scene.materials, comm));
     LawTraits traits = scene.materials.traits();
-    // Taylor-Hood elements do not lock.
+    // The remedies of undrained soil are refused.
     traits.undrained = traits.undrained && !stepper->consolidates();
     for (const auto &more : {space.warnings(traits, method),
                              {scene.warn_of_effective_loads()},
