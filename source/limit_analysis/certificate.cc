@@ -333,8 +333,7 @@ namespace geocone::GEOCONE_DIM
                 const BoundSolution &solution)
   {
     const Bound result = checked(bound, problem, solution);
-    if (result.error < improvable ||
-        !std::isfinite(result.load + result.error))
+    if (result.error < improvable || !std::isfinite(result.load + result.error))
       return result;
     const Bound second =
       checked(bound, problem, in_equilibrium(problem, solution));
