@@ -111,7 +111,7 @@ namespace geocone::GEOCONE_DIM
             const Point<dim>  other = structure->points[1 - end];
             if (!cells.find(x) && cells.find(x + near * (other - x)))
               warnings.push_back(
-                "the end " + text_of_place(x) + " of the structure '" +
+                "the end (" + text_of_place(x) + ") of the structure '" +
                 structure->name +
                 format("' lies outside of the body by less than %g %% of the "
                        "length: it is fixed. If it is to move with the body, "

@@ -280,9 +280,10 @@ namespace geocone::GEOCONE_DIM
       for (unsigned int k = 0; k <= n_parts; ++k)
         {
           const double t = begin + stage.duration * k / n_parts;
-          is_changed =
-            is_changed || boundary->rain(t) != boundary->rain(begin) ||
-            boundary->prescribed_level(t) != boundary->prescribed_level(begin);
+          if (boundary->rain(t) != boundary->rain(begin) ||
+              boundary->prescribed_level(t) !=
+                boundary->prescribed_level(begin))
+            is_changed = true;
         }
     if (stage.flow_steps == 0 && is_changed)
       throw InputError("Loading/" + stage.name + "/Flow steps",

@@ -17,6 +17,9 @@ from geocone.reader import Run
 COHESION = 1000.
 WEIGHT = 1000.  # per volume, along -y
 AGREEMENT = 1e-6
+# Strain rates of upper bounds with friction keep a margin of 1e-7 of the flow rule, by which the
+# bounds may be higher, but not lower.
+MARGIN = 1e-5
 
 
 class Mesh:
@@ -211,7 +214,8 @@ def main(folder, angles):
         for side, bound in ("lower", lower_bound), ("upper", upper_bound):
             value, status = bound(mesh, sine, strength)
             own = run.value(f"bounds/{side}")
-            worst = max(worst, abs(own / value - 1.))
+            margin = MARGIN if side == "upper" and sine > 0. and own > value else 0.
+            worst = max(worst, abs(own / value - 1.) - margin)
             print(f"phi = {angle}, {len(mesh.cells)} tetrahedra, {side} bound: {own:.9g}, by "
                   f"cvxopt {value:.9g} ({status}), difference {own / value - 1.:.1e}",
                   file=sys.stderr)
