@@ -19,6 +19,21 @@ namespace geocone
     return place - column.begin();
   }
 
+  void
+  SparseMatrix::set_pattern(std::vector<std::vector<int>> columns)
+  {
+    row_start = {0};
+    column.clear();
+    for (std::vector<int> &of_row : columns)
+      {
+        std::sort(of_row.begin(), of_row.end());
+        of_row.erase(std::unique(of_row.begin(), of_row.end()), of_row.end());
+        column.insert(column.end(), of_row.begin(), of_row.end());
+        row_start.push_back(column.size());
+      }
+    value.assign(column.size(), 0.);
+  }
+
   std::size_t
   SparseMatrix::memory() const
   {

@@ -100,14 +100,8 @@ namespace geocone::GEOCONE_DIM
       }
     matrix.n_global = matrix.n_owned = n;
     for (unsigned int v = 0; v < n; ++v)
-      {
-        std::sort(columns[v].begin(), columns[v].end());
-        matrix.column.insert(
-          matrix.column.end(), columns[v].begin(), columns[v].end());
-        matrix.row_start.push_back(matrix.column.size());
-        matrix.global_index.push_back(v);
-      }
-    matrix.value.resize(matrix.column.size());
+      matrix.global_index.push_back(v);
+    matrix.set_pattern(std::move(columns));
   }
 
   double

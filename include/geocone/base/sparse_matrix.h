@@ -51,6 +51,11 @@ namespace geocone
     int
     entry(const int row, const int col) const;
 
+    /** Sets the sparsity pattern, with entries of value zero.
+     *  @param columns of each local row, in any order, also repeated */
+    void
+    set_pattern(std::vector<std::vector<int>> columns);
+
     /** Memory used by the matrix arrays (bytes). */
     std::size_t
     memory() const;
