@@ -272,26 +272,15 @@ namespace geocone::GEOCONE_DIM
   ImplicitFEM::drained_nodes() const
   {
     std::vector<bool> is_drained(space->n_local_nodes(), false);
-    const auto       &sides = mesh->named_sides();
     for (const std::string &name : drained_sides)
-      {
-        const auto side = sides.find(name);
-        if (side == sides.end())
-          {
-            std::string known;
-            for (const auto &[other, id] : sides)
-              known += (known.empty() ? "" : ", ") + other;
-            throw InputError("Time stepping/Drained sides",
-                             name,
-                             "names of sides: " + known,
-                             "leave it out where no water leaves");
-          }
-        for (const unsigned int node : space->nodes_on_sides({side->second}))
-          is_drained[node] = true;
-      }
+      for (const unsigned int node : space->nodes_on_sides(
+             {mesh->side_id(name,
+                            "Time stepping/Drained sides",
+                            "leave it out where no water leaves")}))
+        is_drained[node] = true;
     for (const auto &boundary : scene->water.seepage.list)
-      for (const auto &[name, id] : sides)
-        if (boundary->drain.empty() && boundary->is_on_side(name))
+      for (const auto &[name, id] : mesh->named_sides())
+        if (boundary->is_on_side(name))
           for (const unsigned int node : space->nodes_on_sides({id}))
             if (boundary->holds_at(space->node_positions()[node]))
               is_drained[node] = true;

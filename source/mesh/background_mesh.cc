@@ -404,6 +404,20 @@ namespace geocone::GEOCONE_DIM
     return geocone::side_ids(condition, sides, tria->get_boundary_ids());
   }
 
+  types::boundary_id
+  BackgroundMesh::side_id(const std::string &name,
+                          const std::string &parameter,
+                          const std::string &remedy) const
+  {
+    const auto found = sides.find(name);
+    if (found != sides.end())
+      return found->second;
+    std::string known;
+    for (const auto &side : sides)
+      known += (known.empty() ? "" : ", ") + side.first;
+    throw InputError(parameter, name, known + " (sides of the body)", remedy);
+  }
+
   std::vector<std::vector<Point<dim>>>
   BackgroundMesh::faces_of(const BoundaryCondition &condition) const
   {

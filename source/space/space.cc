@@ -352,19 +352,13 @@ namespace geocone::GEOCONE_DIM
   std::vector<std::pair<types::global_dof_index, Point<dim>>>
   Space::nodes_of_tied_side(const std::string &side) const
   {
-    const auto  found = mesh->named_sides().find(side);
-    std::string known;
-    for (const auto &named : mesh->named_sides())
-      known += (known.empty() ? "" : ", ") + named.first;
-    if (found == mesh->named_sides().end())
-      throw InputError(
-        tied_parameter, side, known + " (sides of the body)", "choose two");
+    const types::boundary_id id =
+      mesh->side_id(side, tied_parameter, "choose two");
     std::map<types::global_dof_index, Point<dim>> places;
     std::vector<types::global_dof_index>          nodes;
     for (const auto &cell : mesh->triangulation().active_cell_iterators())
       for (const unsigned int f : cell->face_indices())
-        if (cell->face(f)->at_boundary() &&
-            cell->face(f)->boundary_id() == found->second)
+        if (cell->face(f)->at_boundary() && cell->face(f)->boundary_id() == id)
           {
             untied_nodes(cell, nodes);
             for (unsigned int i = 0; i < nodes.size(); ++i)

@@ -240,6 +240,14 @@ namespace geocone::GEOCONE_DIM
     std::set<dealii::types::boundary_id>
     side_ids(const BoundaryCondition &condition) const;
 
+    /** Boundary id of the side of a given name.
+     *  @param parameter,remedy for the message
+     *  @throws InputError if the mesh has no such side */
+    dealii::types::boundary_id
+    side_id(const std::string &name,
+            const std::string &parameter,
+            const std::string &remedy) const;
+
     /** Boundary ids of the sides, by name of the side. */
     const std::map<std::string, dealii::types::boundary_id> &
     named_sides() const
