@@ -4,10 +4,10 @@
 #include <geocone/base/exceptions.h>
 #include <geocone/base/unused_parameters.h>
 #include <geocone/limit_analysis/bound_analysis.h>
+#include <geocone/output/run_status.h>
 #include <geocone/scene/magnitudes.h>
 
 #include <deal.II/base/mpi.h>
-#include <deal.II/base/utilities.h>
 
 #include <cmath>
 #include <utility>
@@ -261,9 +261,7 @@ namespace geocone::GEOCONE_DIM
   void
   BoundAnalysis::add_level(BoundLevel level, TimePoint &now)
   {
-    dealii::Utilities::System::MemoryStats memory;
-    dealii::Utilities::System::get_memory_stats(memory);
-    level.memory = memory.VmHWM / 1024.;
+    level.memory = peak_memory_of_rank();
     level.number = limit_output.all_records().size() + 1;
     limit_output.add_record(level);
     now.time = level.number;

@@ -6,6 +6,8 @@
 #include <geocone/base/log.h>
 #include <geocone/output/run_status.h>
 
+#include <deal.II/base/utilities.h>
+
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -117,6 +119,14 @@ namespace geocone
   cpu_time_of_rank()
   {
     return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+  }
+
+  double
+  peak_memory_of_rank()
+  {
+    dealii::Utilities::System::MemoryStats memory;
+    dealii::Utilities::System::get_memory_stats(memory);
+    return memory.VmHWM / 1024.; // from kB
   }
 
   void

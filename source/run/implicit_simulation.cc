@@ -671,11 +671,7 @@ namespace geocone::GEOCONE_DIM
       timer.get_summary_data(TimerOutput::total_wall_time);
     const double linear = seconds["factorise"] + seconds["solve"];
     const double steps  = step_loop.wall_time();
-    // Peak of this program; getrusage() includes the parent process.
-    Utilities::System::MemoryStats memory;
-    Utilities::System::get_memory_stats(memory);
-    const double megabytes =
-      Utilities::MPI::sum(memory.VmHWM / 1024., comm); // from kB
+    const double megabytes = Utilities::MPI::sum(peak_memory_of_rank(), comm);
     return {{"total_s", total.wall_time()},
             {"cpu_s", Utilities::MPI::sum(cpu_time_of_rank(), comm)},
             {"step_loop_s", steps},
