@@ -4,8 +4,6 @@
 #include <geocone/cone/second_order_cone.h>
 #include <geocone/limit_analysis/bound_fields.h>
 
-#include <algorithm>
-
 namespace geocone::GEOCONE_DIM
 {
   SimplexTable<Triangles>
@@ -31,17 +29,8 @@ namespace geocone::GEOCONE_DIM
         const Mandel s = from_cone_axes(Mandel(lower.s[p]));
         return units.stress * (i == 2 ? s[2] / sqrt2 : s[i]);
       });
-    // Contribution of a triangle to the gap, over the mean.
-    double total = 0.;
-    for (const double part : gap)
-      total += std::max(part, 0.);
-    table.add(
-      "part_of_gap", 1, [&, total](const Index p, const Index, const Index) {
-        return total > 0. ? gap[p / 3] / total * triangles.cells.size() : 0.;
-      });
-    table.add("material", 1, [&](const Index p, const Index, const Index) {
-      return static_cast<double>(triangles.material[p / 3]);
-    });
+    table.add_parts_of_gap(gap);
+    table.add_materials();
     return table;
   }
 } // namespace geocone::GEOCONE_DIM

@@ -415,13 +415,8 @@ namespace geocone::GEOCONE_DIM
           {"tan_phi_factor", factors.tan_phi},
           {"unit_weight_factor", factors.unit_weight}})
       if (!factor.empty())
-        table.add(
-          name, 1, [&of = factor](const Index p, const Index, const Index) {
-            return of[p / 3];
-          });
-    table.add("material", 1, [&](const Index p, const Index, const Index) {
-      return static_cast<double>(on.triangles.material[p / 3]);
-    });
+        table.add_of_cells(name, factor);
+    table.add_materials();
     reliability_output.write_fields(number, table);
   }
 } // namespace geocone::GEOCONE_DIM

@@ -3,7 +3,6 @@
 
 #include <geocone/limit_analysis/solid_fields.h>
 
-#include <algorithm>
 #include <numeric>
 
 namespace geocone::GEOCONE_DIM
@@ -65,22 +64,9 @@ namespace geocone::GEOCONE_DIM
                    lower.stress[p / 4 * n_of_stress + p % 4]
                                [index_of_component[i][j]];
           });
-    table.add(
-      "dissipation",
-      1,
-      [density = relative_dissipation(tetrahedra, upper)](
-        const Index p, const Index, const Index) { return density[p / 4]; });
-    // Contribution of a cell to the gap, over the mean.
-    double total = 0.;
-    for (const double part : gap)
-      total += std::max(part, 0.);
-    table.add(
-      "part_of_gap", 1, [&, total](const Index p, const Index, const Index) {
-        return total > 0. ? gap[p / 4] / total * gap.size() : 0.;
-      });
-    table.add("material", 1, [&](const Index p, const Index, const Index) {
-      return static_cast<double>(tetrahedra.material[p / 4]);
-    });
+    table.add_of_cells("dissipation", relative_dissipation(tetrahedra, upper));
+    table.add_parts_of_gap(gap);
+    table.add_materials();
     return table;
   }
 } // namespace geocone::GEOCONE_DIM

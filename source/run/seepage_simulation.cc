@@ -55,7 +55,6 @@ namespace geocone::GEOCONE_DIM
     SimplexTable  table(flow.triangles(),
                        dealii::Utilities::MPI::this_mpi_process(comm) == 0);
     const auto   &vertices = flow.triangles().vertices;
-    const auto   &material = flow.triangles().material;
     const auto    q        = flow.velocities();
     using Index            = unsigned int;
     table.add("pore_pressure", 1, [&](const Index, const Index v, const Index) {
@@ -89,9 +88,7 @@ namespace geocone::GEOCONE_DIM
       "seepage_velocity", dim, [&](const Index p, const Index, const Index d) {
         return q[p / 3][d];
       });
-    table.add("material", 1, [&](const Index p, const Index, const Index) {
-      return static_cast<double>(material[p / 3]);
-    });
+    table.add_materials();
     fields->write(table, path, time, comm);
   }
 

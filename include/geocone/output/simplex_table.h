@@ -6,8 +6,10 @@
 
 #include <geocone/output/field_files.h>
 
+#include <algorithm>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 namespace geocone::GEOCONE_DIM
@@ -46,6 +48,38 @@ namespace geocone::GEOCONE_DIM
         const Value       &value)
     {
       columns.push_back({name, n_components, filled(n_components, value)});
+    }
+
+    /** Appends the values of the cells as a column. */
+    void
+    add_of_cells(const std::string &name, std::vector<double> values)
+    {
+      add(name,
+          1,
+          [values = std::move(values)](
+            const std::size_t p, const unsigned int, const unsigned int) {
+            return values[p / corners];
+          });
+    }
+
+    /** Appends the contributions of the cells to the gap between two bounds, over
+     *  their mean. @param gap by cell; empty: unknown */
+    void
+    add_parts_of_gap(std::vector<double> gap)
+    {
+      double total = 0.;
+      for (const double part : gap)
+        total += std::max(part, 0.);
+      gap.resize(mesh.cells.size(), 0.);
+      for (double &part : gap)
+        part = total > 0. ? part / total * gap.size() : 0.;
+      add_of_cells("part_of_gap", std::move(gap));
+    }
+
+    void
+    add_materials()
+    {
+      add_of_cells("material", {mesh.material.begin(), mesh.material.end()});
     }
 
   private:
