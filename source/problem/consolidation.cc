@@ -12,6 +12,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace geocone::GEOCONE_DIM
 {
@@ -97,6 +98,7 @@ namespace geocone::GEOCONE_DIM
               gradient.push_back(functions[q].gradient[i] * to_unit);
             }
         }
+    compute_coupling();
     number_rows();
     const MPI_Comm comm = pressure.get_mpi_communicator();
     solver              = Utilities::MPI::n_mpi_processes(comm) == 1
@@ -152,15 +154,8 @@ namespace geocone::GEOCONE_DIM
           if (row[node_of(c, j)] <= row[node_of(c, i)])
             columns[row[node_of(c, i)]].push_back(row[node_of(c, j)]);
     for (int r = 0; r < n_rows; ++r)
-      {
-        columns[r].push_back(r);
-        std::sort(columns[r].begin(), columns[r].end());
-        columns[r].erase(std::unique(columns[r].begin(), columns[r].end()),
-                         columns[r].end());
-        A.column.insert(A.column.end(), columns[r].begin(), columns[r].end());
-        A.row_start.push_back(A.column.size());
-      }
-    A.value.assign(A.column.size(), 0.);
+      columns[r].push_back(r);
+    A.set_pattern(std::move(columns));
   }
 
   void
@@ -300,15 +295,13 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
-  Consolidation::coupling_of_cell(const unsigned int   c,
-                                  std::vector<double> &G) const
+  Consolidation::compute_coupling()
   {
     const unsigned int n = points.n_nodes;
-    G.resize(dim * n * n_vertices);
-    std::vector<double> column(dim * n);
-    for (unsigned int j = 0; j < n_vertices; ++j)
-      {
-        std::fill(column.begin(), column.end(), 0.);
+    coupling.assign(points.n_cells() * n_vertices * dim * n, 0.);
+    double *column = coupling.data();
+    for (unsigned int c = 0; c < points.n_cells(); ++c)
+      for (unsigned int j = 0; j < n_vertices; ++j, column += dim * n)
         for (unsigned int p = points.first_point[c];
              p < points.first_point[c + 1];
              ++p)
@@ -323,10 +316,17 @@ namespace geocone::GEOCONE_DIM
                   column[dim * i] += weight * points.hoop[n * p + i];
               }
           }
-        turned.forces_to_dofs(c, column.data());
-        for (unsigned int i = 0; i < dim * n; ++i)
-          G[n_vertices * i + j] = column[i];
-      }
+  }
+
+  std::vector<double>
+  Consolidation::coupling_of_cell(const unsigned int c) const
+  {
+    const unsigned int  n_dofs = dim * points.n_nodes;
+    const double *const first  = &coupling[c * n_vertices * n_dofs];
+    std::vector<double> G(first, first + n_vertices * n_dofs);
+    for (unsigned int j = 0; j < n_vertices; ++j)
+      turned.forces_to_dofs(c, &G[j * n_dofs]);
+    return G;
   }
 
   void
@@ -334,16 +334,15 @@ namespace geocone::GEOCONE_DIM
   {
     const Vector        change = solve(divergence(dv)); // -dp/h
     Vector              part(pressure.get_partitioner());
-    std::vector<double> G;
+    const unsigned int  n_dofs = dim * points.n_nodes;
     for (unsigned int c = 0; c < points.n_cells(); ++c)
       {
-        coupling_of_cell(c, G);
-        for (unsigned int i = 0; i < dim * points.n_nodes; ++i)
+        const std::vector<double> G = coupling_of_cell(c);
+        for (unsigned int i = 0; i < n_dofs; ++i)
           for (unsigned int j = 0; j < n_vertices; ++j)
             part.local_element(
               dim * points.nodes[c * points.n_nodes + i / dim] + i % dim) +=
-              h * G[n_vertices * i + j] *
-              change.local_element(dim * node_of(c, j));
+              h * G[n_dofs * j + i] * change.local_element(dim * node_of(c, j));
       }
     part.compress(VectorOperation::add);
     dst += part;
@@ -407,14 +406,7 @@ namespace geocone::GEOCONE_DIM
               columns[velocity].push_back(p);
               columns[p].push_back(velocity);
             }
-    for (std::vector<int> &list : columns)
-      {
-        std::sort(list.begin(), list.end());
-        list.erase(std::unique(list.begin(), list.end()), list.end());
-        matrix.column.insert(matrix.column.end(), list.begin(), list.end());
-        matrix.row_start.push_back(matrix.column.size());
-      }
-    matrix.value.assign(matrix.column.size(), 0.);
+    matrix.set_pattern(std::move(columns));
     return matrix;
   }
 
@@ -443,17 +435,17 @@ namespace geocone::GEOCONE_DIM
           if (a != b)
             matrix.value[matrix.entry(b, a)] -= A.value[e] / h;
         }
-    std::vector<double> G;
+    const unsigned int n_dofs = dim * points.n_nodes;
     for (unsigned int c = 0; c < points.n_cells(); ++c)
       {
-        coupling_of_cell(c, G);
-        for (unsigned int i = 0; i < dim * points.n_nodes; ++i)
+        const std::vector<double> G = coupling_of_cell(c);
+        for (unsigned int i = 0; i < n_dofs; ++i)
           if (const int velocity = row_of_dof(c, i); velocity >= 0)
             for (unsigned int j = 0; j < n_vertices; ++j)
               if (const unsigned int node = node_of(c, j); !is_drained[node])
                 {
                   const int    p = row_of_pressure[row[node]];
-                  const double g = G[n_vertices * i + j];
+                  const double g = G[n_dofs * j + i];
                   matrix.value[matrix.entry(velocity, p)] -= g;
                   matrix.value[matrix.entry(p, velocity)] -= g;
                 }

@@ -94,10 +94,14 @@ namespace geocone::GEOCONE_DIM
     Vector
     solve(const Vector &b) const;
 
-    /** Computes the matrix G of a cell, in rotated dofs.
-     *  @param[out] G rows of velocities, columns of pressures */
+    /** Computes the matrices G of all cells, along the coordinate axes. */
     void
-    coupling_of_cell(const unsigned int c, std::vector<double> &G) const;
+    compute_coupling();
+
+    /** Returns the matrix G of a cell, in rotated dofs, by columns: one for each
+     *  pressure. */
+    std::vector<double>
+    coupling_of_cell(const unsigned int c) const;
 
     /** Row of a dof of a cell in the coupled system; -1 unless it is free. */
     int
@@ -122,6 +126,7 @@ namespace geocone::GEOCONE_DIM
     const unsigned int                  n_vertices; ///< of a cell
     std::vector<double>                 N; ///< vertex functions, by point
     std::vector<dealii::Tensor<1, dim>> gradient;          ///< grad N (1/m)
+    std::vector<double>                 coupling; ///< G by cell and column
     std::vector<dealii::SymmetricTensor<2, dim>> mobility; ///< k/gamma
     std::vector<int>              row; ///< in A, by local node; -1: none
     SparseMatrix                  A;
