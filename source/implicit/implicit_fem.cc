@@ -110,6 +110,58 @@ namespace geocone::GEOCONE_DIM
     scene = &scene_;
     mesh  = &mesh_;
     space = &space_;
+    check_scene(newton.linear_solver());
+    if (!scene->structures.list.empty())
+      bars = std::make_unique<Bars>(scene->structures, mesh_, space_);
+    points = make_quadrature_points(*scene, mesh_, space_);
+    if (scene->loading.changes_body())
+      {
+        scene->contacts.refuse("stages that remove or add material, with FEM",
+                               "let one of the bodies be an obstacle, or set "
+                               "Discretisation/Method = MPM");
+        points = quadrature_points_of(
+          *scene, mesh_, space_, {}, [&](const BackgroundMesh::Cell &cell) {
+            return !scene->loading.adds(
+              scene->materials.name(cell->material_id()));
+          });
+      }
+    check_removals(*scene, mesh_, mesh_.triangulation().get_communicator());
+    const std::string &first_stage = scene->loading.list.front()->name;
+    constraints =
+      std::make_unique<Constraints>(*scene, mesh_, space_, first_stage);
+    obstacles = std::make_unique<ObstacleContact>(
+      *scene, mesh_, space_, constraints.get());
+    kinematics.velocity.reinit(space_.partitioner());
+    kinematics.displacement.reinit(space_.partitioner());
+    kinematics.supports.resize(scene->supports().size());
+    for (unsigned int node = 0; node < space_.n_owned_nodes(); ++node)
+      for (unsigned int c = 0; c < dim; ++c)
+        kinematics.velocity.local_element(dim * node + c) =
+          scene->initial_velocity.at(space_.node_positions()[node])[c];
+
+    system = std::make_unique<LinearSystem>(
+      newton.linear_solver(),
+      mesh_.triangulation().get_communicator(),
+      scene->materials.traits().symmetric && !obstacles->exists() &&
+        !has_consolidation);
+    if (has_consolidation)
+      pore_pressure.reinit(space_.partitioner());
+    begin(points, timer);
+    unknowns = constraints->n_rows;
+    constraints->check_axis(mesh_, space_);
+    check_resistance(points, mesh_.triangulation().get_communicator());
+    newton.check(*problem);
+    check_stages(points);
+    const std::string warning = constraints->warn_of_nonlinear_values();
+    begin_stage(*scene->loading.list.front());
+    if (!begun)
+      begin(points, timer);
+    return warning;
+  }
+
+  void
+  ImplicitFEM::check_scene(const LinearSolverParameters &linear_solver) const
+  {
     for (const auto &condition : scene->dirichlet.list)
       if (condition->moves_with_body())
         throw InputError(condition->parameter("Imposed on"),
@@ -141,70 +193,33 @@ namespace geocone::GEOCONE_DIM
                            integration.word(),
                            "backward Euler with structures",
                            "take it, or leave out 'Structures/Names'");
-        bars = std::make_unique<Bars>(scene->structures, mesh_, space_);
       }
     ScaledLoads::check(*scene);
     if (has_consolidation)
       {
         check_consolidation();
-        if (newton.linear_solver().name ==
-            LinearSolverParameters::Name::multigrid)
+        if (linear_solver.name == LinearSolverParameters::Name::multigrid)
           throw InputError("Linear solver/Name",
-                           newton.linear_solver().name.word(),
+                           linear_solver.name.word(),
                            "a direct solver with 'Time stepping/Consolidation'",
                            "set it to automatic");
       }
     check_axisymmetric_body(*scene);
     integration.check(*scene, "Time stepping/");
-    points = make_quadrature_points(*scene, mesh_, space_);
-    if (scene->loading.changes_body())
-      {
-        scene->contacts.refuse("stages that remove or add material, with FEM",
-                               "let one of the bodies be an obstacle, or set "
-                               "Discretisation/Method = MPM");
-        points = quadrature_points_of(
-          *scene, mesh_, space_, {}, [&](const BackgroundMesh::Cell &cell) {
-            return !scene->loading.adds(
-              scene->materials.name(cell->material_id()));
-          });
-      }
-    check_removals(*scene, mesh_, mesh_.triangulation().get_communicator());
-    const std::string &first_stage = scene->loading.list.front()->name;
-    constraints =
-      std::make_unique<Constraints>(*scene, mesh_, space_, first_stage);
-    obstacles   = std::make_unique<ObstacleContact>(
-      *scene, mesh_, space_, constraints.get());
-    kinematics.velocity.reinit(space_.partitioner());
-    kinematics.displacement.reinit(space_.partitioner());
-    kinematics.supports.resize(scene->supports().size());
-    for (unsigned int node = 0; node < space_.n_owned_nodes(); ++node)
-      for (unsigned int c = 0; c < dim; ++c)
-        kinematics.velocity.local_element(dim * node + c) =
-          scene->initial_velocity.at(space_.node_positions()[node])[c];
+  }
 
-    system = std::make_unique<LinearSystem>(
-      newton.linear_solver(),
-      mesh_.triangulation().get_communicator(),
-      scene->materials.traits().symmetric && !obstacles->exists() &&
-        !has_consolidation);
-    if (has_consolidation)
-      pore_pressure.reinit(space_.partitioner());
-    begin(points, timer);
-    unknowns = constraints->n_rows;
-    constraints->check_axis(mesh_, space_);
-    check_resistance(points, mesh_.triangulation().get_communicator());
-    newton.check(*problem);
-    // Evaluates formulas just after the beginning of each stage, to reject
-    // those without a value, and checks its supports.
+  void
+  ImplicitFEM::check_stages(const MaterialPoints &points)
+  {
     Vector v     = problem->make_vector();
     double start = 0.;
     for (const auto &stage : scene->loading.list)
       {
-        if (constraints->begin_stage(mesh_, stage->name) && !inertia &&
+        if (constraints->begin_stage(*mesh, stage->name) && !inertia &&
             !obstacles->exists() && !scene->loading.changes_body())
           try
             {
-              constraints->check_support(mesh_, space_, points);
+              constraints->check_support(*mesh, *space, points);
             }
           catch (const InputError &error)
             {
@@ -215,11 +230,6 @@ namespace geocone::GEOCONE_DIM
         constraints->set_values(v, start + 1e-6 * stage->duration);
         start += stage->duration;
       }
-    const std::string warning = constraints->warn_of_nonlinear_values();
-    begin_stage(*scene->loading.list.front());
-    if (!begun)
-      begin(points, timer);
-    return warning;
   }
 
   void

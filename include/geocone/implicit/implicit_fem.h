@@ -122,6 +122,16 @@ namespace geocone::GEOCONE_DIM
     void
     take_cells(const std::vector<bool> &is_there, MaterialPoints &points) const;
 
+    /** Rejects scenes that finite elements do not support. @throws InputError */
+    void
+    check_scene(const LinearSolverParameters &linear_solver) const;
+
+    /** Evaluates formulas just after the beginning of each stage, to reject those
+     *  without a value, and checks the supports of the stage. Collective.
+     *  @throws InputError */
+    void
+    check_stages(const MaterialPoints &points);
+
     /** Rejects scenes and elements without consolidation.
      *  @throws InputError */
     void
