@@ -63,85 +63,15 @@ namespace geocone::GEOCONE_DIM
     double     largest_k = 0.;
     for (unsigned int p = 0; p < strain.size(); ++p)
       {
-        const unsigned int material   = points.material[p];
         const Elasticity elasticity = elasticity_at_start(materials, points, p);
-        Mandel             s          = iterate[p];
+        Mandel           s          = iterate[p];
         if (moves)
           s += slope[p] * (strain[p] - last_strain[p]);
-
-        mode[p]            = Mode::elastic;
-        const double rho_p = rho * elasticity.two_G;
         const Mandel z =
           elasticity.strain(Mandel(s - points.stress[p])) - strain[p];
-        if (cones[material])
-          {
-            const Mandel z_axes  = to_cone_axes(z);
-            const Mandel x       = to_cone_axes(s);
-            const auto   cone_of = [&](const double slip) {
-              return varies[material]
-                         ? *materials[material].end_cone(
-                           points.stress[p], points.history_of(p), step, slip)
-                         : *cones[material];
-            };
-            const auto project_on =
-              [&](const FlowCone &cone, Mandel &projected, MandelMatrix *J) {
-                const FlowCone convex{cone.a, cone.a, cone.k, cone.tension};
-                return return_map(convex,
-                                  1.,
-                                  1.,
-                                  Mandel(x - rho_p * cone.psi(z_axes)),
-                                  projected,
-                                  J);
-              };
-            const double   slip = FlowCone::tangential_norm(z_axes);
-            const FlowCone cone = cone_of(slip);
-            Mandel         projected;
-            MandelMatrix   J;
-            mode[p]                = project_on(cone, projected, &J);
-            const Mandel R         = x - projected;
-            error.largest_residual = std::max(error.largest_residual, R.norm());
-            error.stress_scale     = std::max(error.stress_scale, x.norm());
-            largest_k              = std::max(largest_k, cone.k);
-            if (mode[p] != Mode::elastic)
-              {
-                const double compliance = 1. / elasticity.two_G;
-                Mandel       S          = Mandel::Constant(compliance);
-                S[0]                    = 1. / elasticity.normal_stiffness();
-                MandelMatrix B          = rho_p * J * cone.psi_slope(z_axes);
-                if (materials[material].hardens())
-                  B -= slope_by_slip(
-                         cone_of, project_on, slip, compliance * x.norm()) *
-                       tangential_direction(z_axes).transpose();
-                const MandelMatrix A =
-                  MandelMatrix::Identity() - J + B * S.asDiagonal();
-                const auto factors = A.partialPivLu();
-                iterate[p] = from_cone_axes(Mandel(x - factors.solve(R)));
-                slope[p]   = from_cone_axes(MandelMatrix(factors.solve(B)));
-              }
-          }
-        else if (const auto at = materials[material].project_natural_map(
-                   s,
-                   z,
-                   rho_with_edges * rho_p,
-                   points.stress[p],
-                   points.history_of(p),
-                   step))
-          {
-            mode[p]                = at->mode;
-            const Mandel R         = s - at->stress;
-            error.largest_residual = std::max(error.largest_residual, R.norm());
-            error.stress_scale     = std::max(error.stress_scale, s.norm());
-            if (mode[p] != Mode::elastic)
-              {
-                const MandelMatrix B = rho_with_edges * rho_p * at->slope *
-                                       at->psi_slope,
-                                   A = MandelMatrix::Identity() - at->slope +
-                                       B * compliance[material];
-                const auto factors = A.partialPivLu();
-                iterate[p]         = s - factors.solve(R);
-                slope[p]           = factors.solve(B);
-              }
-          }
+        mode[p] = cones[points.material[p]]
+                    ? update_on_cone(p, elasticity, s, z, error, largest_k)
+                    : update_with_edges(p, elasticity, s, z, error);
         if (mode[p] == Mode::elastic)
           {
             // J = I, for which the linear law is solved at once.
@@ -152,5 +82,84 @@ namespace geocone::GEOCONE_DIM
     error.stress_scale += largest_k;
     last_strain = strain;
     return error;
+  }
+
+  Mode
+  NaturalMap::update_on_cone(const unsigned int p,
+                             const Elasticity  &elasticity,
+                             const Mandel      &s,
+                             const Mandel      &z,
+                             Error             &error,
+                             double            &largest_k)
+  {
+    const unsigned int material = points.material[p];
+    const double       rho_p    = rho * elasticity.two_G;
+    const Mandel       z_axes   = to_cone_axes(z);
+    const Mandel       x        = to_cone_axes(s);
+    const auto         cone_of  = [&](const double slip) {
+      return varies[material]
+                        ? *materials[material].end_cone(
+                   points.stress[p], points.history_of(p), step, slip)
+                        : *cones[material];
+    };
+    const auto project_on =
+      [&](const FlowCone &cone, Mandel &projected, MandelMatrix *J) {
+        const FlowCone convex{cone.a, cone.a, cone.k, cone.tension};
+        return return_map(
+          convex, 1., 1., Mandel(x - rho_p * cone.psi(z_axes)), projected, J);
+      };
+    const double   slip = FlowCone::tangential_norm(z_axes);
+    const FlowCone cone = cone_of(slip);
+    Mandel         projected;
+    MandelMatrix   J;
+    const Mode     mode    = project_on(cone, projected, &J);
+    const Mandel   R       = x - projected;
+    error.largest_residual = std::max(error.largest_residual, R.norm());
+    error.stress_scale     = std::max(error.stress_scale, x.norm());
+    largest_k              = std::max(largest_k, cone.k);
+    if (mode == Mode::elastic)
+      return mode;
+
+    const double compliance_of_shear = 1. / elasticity.two_G;
+    Mandel       S                   = Mandel::Constant(compliance_of_shear);
+    S[0]                             = 1. / elasticity.normal_stiffness();
+    MandelMatrix B                   = rho_p * J * cone.psi_slope(z_axes);
+    if (materials[material].hardens())
+      B -= slope_by_slip(
+             cone_of, project_on, slip, compliance_of_shear * x.norm()) *
+           tangential_direction(z_axes).transpose();
+    const MandelMatrix A = MandelMatrix::Identity() - J + B * S.asDiagonal();
+    const auto         factors = A.partialPivLu();
+    iterate[p]                 = from_cone_axes(Mandel(x - factors.solve(R)));
+    slope[p]                   = from_cone_axes(MandelMatrix(factors.solve(B)));
+    return mode;
+  }
+
+  Mode
+  NaturalMap::update_with_edges(const unsigned int p,
+                                const Elasticity  &elasticity,
+                                const Mandel      &s,
+                                const Mandel      &z,
+                                Error             &error)
+  {
+    const unsigned int material = points.material[p];
+    const double       rho_p    = rho_with_edges * (rho * elasticity.two_G);
+    const auto         at       = materials[material].project_natural_map(
+      s, z, rho_p, points.stress[p], points.history_of(p), step);
+    if (!at)
+      return Mode::elastic;
+    const Mandel R         = s - at->stress;
+    error.largest_residual = std::max(error.largest_residual, R.norm());
+    error.stress_scale     = std::max(error.stress_scale, s.norm());
+    if (at->mode == Mode::elastic)
+      return at->mode;
+
+    const MandelMatrix B = rho_p * at->slope * at->psi_slope,
+                       A = MandelMatrix::Identity() - at->slope +
+                           B * compliance[material];
+    const auto factors = A.partialPivLu();
+    iterate[p]         = s - factors.solve(R);
+    slope[p]           = factors.solve(B);
+    return at->mode;
   }
 } // namespace geocone::GEOCONE_DIM

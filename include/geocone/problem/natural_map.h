@@ -74,6 +74,27 @@ namespace geocone::GEOCONE_DIM
     }
 
   private:
+    /** Updates the stress and the slope of a point by the projection onto its
+     *  cone, unless that leaves s unchanged (elastic).
+     *  @param s, z stress (Pa) and plastic strain of the last linearisation
+     *  @param[in,out] largest_k over the points so far (Pa) */
+    Mode
+    update_on_cone(const unsigned int p,
+                   const Elasticity  &elasticity,
+                   const Mandel      &s,
+                   const Mandel      &z,
+                   Error             &error,
+                   double            &largest_k);
+
+    /** As update_on_cone(), by the projection of a law whose yield surface has
+     *  edges; elastic for laws without one. */
+    Mode
+    update_with_edges(const unsigned int p,
+                      const Elasticity  &elasticity,
+                      const Mandel      &s,
+                      const Mandel      &z,
+                      Error             &error);
+
     const MaterialPoints                &points;
     const Materials                     &materials;
     const StepData                       step;
