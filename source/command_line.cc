@@ -15,6 +15,7 @@
 #include <cstring>
 #include <filesystem>
 #include <iostream>
+#include <map>
 #include <new>
 
 #include <fcntl.h>
@@ -121,6 +122,16 @@ namespace geocone
                         "'\n  remedy:  see " + program + " --help");
     };
     bool checks = false;
+    const std::map<std::string, bool *> flags  = {
+       {"--quiet", &call.quiet},
+       {"--dry-run", &call.dry_run},
+       {"--picture", &call.picture},
+       {"--check", &checks},
+       {"--force", &call.force},
+       {"--run-gmsh-script", &call.may_run_scripts},
+       {option_for_libraries, &may_load_libraries()},
+       {"--schema", &call.schema},
+       {"--version", &call.version}};
     for (int i = 1; i < argc; ++i)
       {
         const std::string argument = argv[i];
@@ -135,20 +146,8 @@ namespace geocone
           }
         else if (argument == "--set")
           call.overrides.push_back(value(i));
-        else if (argument == "--quiet")
-          call.quiet = true;
-        else if (argument == "--dry-run")
-          call.dry_run = true;
-        else if (argument == "--picture")
-          call.picture = true;
-        else if (argument == "--check")
-          checks = call.dry_run = true;
-        else if (argument == "--force")
-          call.force = true;
-        else if (argument == "--run-gmsh-script")
-          call.may_run_scripts = true;
-        else if (argument == option_for_libraries)
-          may_load_libraries() = true;
+        else if (const auto flag = flags.find(argument); flag != flags.end())
+          *flag->second = true;
         else if (argument == "--help" || argument == "-h")
           {
             // The names of sections have blanks: all words up to the next option.
@@ -157,10 +156,6 @@ namespace geocone
               *call.help +=
                 (call.help->empty() ? "" : " ") + std::string(argv[++i]);
           }
-        else if (argument == "--schema")
-          call.schema = true;
-        else if (argument == "--version")
-          call.version = true;
         else if (argument == "--defaults")
           call.defaults_file = value(i);
         else if (argument == "--resume")
@@ -179,6 +174,7 @@ namespace geocone
           throw InputError("a second parameter file '" + printable(argument) +
                            "'\n  remedy:  give one; overrides go into --set");
       }
+    call.dry_run = call.dry_run || checks;
     if (checks && (call.files.empty() || !call.file.empty()))
       throw InputError("--check needs parameter files, after it\n"
                        "  remedy:  see " +
