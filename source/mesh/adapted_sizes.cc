@@ -39,20 +39,15 @@ namespace geocone::GEOCONE_DIM
         }
       return found;
     }
-  } // namespace
 
-  CellSizes
-  adapted_sizes(const Triangles           &triangles,
-                const std::vector<double> &error,
-                const double               n_wanted,
-                std::vector<Fan>           fans)
-  {
-    const unsigned int n = triangles.cells.size();
-    // Means over the cells at each vertex.
-    const auto at_vertices = [&](const auto &of_cell) {
+    /** Means of a function of a cell's number over the cells at each vertex. */
+    template <typename OfCell>
+    std::vector<double>
+    means_at_vertices(const Triangles &triangles, const OfCell &of_cell)
+    {
       std::vector<double>       mean(triangles.vertices.size(), 0.);
       std::vector<unsigned int> n_cells(mean.size(), 0);
-      for (unsigned int c = 0; c < n; ++c)
+      for (unsigned int c = 0; c < triangles.cells.size(); ++c)
         for (const unsigned int v : triangles.cells[c])
           {
             mean[v] += of_cell(c);
@@ -61,9 +56,40 @@ namespace geocone::GEOCONE_DIM
       for (unsigned int v = 0; v < mean.size(); ++v)
         mean[v] /= std::max(n_cells[v], 1u);
       return mean;
-    };
-    const std::vector<double> error_around =
-      at_vertices([&](const unsigned int c) { return std::max(error[c], 0.); });
+    }
+
+    /** Ratios of new to present sizes of cells, in proportion to what is wished
+     *  for but between 0.3 and 1.6, with about n_wanted cells in all. */
+    std::vector<double>
+    bounded_ratios(std::vector<double> wish, const double n_wanted)
+    {
+      const auto ratio = [](const double factor, const double wished) {
+        return std::clamp(factor * wished, 0.3, 1.6);
+      };
+      double lower_factor = 1e-30, upper_factor = 1e30;
+      for (unsigned int i = 0; i < 200; ++i)
+        {
+          const double middle = std::sqrt(lower_factor * upper_factor);
+          double       cells  = 0.;
+          for (const double wished : wish)
+            cells += 1. / (ratio(middle, wished) * ratio(middle, wished));
+          (cells > n_wanted ? lower_factor : upper_factor) = middle;
+        }
+      for (double &wished : wish)
+        wished = ratio(upper_factor, wished);
+      return wish;
+    }
+  } // namespace
+
+  CellSizes
+  adapted_sizes(const Triangles           &triangles,
+                const std::vector<double> &error,
+                const double               n_wanted,
+                std::vector<Fan>           fans)
+  {
+    const unsigned int        n            = triangles.cells.size();
+    const std::vector<double> error_around = means_at_vertices(
+      triangles, [&](const unsigned int c) { return std::max(error[c], 0.); });
     const double least =
       1e-12 * std::max(0., *std::max_element(error.begin(), error.end()));
     std::vector<double> wish(n);
@@ -74,19 +100,7 @@ namespace geocone::GEOCONE_DIM
           smooth += error_around[v] / 3.;
         wish[c] = std::pow(std::max(smooth, least), -1. / 3.);
       }
-    // Ratio of the number of cells with a given factor to the wanted one.
-    const auto ratio = [&](const double factor, const unsigned int c) {
-      return std::clamp(factor * wish[c], 0.3, 1.6);
-    };
-    double lower_factor = 1e-30, upper_factor = 1e30;
-    for (unsigned int i = 0; i < 200; ++i)
-      {
-        const double middle = std::sqrt(lower_factor * upper_factor);
-        double       cells  = 0.;
-        for (unsigned int c = 0; c < n; ++c)
-          cells += 1. / (ratio(middle, c) * ratio(middle, c));
-        (cells > n_wanted ? lower_factor : upper_factor) = middle;
-      }
+    const std::vector<double> ratio = bounded_ratios(wish, n_wanted);
     // Sizes of equilateral triangles of the same area.
     std::vector<double> size_of_cell(n);
     for (unsigned int c = 0; c < n; ++c)
@@ -106,16 +120,17 @@ namespace geocone::GEOCONE_DIM
         const auto mean_ratio = [&](const std::vector<unsigned int> &some) {
           double sum = 0.;
           for (const unsigned int c : some)
-            sum += ratio(upper_factor, c);
+            sum += ratio[c];
           return std::min(1., sum / some.size());
         };
         fan.inner_radius *= mean_ratio(cells.innermost);
         fan.radius = std::max(2. * fan.inner_radius,
                               fan.radius * mean_ratio(cells.outermost));
       }
-    const std::vector<double> size = at_vertices([&](const unsigned int c) {
-      return ratio(upper_factor, c) * size_of_cell[c];
-    });
+    const std::vector<double> size =
+      means_at_vertices(triangles, [&](const unsigned int c) {
+        return ratio[c] * size_of_cell[c];
+      });
     CellSizes                 sizes;
     sizes.fans = std::move(fans);
     for (const auto &cell : triangles.cells)

@@ -467,17 +467,11 @@ namespace geocone::GEOCONE_DIM
     sum_over_ranks(arrays);
   }
 
-  void
-  CartesianTransfer::sum_over_ranks(const std::vector<Shared> &arrays)
+  std::vector<CartesianTransfer::Range>
+  CartesianTransfer::shared_columns() const
   {
-    if (n_ranks == 1)
-      return;
-    // Columns shared with each other rank, with all their rows.
-    const unsigned int       stride = column_size();
-    std::vector<Range>       shared(n_ranks);
-    Range                    all = {stored[0].end, stored[0].begin};
-    std::vector<MPI_Request> requests;
-    receive.resize(n_ranks);
+    std::vector<Range> shared(n_ranks);
+    Range              all = {stored[0].end, stored[0].begin};
     for (unsigned int r = 0; r < n_ranks; ++r)
       {
         shared[r] = {std::max(stored[0].begin, stored_columns[r].begin),
@@ -490,9 +484,22 @@ namespace geocone::GEOCONE_DIM
         all.begin = std::min(all.begin, shared[r].begin);
         all.end   = std::max(all.end, shared[r].end);
       }
+    shared[rank] = all;
+    return shared;
+  }
+
+  void
+  CartesianTransfer::sum_over_ranks(const std::vector<Shared> &arrays)
+  {
+    if (n_ranks == 1)
+      return;
+    const std::vector<Range> shared = shared_columns();
+    const Range             &all    = shared[rank];
     if (all.size() <= 0)
       return;
-    shared[rank] = all;
+    const unsigned int       stride = column_size();
+    std::vector<MPI_Request> requests;
+    receive.resize(n_ranks);
 
     unsigned int per_node = 0;
     for (const Shared &array : arrays)

@@ -135,6 +135,11 @@ namespace geocone::GEOCONE_DIM
       unsigned int per_node;
     };
 
+    /** Columns shared with each other rank, with all their rows; at this rank's
+     *  place, the range that contains them all, which may be empty. */
+    std::vector<Range>
+    shared_columns() const;
+
     /** Sums nodal arrays over the ranks that share node columns. Collective. */
     void
     sum_over_ranks(const std::vector<Shared> &arrays);
