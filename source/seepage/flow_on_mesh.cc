@@ -283,6 +283,46 @@ namespace geocone::GEOCONE_DIM
     rate_of_storage = (stored() - before) / step.duration;
   }
 
+  Seepage::Levels
+  FlowOnMesh::levels_within(const Seepage::Step   &step,
+                            const Seepage::Levels &from,
+                            const double           left) const
+  {
+    const double    part   = std::min(1. - left / step.duration, 1.);
+    Seepage::Levels levels = step.levels;
+    for (unsigned int b = 0; b < levels.size(); ++b)
+      if (const auto prescribed =
+            scene.water.seepage.list[b]->prescribed_level(step.time - left))
+        levels[b] = prescribed;
+      else if (from[b] && levels[b])
+        *levels[b] = (1. - part) * *from[b] + part * *levels[b];
+    return levels;
+  }
+
+  void
+  FlowOnMesh::accept(const UnsaturatedFlow &flow,
+                     FlowSolution           next,
+                     const double           h)
+  {
+    const std::vector<double> before = flow.water(solution.head),
+                              after  = flow.water(next.head);
+    double gain = 0., moved = 0.;
+    for (unsigned int v = 0; v < after.size(); ++v)
+      {
+        gain += after[v] - before[v];
+        moved += std::abs(after[v] - before[v]);
+      }
+    rate_of_storage = gain / h;
+    next.iterations += steps_taken > 0 ? solution.iterations : 0;
+    solution   = std::move(next);
+    double sum = -rate_of_storage;
+    for (const double inflow : solution.inflow)
+      sum += inflow;
+    const double size = std::max(discharge(), moved / h);
+    if (flows() || moved > 0.)
+      largest_error = std::max(largest_error, std::abs(sum) / size);
+  }
+
   void
   FlowOnMesh::advance_unsaturated(const Seepage::Step &step)
   {
@@ -303,20 +343,12 @@ namespace geocone::GEOCONE_DIM
         double h = std::min(step_size, left);
         if (left > h && left < 2. * h)
           h = left / 2.;
-        const double    part   = std::min(1. - (left - h) / step.duration, 1.);
-        Seepage::Levels levels = step.levels;
-        for (unsigned int b = 0; b < levels.size(); ++b)
-          if (const auto prescribed =
-                scene.water.seepage.list[b]->prescribed_level(step.time - left +
-                                                              h))
-            levels[b] = prescribed;
-          else if (from[b] && levels[b])
-            *levels[b] = (1. - part) * *from[b] + part * *levels[b];
-        auto [next, converged] =
-          flow.step(conditions(levels, step.time - left + h, h),
-                    h,
-                    solution.head,
-                    solution.s);
+        auto [next, converged] = flow.step(
+          conditions(
+            levels_within(step, from, left - h), step.time - left + h, h),
+          h,
+          solution.head,
+          solution.s);
         std::vector<double> change = last_change;
         for (double &one : change)
           one *= last_step > 0. ? h / last_step : 0.;
@@ -337,25 +369,7 @@ namespace geocone::GEOCONE_DIM
                    "retention curves, or change 'Seepage/Cells'",
                    step.time - left,
                    h));
-        const std::vector<double> before = flow.water(solution.head),
-                                  after  = flow.water(next.head);
-        double gain = 0., moved = 0.;
-        for (unsigned int v = 0; v < after.size(); ++v)
-          {
-            gain += after[v] - before[v];
-            moved += std::abs(after[v] - before[v]);
-          }
-        rate_of_storage = gain / h;
-        const unsigned int iterations =
-          (steps_taken > 0 ? solution.iterations : 0) + next.iterations;
-        solution            = std::move(next);
-        solution.iterations = iterations;
-        double sum          = -rate_of_storage;
-        for (const double inflow : solution.inflow)
-          sum += inflow;
-        const double size = std::max(discharge(), moved / h);
-        if (flows() || moved > 0.)
-          largest_error = std::max(largest_error, std::abs(sum) / size);
+        accept(flow, std::move(next), h);
         last_change = std::move(change);
         last_step   = h;
         left -= h;

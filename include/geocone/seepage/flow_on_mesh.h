@@ -192,6 +192,19 @@ namespace geocone::GEOCONE_DIM
     void
     advance_unsaturated(const Seepage::Step &step);
 
+    /** Water levels at a time within a step: the prescribed ones, otherwise in
+     *  proportion between those at both ends of the step.
+     *  @param left time to the end of the step (s) */
+    Seepage::Levels
+    levels_within(const Seepage::Step   &step,
+                  const Seepage::Levels &from,
+                  const double           left) const;
+
+    /** Takes over the solution after a time step of h seconds, and records the
+     *  rate of storage and the error of the water balance. */
+    void
+    accept(const UnsaturatedFlow &flow, FlowSolution next, const double h);
+
     /** Error indicator of each cell, computed from the jumps of the normal
      *  velocity across the edges of the cell. */
     std::vector<double>
