@@ -218,6 +218,35 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
+  CellPressures::next_change(const unsigned int cell,
+                             const unsigned int step,
+                             const double       difference,
+                             const double       scale)
+  {
+    const double after = slope(cell);
+    if (step == whole_steps)
+      {
+        for (unsigned int p = points.first_point[cell];
+             p < points.first_point[cell + 1];
+             ++p)
+          growth[p] = change[p] = 0.;
+        first_slope[cell] = first_difference[cell] = 0.;
+      }
+    else if (step > whole_steps && after > -overshoot * first_slope[cell] &&
+             difference >= first_difference[cell] &&
+             difference > near_solution * scale)
+      shorten(
+        cell,
+        std::max(first_slope[cell] / (first_slope[cell] - after), shortest));
+    else
+      {
+        shift(cell);
+        first_slope[cell]      = slope(cell);
+        first_difference[cell] = difference;
+      }
+  }
+
+  void
   CellPressures::equalise(
     const std::function<void(const unsigned int, const unsigned int)> &update,
     const std::vector<Mandel>                                         &stress,
@@ -267,29 +296,8 @@ namespace geocone::GEOCONE_DIM
                 take_larger(largest_difference, difference);
                 continue;
               }
-            unequal[n++]       = c;
-            const double after = slope(c);
-            if (step == whole_steps)
-              {
-                for (unsigned int p = points.first_point[c];
-                     p < points.first_point[c + 1];
-                     ++p)
-                  growth[p] = change[p] = 0.;
-                first_slope[c] = first_difference[c] = 0.;
-              }
-            else if (step > whole_steps &&
-                     after > -overshoot * first_slope[c] &&
-                     difference >= first_difference[c] &&
-                     difference > near_solution * scale)
-              shorten(
-                c,
-                std::max(first_slope[c] / (first_slope[c] - after), shortest));
-            else
-              {
-                shift(c);
-                first_slope[c]      = slope(c);
-                first_difference[c] = difference;
-              }
+            unequal[n++] = c;
+            next_change(c, step, difference, scale);
             for (unsigned int p = points.first_point[c];
                  p < points.first_point[c + 1];
                  ++p)

@@ -180,6 +180,16 @@ namespace geocone::GEOCONE_DIM
     void
     shorten(const unsigned int cell, const double part);
 
+    /** Chooses the next change of the volumetric strains of a cell: Newton's
+     *  step, its last one shortened, or a start from zero.
+     *  @param step of Newton's method @param difference of the mean stresses from
+     *  a polynomial (Pa) @param scale largest stress (Pa) */
+    void
+    next_change(const unsigned int cell,
+                const unsigned int step,
+                const double       difference,
+                const double       scale);
+
     /** Directional derivative sum_p V_p pi_p dt_p of a cell's potential along
      *  the last Newton step dt_p, with the mean stresses pi_p. The potential, a
      *  function of the t_p, is minimal if the pi_p are a polynomial, and
