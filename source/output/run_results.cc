@@ -281,12 +281,11 @@ namespace geocone::GEOCONE_DIM
   }
 
   Json
-  RunOutput::results() const
+  RunOutput::newton_statistics() const
   {
     unsigned int iterations = 0, most = 0, substeps = 0, failures = 0,
                  regularised = 0, lagging = 0, at_floor = 0;
-    Quality quality;
-    double  residual = 0., lag = 0., identity = 0.;
+    double residual = 0., lag = 0.;
     for (const ImplicitRecord &record : records)
       {
         regularised += record.regularised;
@@ -294,11 +293,34 @@ namespace geocone::GEOCONE_DIM
         most = std::max(most, record.iterations);
         substeps += record.substeps;
         failures += record.failures;
-        quality.take_worse(record.last.quality);
         residual = std::max(residual, record.last.newton.residual);
         lag      = std::max(lag, record.last.newton.friction_lag);
         lagging += record.last.newton.friction_lag > 0.;
         at_floor += record.last.newton.at_rounding_floor;
+      }
+    return {{"steps", records.size()},
+            {"substeps", substeps},
+            {"iterations_mean",
+             records.empty() ? 0. : double(iterations) / records.size()},
+            {"iterations_per_substep",
+             substeps == 0 ? 0. : double(iterations) / substeps},
+            {"iterations_max", most},
+            {"failures", failures},
+            {"regularised", regularised},
+            {"residual_max", residual},
+            {"steps_at_rounding_floor", at_floor},
+            {"steps_with_friction_lag", lagging},
+            {"friction_lag_max", lag}};
+  }
+
+  Json
+  RunOutput::results() const
+  {
+    Quality quality;
+    double  identity = 0.;
+    for (const ImplicitRecord &record : records)
+      {
+        quality.take_worse(record.last.quality);
         identity = std::max(identity, record.last.identity_error);
       }
 
@@ -313,20 +335,7 @@ namespace geocone::GEOCONE_DIM
             finite_or_null(pressures[i]);
         add_points(json);
       }
-    json["newton"] = {
-      {"steps", records.size()},
-      {"substeps", substeps},
-      {"iterations_mean",
-       records.empty() ? 0. : double(iterations) / records.size()},
-      {"iterations_per_substep",
-       substeps == 0 ? 0. : double(iterations) / substeps},
-      {"iterations_max", most},
-      {"failures", failures},
-      {"regularised", regularised},
-      {"residual_max", residual},
-      {"steps_at_rounding_floor", at_floor},
-      {"steps_with_friction_lag", lagging},
-      {"friction_lag_max", lag}};
+    json["newton"] = newton_statistics();
     if (scene->materials.traits().has_friction_memory())
       json["friction_memory"] = friction_memory();
     if (scene->has_contact())

@@ -155,6 +155,12 @@ namespace geocone::GEOCONE_DIM
                        "on nodes or segments");
     find_cells(points);
 
+    return warning_of_few_particles();
+  }
+
+  std::string
+  Particles::warning_of_few_particles() const
+  {
     const unsigned int k    = seeding.points_per_direction();
     const unsigned int want = mesh->is_simplicial() ? 4 : 3;
     if (space->degree() == 3 && !space->is_spline() && k > 0 && k < want)

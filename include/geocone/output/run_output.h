@@ -197,6 +197,8 @@ namespace geocone::GEOCONE_DIM
     void
     add_plate(Json &json, const unsigned int plate) const;
     Json
+    newton_statistics() const;
+    Json
     friction_memory() const;
     Json
     motion() const; ///< quality of particle motion

@@ -141,6 +141,11 @@ namespace geocone::GEOCONE_DIM
     std::pair<std::string, unsigned int>
     find_cells(MaterialPoints &points) const;
 
+    /** A warning if cubic elements have fewer particles per cell than they need,
+     *  otherwise empty. */
+    std::string
+    warning_of_few_particles() const;
+
     /** Determines the node numbers and evaluates the shape functions at all
      *  particles. */
     void
