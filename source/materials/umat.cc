@@ -31,8 +31,6 @@ namespace geocone::GEOCONE_DIM
       return umat_component < 3 ? 1. : sqrt2;
     }
 
-    using UmatComponents = std::array<double, n_spatial>;
-
     UmatComponents
     umat_stress(const SpatialMandel &t)
     {
@@ -206,14 +204,14 @@ namespace geocone::GEOCONE_DIM
     SpatialLaw::advance(block, counts);
   }
 
-  Mode
-  Umat::respond(const SpatialMandel &strain,
-                const SpatialMandel &stress_n,
-                const double        *history_n,
-                const StepData      &step,
-                SpatialMandel       &stress,
-                double              *history,
-                SpatialMandelMatrix *tangent) const
+  double
+  Umat::call(const UmatComponents &strain_n,
+             const UmatComponents &strain,
+             const double         *history_n,
+             const StepData       &step,
+             UmatComponents       &stress,
+             std::vector<double>  &variables,
+             UmatTangent          &tangent) const
   {
     constexpr int n_normal = 3, n_shear = n_spatial - 3, n = n_spatial, one = 1,
                   layer                  = 1;
@@ -223,30 +221,22 @@ namespace geocone::GEOCONE_DIM
     // Laws that depend on the position are not supported, and shall show it.
     constexpr double nan         = std::numeric_limits<double>::quiet_NaN();
     constexpr double position[3] = {nan, nan, nan};
-
-    SpatialMandel total;
-    for (int i = 0; i < n; ++i)
-      total[i] = history_n[index_of_strain() + i] * (is_shear(i) ? sqrt2 : 1.);
-    const UmatComponents     e_n = umat_strain(total), de = umat_strain(strain);
-    UmatComponents           s        = umat_stress(stress_n);
-    const double                times[2] = {history_n[index_of_time()],
-                                            history_n[index_of_time()]};
-    std::array<double, n *n> D        = {};
-    std::array<double, n>    ddsddt = {}, drplde = {};
+    const double                times[2]    = {history_n[index_of_time()],
+                                               history_n[index_of_time()]};
+    UmatComponents              ddsddt = {}, drplde = {};
     const std::array<double, 9> rotation =
       rotation_of_spin(history_n + index_of_spin());
 
     // Guards behind the values show a law that writes more of them.
-    constexpr double                 guard = -7.2e302;
-    thread_local std::vector<double> variables;
+    constexpr double guard = -7.2e302;
     variables.assign(history_n + index_of_state(),
                      history_n + index_of_state() + n_state);
     variables.resize(n_state + n_guards, guard);
     const int n_variables = n_state, n_constants = constants.size();
     double    sse = 0., spd = 0., scd = 0., rpl = 0., drpldt = 0., pnewdt = 1.;
-    umat(s.data(),
+    umat(stress.data(),
          variables.data(),
-         D.data(),
+         tangent.data(),
          &sse,
          &spd,
          &scd,
@@ -254,8 +244,8 @@ namespace geocone::GEOCONE_DIM
          ddsddt.data(),
          drplde.data(),
          &drpldt,
-         e_n.data(),
-         de.data(),
+         strain_n.data(),
+         strain.data(),
          times,
          &step.size,
          none,
@@ -289,9 +279,37 @@ namespace geocone::GEOCONE_DIM
                      "' writes more state variables than " +
                      std::to_string(n_state) + "\n  remedy:  raise '" +
                      parameter("Number of state variables") + "'");
+    return pnewdt;
+  }
+
+  Mode
+  Umat::respond(const SpatialMandel &strain,
+                const SpatialMandel &stress_n,
+                const double        *history_n,
+                const StepData      &step,
+                SpatialMandel       &stress,
+                double              *history,
+                SpatialMandelMatrix *tangent) const
+  {
+    constexpr int n = n_spatial;
+    SpatialMandel total;
+    for (int i = 0; i < n; ++i)
+      total[i] = history_n[index_of_strain() + i] * (is_shear(i) ? sqrt2 : 1.);
+    UmatComponents                   s = umat_stress(stress_n);
+    UmatTangent                      D = {};
+    thread_local std::vector<double> variables;
+    const double                     pnewdt = call(umat_strain(total),
+                               umat_strain(strain),
+                               history_n,
+                               step,
+                               s,
+                               variables,
+                               D);
 
     for (int i = 0; i < n; ++i)
-      stress[place_in_mandel[i]] = pnewdt < 1. ? nan : umat_factor(i) * s[i];
+      stress[place_in_mandel[i]] = pnewdt < 1.
+                                     ? std::numeric_limits<double>::quiet_NaN()
+                                     : umat_factor(i) * s[i];
     if (tangent != nullptr)
       for (int i = 0; i < n; ++i)
         for (int j = 0; j < n; ++j)

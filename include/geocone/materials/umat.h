@@ -7,11 +7,17 @@
 #include <geocone/materials/spatial_law.h>
 #include <geocone/materials/umat_library.h>
 
+#include <array>
 #include <string>
 #include <vector>
 
 namespace geocone::GEOCONE_DIM
 {
+  /** Components of a tensor in the order of a UMAT: xx, yy, zz, xy, xz, yz. */
+  using UmatComponents = std::array<double, n_spatial>;
+  /** Derivatives of these components, column by column. */
+  using UmatTangent = std::array<double, n_spatial * n_spatial>;
+
   /**
    * User-defined constitutive law for small strains, from a shared library with
    * the UMAT interface of Abaqus/Standard. Stress has four components xx, yy,
@@ -106,6 +112,23 @@ namespace geocone::GEOCONE_DIM
             SpatialMandelMatrix *tangent) const override;
 
   private:
+    /** Calls the function of the library.
+     *  @param strain_n, strain total strain at the start of the step, and its
+     *  increment
+     *  @param[in,out] stress at the start and at the end (Pa)
+     *  @param[out] variables state variables at the end
+     *  @param[out] tangent derivatives of the stress (Pa)
+     *  @return PNEWDT
+     *  @throws RunError if more state variables are written than there are */
+    double
+    call(const UmatComponents &strain_n,
+         const UmatComponents &strain,
+         const double         *history_n,
+         const StepData       &step,
+         UmatComponents       &stress,
+         std::vector<double>  &variables,
+         UmatTangent          &tangent) const;
+
     static unsigned int
     index_of_state()
     {
