@@ -238,6 +238,38 @@ namespace geocone::GEOCONE_DIM
     }
   };
 
+  /** Returns a trial value t beyond the tension cut-off of a cone to s_n =
+   *  -tension, with T = |t_t| shortened to the radius there at the end of the
+   *  step. See return_map_uncut(). */
+  template <typename V, typename M>
+  void
+  return_to_cut_off(const FlowCone &cone,
+                    const double    two_G,
+                    const V        &t,
+                    const double    T,
+                    V              &s,
+                    M              *tangent)
+  {
+    constexpr int n_tangential = V::RowsAtCompileTime - 1;
+    // With hardening, the radius grows by h (T - |s_t|)/2G.
+    const double r     = cone.hardening / two_G;
+    const double limit = std::max(0., cone.k - cone.a * cone.tension);
+    const double part  = T > limit ? (limit / T + r) / (1. + r) : 1.;
+    s[0]               = -cone.tension;
+    s.template tail<n_tangential>() = part * t.template tail<n_tangential>();
+    if (tangent != nullptr)
+      {
+        tangent->setZero();
+        auto C = tangent->template block<n_tangential, n_tangential>(1, 1);
+        C.diagonal().setConstant(two_G * part);
+        if (T > limit)
+          {
+            const auto u = (t.template tail<n_tangential>() / T).eval();
+            C -= two_G * (part - r / (1. + r)) * u * u.transpose();
+          }
+      }
+  }
+
   /**
    * Closed-form return mapping for a yield cone without the Rankine tension
    * cut-off.
@@ -293,24 +325,7 @@ namespace geocone::GEOCONE_DIM
     const double q   = std::min(cone.a * s_n + cone.k + cone.hardening * g, T);
     if (s_n < -cone.tension)
       {
-        // With hardening, the radius grows by h (T - |s_t|)/2G.
-        const double r     = cone.hardening / two_G;
-        const double limit = std::max(0., cone.k - cone.a * cone.tension);
-        const double part  = T > limit ? (limit / T + r) / (1. + r) : 1.;
-        s[0]               = -cone.tension;
-        s.template tail<n_tangential>() =
-          part * t.template tail<n_tangential>();
-        if (tangent != nullptr)
-          {
-            tangent->setZero();
-            auto C = tangent->template block<n_tangential, n_tangential>(1, 1);
-            C.diagonal().setConstant(two_G * part);
-            if (T > limit)
-              {
-                const auto u = (t.template tail<n_tangential>() / T).eval();
-                C -= two_G * (part - r / (1. + r)) * u * u.transpose();
-              }
-          }
+        return_to_cut_off(cone, two_G, t, T, s, tangent);
         return Mode::apex;
       }
     if ((q >= 0. && T - two_G * g >= 0.) || cone.a == 0.)
