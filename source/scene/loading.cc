@@ -194,13 +194,13 @@ namespace geocone::GEOCONE_DIM
     , name(name)
   {
     add_parameter("Duration", duration, "Duration of the stage [s], > 0.");
-    add_parameter("Step size", step_size, "Time step h [s], > 0.");
+    add_parameter("Step size", steps.size, "Time step h [s], > 0.");
     add_parameter("First step size",
-                  first_step_size,
+                  steps.first,
                   "Size of the first step [s]; later steps grow to the step "
                   "size by the growth factor. 0: the step size.");
     add_parameter("Growth factor",
-                  growth,
+                  steps.growth,
                   "Ratio of a step to the previous one [-], >= 1, until the "
                   "step size is reached.");
     add_parameter("Output every",
@@ -319,27 +319,29 @@ namespace geocone::GEOCONE_DIM
     const std::string section = get_section_name().substr(1) + "/";
     if (!(duration > 0.))
       throw InputError(section + "Duration", duration, "> 0 s", "give seconds");
-    if (!(step_size > 0.))
+    if (!(steps.size > 0.))
       throw InputError(section + "Step size",
-                       step_size,
+                       steps.size,
                        "> 0 s",
                        "the footing's examples take 0.01 s");
-    if (!(first_step_size >= 0.))
+    if (!(steps.first >= 0.))
       throw InputError(section + "First step size",
-                       first_step_size,
+                       steps.first,
                        ">= 0 s",
                        "0 stands for the step size");
-    if (!(growth >= 1.))
-      throw InputError(
-        section + "Growth factor", growth, ">= 1", "1 keeps the step size");
-    if (first_step_size > 0. && first_step_size < step_size && growth == 1.)
+    if (!(steps.growth >= 1.))
       throw InputError(section + "Growth factor",
-                       growth,
+                       steps.growth,
+                       ">= 1",
+                       "1 keeps the step size");
+    if (steps.first > 0. && steps.first < steps.size && steps.growth == 1.)
+      throw InputError(section + "Growth factor",
+                       steps.growth,
                        "> 1 where the first step is smaller than the others",
                        "2 or 3 are usual");
     if (!(expected_steps() <= most_steps))
       throw InputError(section + "Step size",
-                       step_size,
+                       steps.size,
                        "at most a hundred million steps in a stage",
                        "take larger steps, or a shorter 'Duration'");
     if (!(strength_factor == 0. ||
@@ -390,34 +392,34 @@ namespace geocone::GEOCONE_DIM
   double
   Stage::expected_steps() const
   {
-    if (first_step_size == 0. || first_step_size >= step_size)
-      return std::max(1., std::ceil(duration / step_size));
+    if (steps.first == 0. || steps.first >= steps.size)
+      return std::max(1., std::ceil(duration / steps.size));
     // Steps h g^i < step size, with the sum h (g^n - 1)/(g - 1), then equal
     // ones.
     const double n =
-      std::ceil(std::log(step_size / first_step_size) / std::log(growth));
+      std::ceil(std::log(steps.size / steps.first) / std::log(steps.growth));
     const double sum =
-      first_step_size * (std::pow(growth, n) - 1.) / (growth - 1.);
-    return n + std::max(0., std::ceil((duration - sum) / step_size));
+      steps.first * (std::pow(steps.growth, n) - 1.) / (steps.growth - 1.);
+    return n + std::max(0., std::ceil((duration - sum) / steps.size));
   }
 
   std::vector<double>
   Stage::step_sizes() const
   {
-    std::vector<double> steps;
+    std::vector<double> sizes;
     double              t = 0.;
     double              h =
-      first_step_size > 0. ? std::min(first_step_size, step_size) : step_size;
+      steps.first > 0. ? std::min(steps.first, steps.size) : steps.size;
     while (duration - t > 1e-9 * duration)
       {
         const double left = duration - t;
         // The last step is the remainder, stretched by up to 1e-6 of its size
         // to avoid a tiny step.
-        steps.push_back(left <= h * (1. + 1e-6) ? left : h);
-        t += steps.back();
-        h = std::min(step_size, h * growth);
+        sizes.push_back(left <= h * (1. + 1e-6) ? left : h);
+        t += sizes.back();
+        h = std::min(steps.size, h * steps.growth);
       }
-    return steps;
+    return sizes;
   }
 
   LoadingProgramme::LoadingProgramme(const ParameterFile &file)

@@ -180,9 +180,12 @@ namespace geocone::GEOCONE_DIM
     void
     prepare_changes();
 
-    double step_size       = 0.01;
-    double first_step_size = 0.;
-    double growth          = 1.;
+    /** Size of the time steps (s), which grows from that of the first one by a
+     *  factor per step. */
+    struct
+    {
+      double size = 0.01, first = 0., growth = 1.;
+    } steps;
 
     std::string               removed_where_text;
     std::optional<Expression> removed_where;
