@@ -100,6 +100,22 @@ namespace geocone
       if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
         fail(plot + " '" + folder + "' failed");
     }
+
+    /** Rejects options that exclude each other. @throws InputError */
+    void
+    check_combination(const CommandLine &call,
+                      const bool         checks,
+                      const std::string &program)
+    {
+      if (checks && (call.files.empty() || !call.file.empty()))
+        throw InputError("--check needs parameter files, after it\n"
+                         "  remedy:  see " +
+                         program + " --help");
+      if (call.picture && (!call.dry_run || checks))
+        throw InputError(
+          "--picture goes with --dry-run: a run draws its model "
+          "always\n  remedy:  geocone --dry-run FILE.prm --picture");
+    }
   } // namespace
 
   CommandLine
@@ -174,15 +190,9 @@ namespace geocone
           throw InputError("a second parameter file '" + printable(argument) +
                            "'\n  remedy:  give one; overrides go into --set");
       }
-    call.dry_run = call.dry_run || checks;
-    if (checks && (call.files.empty() || !call.file.empty()))
-      throw InputError("--check needs parameter files, after it\n"
-                       "  remedy:  see " +
-                       program + " --help");
-    if (call.picture && (!call.dry_run || checks))
-      throw InputError(
-        "--picture goes with --dry-run: a run draws its model "
-        "always\n  remedy:  geocone --dry-run FILE.prm --picture");
+    if (checks)
+      call.dry_run = true;
+    check_combination(call, checks, program);
     return call;
   }
 

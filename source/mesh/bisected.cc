@@ -21,6 +21,27 @@ namespace geocone::GEOCONE_DIM
     {
       return {{std::min(a, b), std::max(a, b)}};
     }
+
+    /** Vertices of each triangle, its longest edge from the second to the third. */
+    std::vector<Corner>
+    corners_of_longest_edges(const CoarseMesh &mesh)
+    {
+      const auto order = [&](const unsigned int a, const unsigned int b) {
+        const Ends ends = ends_of(a, b);
+        return std::make_tuple(
+          mesh.points[a].distance_square(mesh.points[b]), ends[0], ends[1]);
+      };
+      std::vector<Corner> corners;
+      for (const auto &cell : mesh.cells)
+        {
+          Corner v = {{cell.vertices[0], cell.vertices[1], cell.vertices[2]}};
+          while (order(v[1], v[2]) < order(v[0], v[1]) ||
+                 order(v[1], v[2]) < order(v[0], v[2]))
+            std::rotate(v.begin(), v.begin() + 1, v.end());
+          corners.push_back(v);
+        }
+      return corners;
+    }
   } // namespace
 
   NestedMesh::NestedMesh(const CoarseMesh &first)
@@ -33,22 +54,8 @@ namespace geocone::GEOCONE_DIM
   NestedMesh
   bisected(const NestedMesh &nested, const std::vector<bool> &marked)
   {
-    const CoarseMesh &mesh  = nested.mesh;
-    const auto        order = [&](const unsigned int a, const unsigned int b) {
-      const Ends ends = ends_of(a, b);
-      return std::make_tuple(
-        mesh.points[a].distance_square(mesh.points[b]), ends[0], ends[1]);
-    };
-    // Vertices of each triangle, the longest edge from the second to the third.
-    std::vector<Corner> corners;
-    for (const auto &cell : mesh.cells)
-      {
-        Corner v = {{cell.vertices[0], cell.vertices[1], cell.vertices[2]}};
-        while (order(v[1], v[2]) < order(v[0], v[1]) ||
-               order(v[1], v[2]) < order(v[0], v[2]))
-          std::rotate(v.begin(), v.begin() + 1, v.end());
-        corners.push_back(v);
-      }
+    const CoarseMesh         &mesh    = nested.mesh;
+    const std::vector<Corner> corners = corners_of_longest_edges(mesh);
     CoarseMesh next;
     next.points = mesh.points;
     next.sides  = mesh.sides;
