@@ -61,8 +61,8 @@ namespace geocone::GEOCONE_DIM
           record_start();
         follow_programme();
         finish(now.time);
+        output().print_result(); // its warnings belong to the summary
         write_summary("finished");
-        output().print_result();
         output().report();
       }
     catch (const std::exception &error)
