@@ -60,6 +60,10 @@ namespace geocone::GEOCONE_DIM
         "the mesh from the file is not refined: " + file_domain->obstacle() +
         "; the bounds are those of this mesh. Give a mesh of one body, or set "
         "Analysis/Maximum levels = 1");
+    if (const std::string remark =
+          bounded_load.other_than_observed(scene.observation);
+        !remark.empty())
+      warnings.push_back(remark);
     constexpr double later     = 1e6; // after any ramp
     const auto       is_loaded = [](const RigidMotion &load) {
       return load.centre.norm() + load.rotation.norm() > 0.;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
+#include <geocone/base/log.h>
 #include <geocone/limit_analysis/load_choice.h>
 
 namespace geocone::GEOCONE_DIM
@@ -40,6 +41,8 @@ namespace geocone::GEOCONE_DIM
                        "zero",
                        "set it to 0, or bound its reaction");
     units.velocity = velocity ? velocity->norm() : 1.;
+    if (velocity)
+      direction = *velocity / units.velocity;
   }
 
   void
@@ -69,6 +72,28 @@ namespace geocone::GEOCONE_DIM
                      chosen == LoadFactor::weight
                        ? weight
                        : "give 'Tractions' that are not zero at t = 0");
+  }
+
+  std::string
+  LoadChoice::other_than_observed(const Observation &observation) const
+  {
+    if (!is_reaction() || !observation.has_load())
+      return "";
+    const double       factor = observation.factor;
+    const unsigned int d      = observation.component;
+    if (direction[d] * factor > (1. - 1e-9) * std::abs(factor))
+      return "";
+    std::string along = format("%g", direction[0]);
+    for (unsigned int i = 1; i < dim; ++i)
+      along += format(", %g", direction[i]);
+    return format("the bounded load is %g times the reaction in the direction "
+                  "(%s) of the prescribed velocity; the load of steps is %g "
+                  "times its component %c ('Observation/Factor', 'Component'), "
+                  "another one",
+                  std::abs(factor),
+                  along.c_str(),
+                  factor,
+                  "xyz"[d]);
   }
 
   std::string

@@ -107,6 +107,8 @@ namespace geocone::GEOCONE_DIM
             bracket.unit          = load.unit() == "-" ? "" : load.unit();
             bracket.is_associated = !load.non_associated();
             bracket.seconds       = time.cpu_time();
+            bracket.other_than_observed =
+              load.other_than_observed(scene.observation);
             return {*sizes, bracket};
           }
       }

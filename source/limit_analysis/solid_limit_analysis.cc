@@ -82,7 +82,11 @@ namespace geocone::GEOCONE_DIM
       load.prepare(scene, *tetrahedra);
     const dealii::BoundingBox<dim> body(tetrahedra->vertices);
     print_start(options, tetrahedra->cells.size(), "", body);
-    return warn_of_magnitudes(scene, body);
+    std::vector<std::string> warnings = warn_of_magnitudes(scene, body);
+    if (const std::string remark = load.other_than_observed(scene.observation);
+        !remark.empty())
+      warnings.push_back(remark);
+    return warnings;
   }
 
   BoundAnalysis::Side

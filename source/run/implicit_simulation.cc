@@ -186,9 +186,10 @@ namespace geocone::GEOCONE_DIM
     , timer(std::cout, TimerOutput::never, TimerOutput::wall_times)
   {}
 
-  void
+  std::string
   ImplicitSimulation::prepare_mesh(const RunOptions &options)
   {
+    std::string remark;
     Seeding   *seeding    = method.is_mpm() ? &implicit_mpm.seeding() : nullptr;
     const auto check_size = [&]() {
       const RunEstimate estimate =
@@ -211,7 +212,11 @@ namespace geocone::GEOCONE_DIM
         auto [sizes, bracket] = sizes_of_scene(parameters, scene, comm, log);
         if (scene.loading.reduces_strength())
           bracket.name = "the factor of all loads at full strength";
-        run_output.set_bracket(bracket);
+        if (bracket.other_than_observed.empty())
+          run_output.set_bracket(bracket);
+        else
+          remark = "the bounds of the mesh are not reported: " +
+                   bracket.other_than_observed;
         return sizes;
       },
       scene,
@@ -219,6 +224,7 @@ namespace geocone::GEOCONE_DIM
     mesh.prepare(scene, method);
     if (scene.geometry.is_script())
       check_size();
+    return remark;
   }
 
   void
@@ -250,7 +256,7 @@ namespace geocone::GEOCONE_DIM
         refuse_suction(scene);
         let_water_flow(scene, comm, log, options.dry_run);
       }
-    prepare_mesh(options);
+    const std::string remark_on_bounds = prepare_mesh(options);
     remember_friction();
     if (const std::string text = text_of_memory(scene); !text.empty())
       log.print(options.name + ": " + text);
@@ -279,6 +285,7 @@ namespace geocone::GEOCONE_DIM
           return std::string();
         },
         "Initial stress/Run");
+    warnings.push_back(remark_on_bounds);
     warnings.push_back(scene.warn_of_time_histories());
     const BoundingBox<dim> body(scene.geometry.shape == Geometry::Shape::file
                                   ? mesh.bounding_box()

@@ -6,6 +6,7 @@
 
 #include <geocone/base/choice.h>
 #include <geocone/limit_analysis/load_factor.h>
+#include <geocone/scene/observation.h>
 
 #include <deal.II/base/parameter_acceptor.h>
 
@@ -55,6 +56,13 @@ namespace geocone::GEOCONE_DIM
       return load_unit;
     }
 
+    /** Returns a message if the load that steps observe is another one than the
+     *  bounded reaction, which acts in the direction of the prescribed velocity:
+     *  another component, or one of the opposite sign. Otherwise, and without an
+     *  observed load, the message is empty. */
+    std::string
+    other_than_observed(const Observation &observation) const;
+
     /** Returns true if any material has non-associated flow. Its dilatancy angle is then
      *  smaller than its friction angle. */
     bool
@@ -97,6 +105,8 @@ namespace geocone::GEOCONE_DIM
                                   {"weight", LoadFactor::weight},
                                   {"tractions", LoadFactor::tractions}}};
     LoadFactor         chosen = LoadFactor::automatic;
+
+    dealii::Tensor<1, dim> direction; ///< of a prescribed velocity, unit vector
   };
 } // namespace geocone::GEOCONE_DIM
 

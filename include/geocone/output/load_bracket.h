@@ -34,6 +34,10 @@ namespace geocone
     unsigned int cells   = 0;  ///< number of cells of the last mesh
     double       seconds = 0.; ///< computing time of all meshes (s)
 
+    /** Message if the bounded load is another one than the load that steps
+     *  observe; empty if both can be compared. */
+    std::string other_than_observed;
+
     /** Replaces each bound for which another mesh provides a tighter bound. A
      *  bound is empty if it is not certified. */
     void

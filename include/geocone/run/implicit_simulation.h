@@ -68,8 +68,9 @@ namespace geocone::GEOCONE_DIM
     }
 
   private:
-    /** Creates the mesh and rejects a run that would exceed the available memory. */
-    void
+    /** Creates the mesh and rejects a run that would exceed the available memory.
+     *  @return a warning, or an empty string */
+    std::string
     prepare_mesh(const RunOptions &options);
 
     /** Enables friction with memory (regularised friction with a time delay,
