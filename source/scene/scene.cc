@@ -265,15 +265,51 @@ namespace geocone::GEOCONE_DIM
     return text;
   }
 
+  namespace
+  {
+    /** Warnings of gravity and water that are probably in other units, or act
+     *  upwards. */
+    std::vector<std::string>
+    warn_of_gravity(const Scene &scene)
+    {
+      constexpr double largest_g      = 3000.; // m/s^2, in a centrifuge
+      const double     lightest_water = 500. / mass_unit(), // kg/m^3
+        heaviest_water                = 4. * lightest_water;
+      std::vector<std::string>     warnings;
+      const dealii::Tensor<1, dim> gravity =
+        scene.gravity.at(std::numeric_limits<double>::max());
+      const double g = gravity.norm();
+      if (g > largest_g)
+        warnings.push_back(
+          format("gravity is %g m/s^2: accelerations are in m/s^2", g));
+      if (gravity[1] > 0.5 * g)
+        warnings.push_back(
+          format("gravity acts upwards, with %g m/s^2 in y: usually it is "
+                 "negative, e.g. 0, -9.81",
+                 gravity[1]));
+      if (const double weight = scene.water.weight();
+          scene.water.acts() && g > 0. &&
+          (weight < lightest_water * g || weight > heaviest_water * g))
+        warnings.push_back(
+          format("water weighs %g N/m^3 ('Water/Unit weight'), where its "
+                 "weight in this gravity is about %g N/m^3",
+                 weight,
+                 2. * lightest_water * g));
+      return warnings;
+    }
+  } // namespace
+
   std::vector<std::string>
   warn_of_magnitudes(const Scene &scene, const dealii::BoundingBox<dim> &body)
   {
-    constexpr double largest_body = 1e4, smallest_body = 1e-3; // m
+    constexpr double largest_body = 1e3, smallest_body = 1e-3; // m
     const double     lightest = 100. / mass_unit(), heaviest = 100. * lightest;
     const double     in_kilopascals = 500. / mass_unit(); // rather kPa than Pa
     constexpr double least_strength = 1e-5; // over gamma H, frictionless
-    std::vector<std::string> warnings;
-    double                   size = 0.;
+    constexpr double least_angle    = 1.5;  // degrees; half of a right angle in
+                                            // radians is less
+    std::vector<std::string> warnings = warn_of_gravity(scene);
+    double                   size     = 0.;
     for (unsigned int d = 0; d < dim; ++d)
       size = std::max(size, body.side_length(d));
     if (scene.gravity.acts() &&
@@ -295,6 +331,12 @@ namespace geocone::GEOCONE_DIM
         const auto strength = scene.materials.law(m).plane_strain_strength();
         if (!strength)
           continue;
+        if (strength->phi > 0. && strength->phi < least_angle)
+          warnings.push_back(
+            format("the friction angle of '%s' is %g degrees: angles are in "
+                   "degrees, not in radians",
+                   name.c_str(),
+                   strength->phi));
         const double weight = weight_of_column(scene, m, body);
         if (strength->phi == 0. && strength->gradient == 0. &&
             strength->c < least_strength * weight)
