@@ -4,6 +4,7 @@
 #include <geocone/base/log.h>
 #include <geocone/conditions/held_width.h>
 #include <geocone/shapes/part_in_box.h>
+#include <geocone/surfaces/face_points.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -11,6 +12,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <set>
 
 namespace geocone::GEOCONE_DIM
 {
@@ -30,6 +32,91 @@ namespace geocone::GEOCONE_DIM
                          condition.components.end(),
                          is_zero);
     }
+
+    /** Bounding box of a part of the boundary: minima of the coordinates and of
+     *  their negatives. */
+    struct Extent
+    {
+      std::array<double, 2 * dim> ends;
+
+      Extent()
+      {
+        ends.fill(std::numeric_limits<double>::max());
+      }
+
+      void
+      add(const Point<dim> &x)
+      {
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            ends[d]       = std::min(ends[d], x[d]);
+            ends[dim + d] = std::min(ends[dim + d], -x[d]);
+          }
+      }
+
+      void
+      unite(const MPI_Comm comm)
+      {
+        Utilities::MPI::min(ArrayView<const double>(ends.data(), ends.size()),
+                            comm,
+                            ArrayView<double>(ends.data(), ends.size()));
+      }
+
+      double
+      width(const unsigned int d) const
+      {
+        return -ends[dim + d] - ends[d];
+      }
+    };
+
+    /** Calls a function for each face at the boundary with given ids. */
+    template <typename Function>
+    void
+    for_each_face(const BackgroundMesh               &mesh,
+                  const std::set<types::boundary_id> &ids,
+                  const Function                     &function)
+    {
+      for (const auto &cell : mesh.own_cells())
+        for (const unsigned int f : cell->face_indices())
+          if (cell->face(f)->at_boundary() &&
+              ids.count(cell->face(f)->boundary_id()) > 0)
+            function(cell, f);
+    }
+
+    /** Part of the boundary in the box of a condition or, by samples on the
+     *  edges, where its formula holds. */
+    Extent
+    asked_part(const BoundaryCondition            &condition,
+               const BackgroundMesh               &mesh,
+               const std::set<types::boundary_id> &ids,
+               double                             &spacing)
+    {
+      constexpr unsigned int n_samples = 64; // intervals per edge
+      Extent                 asked;
+      const auto add_edge = [&](const Point<dim> &a, const Point<dim> &b) {
+        if (!condition.has_formula())
+          {
+            if (const auto part = part_in_box(*condition.wide_box(), a, b))
+              for (const Point<dim> &end : *part)
+                asked.add(end);
+            return;
+          }
+        spacing = std::max(spacing, a.distance(b) / n_samples);
+        for (unsigned int i = 0; i <= n_samples; ++i)
+          if (const Point<dim> x = a + double(i) / n_samples * (b - a);
+              condition.holds_at(x))
+            asked.add(x);
+      };
+      for_each_face(mesh, ids, [&](const auto &cell, const unsigned int f) {
+        const auto face = cell->face(f);
+        if constexpr (dim == 2)
+          add_edge(face->vertex(0), face->vertex(1));
+        else
+          for (const unsigned int l : face->line_indices())
+            add_edge(face->line(l)->vertex(0), face->line(l)->vertex(1));
+      });
+      return asked;
+    }
   } // namespace
 
   std::vector<std::string>
@@ -40,73 +127,61 @@ namespace geocone::GEOCONE_DIM
     constexpr double         noticed = 1e-3; ///< part of the width
     std::vector<std::string> warnings;
     const MPI_Comm           comm = mesh.triangulation().get_communicator();
+    // Tractions act on the parts of faces in their box exactly.
+    const auto check = [&](const BoundaryCondition &condition,
+                           const bool               is_velocity) {
+      if (condition.has_formula() ? is_velocity && is_support(condition)
+                                  : !is_velocity || !condition.box_corners())
+        return;
+      const auto ids     = mesh.side_ids(condition);
+      double     spacing = 0.;
+      Extent     asked   = asked_part(condition, mesh, ids, spacing), held;
+      if (is_velocity)
+        {
+          for (const unsigned int node : space.nodes_on_sides(ids))
+            if (condition.holds_at(space.node_positions()[node]))
+              held.add(space.node_positions()[node]);
+        }
+      else
+        for_each_face(mesh, ids, [&](const auto &cell, const unsigned int f) {
+          if (part_of_face(condition, mesh, cell, f))
+            for (const unsigned int v : cell->face(f)->vertex_indices())
+              held.add(cell->face(f)->vertex(v));
+        });
+      asked.unite(comm);
+      held.unite(comm);
+      spacing       = Utilities::MPI::max(spacing, comm);
+      double widest = 0.;
+      for (unsigned int d = 0; d < dim; ++d)
+        widest = std::max(widest, held.width(d));
+      if (widest == 0. && is_support(condition))
+        return; // a point that is held has no width
+      for (unsigned int d = 0; d < dim; ++d)
+        if (std::abs(held.width(d) - asked.width(d)) >
+            noticed * asked.width(d) + 2. * spacing + 1e-8)
+          warnings.push_back(
+            format("'%s' %s from %c = %g to %g m, a width of %g m, where "
+                   "%g m are in its %s, from %g to %g m: loads, and errors "
+                   "beside a reference, are those of the %s; put nodes at the "
+                   "ends of the %s (cell size, grading), or take smaller cells",
+                   condition.name.c_str(),
+                   is_velocity ? "holds nodes" : "acts on whole faces",
+                   coordinate[d],
+                   held.ends[d],
+                   -held.ends[dim + d],
+                   held.width(d),
+                   asked.width(d),
+                   condition.has_formula() ? "formula" : "box",
+                   asked.ends[d],
+                   -asked.ends[dim + d],
+                   is_velocity ? "nodes" : "faces",
+                   condition.has_formula() ? "region" : "box"));
+    };
     for (const auto &condition : scene.dirichlet.list)
-      {
-        if (condition->moves_with_body() || condition->has_formula())
-          continue;
-        const auto box = condition->box_corners();
-        if (!box)
-          continue;
-        const auto ids = mesh.side_ids(*condition);
-        // Minima of the coordinates and of their negatives: of the part of the
-        // boundary in the box, and of the nodes.
-        std::array<double, 4 * dim> ends;
-        ends.fill(std::numeric_limits<double>::max());
-        const auto extend = [&](const unsigned int first, const Point<dim> &x) {
-          for (unsigned int d = 0; d < dim; ++d)
-            {
-              ends[first + d]       = std::min(ends[first + d], x[d]);
-              ends[first + dim + d] = std::min(ends[first + dim + d], -x[d]);
-            }
-        };
-        const auto add_edge = [&](const Point<dim> &a, const Point<dim> &b) {
-          if (const auto part = part_in_box(*condition->wide_box(), a, b))
-            for (const Point<dim> &end : *part)
-              extend(0, end);
-        };
-        for (const auto &cell : mesh.own_cells())
-          for (const unsigned int f : cell->face_indices())
-            if (const auto face = cell->face(f);
-                face->at_boundary() && ids.count(face->boundary_id()) > 0)
-              {
-                if constexpr (dim == 2)
-                  add_edge(face->vertex(0), face->vertex(1));
-                else
-                  for (const unsigned int l : face->line_indices())
-                    add_edge(face->line(l)->vertex(0),
-                             face->line(l)->vertex(1));
-              }
-        for (const unsigned int node : space.nodes_on_sides(ids))
-          if (condition->holds_at(space.node_positions()[node]))
-            extend(2 * dim, space.node_positions()[node]);
-        Utilities::MPI::min(ArrayView<const double>(ends.data(), ends.size()),
-                            comm,
-                            ArrayView<double>(ends.data(), ends.size()));
-        double widest = 0.;
-        for (unsigned int d = 0; d < dim; ++d)
-          widest = std::max(widest, -ends[3 * dim + d] - ends[2 * dim + d]);
-        if (widest == 0. && is_support(*condition))
-          continue; // a point that is held has no width
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            const double asked = -ends[dim + d] - ends[d],
-                         held  = -ends[3 * dim + d] - ends[2 * dim + d];
-            if (std::abs(held - asked) > noticed * asked + 1e-8)
-              warnings.push_back(format(
-                "'%s' holds nodes from %c = %g to %g m, a width of %g m, where "
-                "%g m are in its box, from %g to %g m: loads, and errors "
-                "beside a reference, are those of the nodes; put nodes at the "
-                "ends of the box (cell size, grading), or take smaller cells",
-                condition->name.c_str(),
-                coordinate[d],
-                ends[2 * dim + d],
-                -ends[3 * dim + d],
-                held,
-                asked,
-                ends[d],
-                -ends[dim + d]));
-          }
-      }
+      if (!condition->moves_with_body())
+        check(*condition, true);
+    for (const auto &condition : scene.tractions.list)
+      check(*condition, false);
     return warnings;
   }
 } // namespace geocone::GEOCONE_DIM

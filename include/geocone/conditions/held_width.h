@@ -13,9 +13,9 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Returns a warning for each boundary condition whose nodes cover only part of
-   *  the selected boundary segment. The velocity is then prescribed on a narrower
-   *  strip. Collective. */
+  /** Returns a warning for each boundary condition whose nodes, and each traction
+   *  with a formula whose whole faces, are not as wide as the selected part of the
+   *  boundary. Collective. */
   std::vector<std::string>
   warn_of_partial_coverage(const Scene          &scene,
                            const BackgroundMesh &mesh,
