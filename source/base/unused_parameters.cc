@@ -66,6 +66,20 @@ namespace geocone
       return chooser + values;
     }
 
+    /** Whether a rule of a section is replaced, because a parameter has a rule
+     *  of its own with the same chooser. */
+    bool
+    is_replaced(const UsedWhere &rule, const std::string &path)
+    {
+      const std::vector<UsedWhere> &own = declared_rules().of_parameters;
+      return rule.parameter.back() == '*' &&
+             std::any_of(own.begin(), own.end(), [&](const UsedWhere &other) {
+               std::string star;
+               return other.chooser == rule.chooser &&
+                      matches(other.parameter, path, star);
+             });
+    }
+
     /** The first rule that a setting violates, as a text; or empty. */
     std::string
     broken_rule(const std::vector<UsedWhere>              &rules,
@@ -76,7 +90,8 @@ namespace geocone
       for (const UsedWhere &rule : rules)
         {
           std::string star;
-          if (!matches(rule.parameter, setting.path, star))
+          if (!matches(rule.parameter, setting.path, star) ||
+              is_replaced(rule, setting.path))
             continue;
           const std::string chooser = with_star(rule.chooser, star);
           const auto        known   = values.find(chooser);
@@ -159,7 +174,8 @@ namespace geocone
     const auto of = [&](const std::vector<UsedWhere> &rules) {
       std::vector<std::string> all;
       for (const UsedWhere &rule : rules)
-        if (std::string star; matches(rule.parameter, path, star))
+        if (std::string star;
+            matches(rule.parameter, path, star) && !is_replaced(rule, path))
           all.push_back(
             needed(rule, with_star(rule.chooser, star)) +
             (rule.other.empty()

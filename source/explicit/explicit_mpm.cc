@@ -131,13 +131,20 @@ namespace geocone::GEOCONE_DIM
 
     scene->structures.refuse("explicit MPM",
                              "set Discretisation/Method = FEM");
-    scene->water.refuse("explicit MPM",
-                        "set Discretisation/Method = FEM or MPM, or give "
-                        "buoyant densities");
-    scene->materials.refuse_undrained("explicit MPM",
-                                      "set Discretisation/Method = FEM or MPM, "
-                                      "or take Tresca with the undrained "
-                                      "strength");
+    if (!water.acts())
+      {
+        const std::string what =
+          std::string("explicit MPM without ") + Drainage::parameter;
+        scene->water.refuse(what, "set it to true, or give buoyant densities");
+        scene->materials.refuse_undrained(what,
+                                          "set it to true, or take Tresca with "
+                                          "the undrained strength");
+      }
+    else if (order == Order::usf)
+      throw InputError(section + "Order",
+                       order.word(),
+                       std::string("MUSL | USL with ") + Drainage::parameter,
+                       "take MUSL");
     scene->regions.refuse_fixed("explicit MPM");
     scene->refuse_contact("explicit MPM",
                           "set Discretisation/Method = FEM or MPM, or hold "
@@ -175,6 +182,10 @@ namespace geocone::GEOCONE_DIM
           comm, grid, scene->dirichlet, scene->loading.list.front()->name);
         for (unsigned int d = 0; d < dim; ++d)
           datum[d] = lines[d].front();
+        std::vector<std::string> names;
+        for (unsigned int d = 0; d < dim; ++d)
+          names.insert(names.end(), side_of_box[d], side_of_box[d] + 2);
+        water.use(*transfer, names);
         seed_columns(grid, remarks);
       }
     else
@@ -183,6 +194,10 @@ namespace geocone::GEOCONE_DIM
         space.prepare(mesh, method);
         transfer = std::make_unique<MeshTransfer>(*scene, mesh, space, balance);
         datum    = mesh.lower_corner();
+        std::vector<std::string> names;
+        for (const auto &side : mesh.named_sides())
+          names.push_back(side.first);
+        water.use(*transfer, names);
         seed_points(
           seeding.count(*scene, mesh),
           [&](const Seeding::Take &take) {
@@ -201,6 +216,7 @@ namespace geocone::GEOCONE_DIM
     axisymmetric = scene->geometry.is_axisymmetric();
     check_parameters();
     check_axisymmetric_body(*scene);
+    water.prepare(*scene, rule, b_bar);
     seeding.prepare(*scene);
     balance.prepare();
     kernels = &transfer_kernels();
@@ -232,6 +248,7 @@ namespace geocone::GEOCONE_DIM
                                           rule.flip_part(),
                                           least_mass,
                                           boundary.get(),
+                                          water.acts() ? &water : nullptr,
                                           sum);
     refresh();
     if (fixed_step > stability_limit() && !allow_unstable)
@@ -277,11 +294,15 @@ namespace geocone::GEOCONE_DIM
   ExplicitMPM::start_nodes()
   {
     const bool stress_first = order == Order::usf;
+    if (water.acts())
+      water.reset_nodes();
     pass(nothing,
          stress_first ? ScatteredData::momentum_and_mass : ScatteredData::all,
          0.);
     const Stopwatch watch(clock.exchange);
     transfer->exchange(true);
+    if (water.acts())
+      water.exchange(true);
   }
 
   void
@@ -340,6 +361,8 @@ namespace geocone::GEOCONE_DIM
     const auto exchange = [&](const bool with_mass) {
       const Stopwatch watch(clock.exchange);
       transfer->exchange(with_mass);
+      if (water.acts())
+        water.exchange(with_mass);
     };
     const auto accelerate = [&](const bool velocity_is_read, const bool moves) {
       const Stopwatch watch(clock.grid);
@@ -389,6 +412,15 @@ namespace geocone::GEOCONE_DIM
       must_refresh = true;
     sum.stress_work += sums.work;
     sum.impulse += dt * body_mass * gravity;
+    if (water.acts())
+      {
+        const PoreWater::Totals of_water = water.take_totals();
+        sum.stress_work += of_water.pressure_work;
+        sum.support_work += of_water.work;
+        sum.seepage_work += of_water.loss;
+        sum.outflow += of_water.outflow;
+        sum.impulse += of_water.impulse;
+      }
     if (fade_end > 0.)
       body_mass = current_mass();
     ++n_steps;

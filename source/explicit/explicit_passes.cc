@@ -53,6 +53,12 @@ namespace geocone::GEOCONE_DIM
       scattered == ScatteredData::force || scattered == ScatteredData::all;
     if (gives_force)
       hoop_force = 0.;
+    const PoreWater::Loop loop =
+      [this](const std::function<void(const TransferBlock &)> &action) {
+        for_each_block(action);
+      };
+    if (water.acts())
+      water.update_points(update, dt, loop, groups, scratch);
     // Cell means of the stress need the stress at all points.
     const bool later = b_bar && gives_force;
     if (b_bar && update.strain)
@@ -72,14 +78,23 @@ namespace geocone::GEOCONE_DIM
     for (const PointArrays &group : groups)
       if (update.strain)
         n_point_steps += group.n_points();
-    if (!later)
-      return;
-    average_in_cells([&](const TransferBlock &points) {
-      find_mean_stress(points);
-      return scratch.mean_stress;
-    });
-    for_each_block(
-      [&](const TransferBlock &points) { scatter(scattered, points); });
+    if (later)
+      {
+        average_in_cells([&](const TransferBlock &points) {
+          find_mean_stress(points);
+          return scratch.mean_stress;
+        });
+        for_each_block(
+          [&](const TransferBlock &points) { scatter(scattered, points); });
+      }
+    if (water.acts() && scattered != ScatteredData::nothing)
+      water.scatter(scattered != ScatteredData::force,
+                    gives_force,
+                    scattered == ScatteredData::all ||
+                      scattered == ScatteredData::momentum_and_mass,
+                    loop,
+                    groups,
+                    scratch);
   }
 
   void
@@ -137,6 +152,8 @@ namespace geocone::GEOCONE_DIM
                  dt,
                  axisymmetric ? scratch.l_zz : nullptr},
                 counts);
+    if (water.acts())
+      water.stiffen(points, group, scratch.wave_modulus);
     kernels->finish(points, scratch, sums);
   }
 
@@ -200,6 +217,10 @@ namespace geocone::GEOCONE_DIM
   {
     for (unsigned int k = 0; k < points.n; ++k)
       scratch.mean_stress[k] = mean_stress(points, k);
+    if (water.acts())
+      for (unsigned int k = 0; k < points.n; ++k)
+        scratch.mean_stress[k] -=
+          water.excess_pressure(groups[points.group], points.first + k);
   }
 
   void
@@ -218,6 +239,8 @@ namespace geocone::GEOCONE_DIM
     kernels->prepare_scatter(momentum, force, points, scratch);
     if (b_bar && force)
       kernels->replace_mean_stress(points, scratch);
+    else if (water.acts() && force)
+      water.add_pressure(points, groups[points.group], scratch);
     if (force)
       transfer->scatter(points, scratch, mass);
     else

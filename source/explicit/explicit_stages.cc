@@ -50,7 +50,7 @@ namespace geocone::GEOCONE_DIM
   ExplicitMPM::make_group(const unsigned int material) const
   {
     return {material,
-            scene->materials.law(material).n_history(),
+            scene->materials.law(material).n_history() + water.n_variables(),
             affine,
             transfer->keeps_cells()};
   }
@@ -110,11 +110,15 @@ namespace geocone::GEOCONE_DIM
       values.resize(group.n_history());
       start.set(
         law, stress, space.band_width(seed.cell), seed.position, values.data());
+      if (water.acts())
+        water.initialise(
+          seed.position, seed.velocity, &values[law.n_history()]);
       for (unsigned int k = 0; k < values.size(); ++k)
         group.history[k][p] = values[k];
-      sums.wave_speed2 =
-        std::max(sums.wave_speed2,
-                 law.wave_modulus(stress, values.data()) / law.density());
+      double modulus = law.wave_modulus(stress, values.data());
+      if (water.acts() && water.is_saturated(group, p))
+        modulus = water.wave_modulus(seed.material, modulus);
+      sums.wave_speed2 = std::max(sums.wave_speed2, modulus / law.density());
       sums.speed2 = std::max(sums.speed2, seed.velocity.norm_square());
       if (affine)
         {
@@ -204,7 +208,7 @@ namespace geocone::GEOCONE_DIM
     const std::string text = stage.removal_text(n_removed, n_all, "points");
 
     double                   removed_mass = 0.;
-    Tensor<1, dim>           momentum;
+    Tensor<1, dim>           lost;
     const bool               at_once = stage.removal_duration == 0.;
     std::vector<PointArrays> ramped;
     for (PointArrays &group : groups)
@@ -221,8 +225,7 @@ namespace geocone::GEOCONE_DIM
                 continue;
               }
             removed_mass += group.mass[p];
-            for (unsigned int d = 0; d < dim; ++d)
-              momentum[d] += group.mass[p] * group.velocity[d][p];
+            lost += momentum(group, p);
             if (at_once)
               remove_point(group, p);
             else
@@ -235,7 +238,7 @@ namespace geocone::GEOCONE_DIM
           group.reorder(staying);
       }
     removed_mass = Utilities::MPI::sum(removed_mass, comm);
-    momentum     = Utilities::MPI::sum(momentum, comm);
+    lost         = Utilities::MPI::sum(lost, comm);
     if (!at_once)
       {
         for (PointArrays &group : ramped)
@@ -249,20 +252,33 @@ namespace geocone::GEOCONE_DIM
     return text + format(": %.6g %s, momentum (%s) %s",
                          removed_mass,
                          unit("kg/m").c_str(),
-                         text_of_vector(momentum, "%.3g").c_str(),
+                         text_of_vector(lost, "%.3g").c_str(),
                          unit("N s/m").c_str());
+  }
+
+  void
+  ExplicitMPM::count_removal(const PointArrays &group,
+                             const unsigned int p,
+                             const double       part)
+  {
+    const double m = part * group.mass[p];
+    sum.removed_mass += m;
+    sum.removed_momentum += m * group.velocity.of(p);
+    sum.removed_energy += part * kinetic_energy(group, p);
+    sum.removed_potential -=
+      m * (scene->gravity.at(1e300) * (group.position.of(p) - datum));
+    if (water.acts() && water.is_saturated(group, p))
+      {
+        sum.removed_momentum += part * water.relative_momentum(group, p);
+        sum.removed_water +=
+          part * (group.volume[p] + water.stored_water(group, p));
+      }
   }
 
   void
   ExplicitMPM::remove_point(PointArrays &group, const unsigned int p)
   {
-    const double m = group.mass[p];
-    sum.removed_mass += m;
-    for (unsigned int d = 0; d < dim; ++d)
-      sum.removed_momentum[d] += m * group.velocity[d][p];
-    sum.removed_energy += kinetic_energy(group, p);
-    sum.removed_potential -=
-      m * (scene->gravity.at(1e300) * (group.position.of(p) - datum));
+    count_removal(group, p, 1.);
     group.mass[p]   = 0.;
     group.volume[p] = 0.;
   }
@@ -275,15 +291,7 @@ namespace geocone::GEOCONE_DIM
       {
         // The remaining cross-section shrinks; the removed part is counted.
         const unsigned int p = points.first + k;
-        const double       m = group.mass[p];
-        sum.removed_energy += (1. - mass_ratio) * kinetic_energy(group, p);
-        sum.removed_potential -=
-          (1. - mass_ratio) * m *
-          (scene->gravity.at(1e300) * (group.position.of(p) - datum));
-        sum.removed_mass += (1. - mass_ratio) * m;
-        for (unsigned int d = 0; d < dim; ++d)
-          sum.removed_momentum[d] +=
-            (1. - mass_ratio) * m * group.velocity[d][p];
+        count_removal(group, p, 1. - mass_ratio);
         group.mass[p] *= mass_ratio;
         group.volume[p] *= mass_ratio;
       }
@@ -297,8 +305,7 @@ namespace geocone::GEOCONE_DIM
         for (unsigned int p = 0; p < group.n_points(); ++p)
           {
             sum.stopped_energy += kinetic_energy(group, p);
-            for (unsigned int d = 0; d < dim; ++d)
-              sum.impulse[d] -= group.mass[p] * group.velocity[d][p];
+            sum.impulse -= momentum(group, p);
           }
         for (unsigned int d = 0; d < dim; ++d)
           std::fill_n(group.velocity[d], group.n_padded(), 0.);
@@ -306,6 +313,8 @@ namespace geocone::GEOCONE_DIM
           for (unsigned int i = 0; i < dim * dim; ++i)
             std::fill_n(group.affine[i], group.n_padded(), 0.);
       }
+    if (water.acts())
+      water.stop(groups);
     must_refresh = true;
   }
 

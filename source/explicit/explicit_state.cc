@@ -19,7 +19,18 @@ namespace geocone::GEOCONE_DIM
   ExplicitMPM::kinetic_energy(const PointArrays &group,
                               const unsigned int p) const
   {
-    return group.mass[p] * group.velocity.of(p).norm_square() / 2.;
+    const double energy =
+      group.mass[p] * group.velocity.of(p).norm_square() / 2.;
+    return water.acts() ? energy + water.relative_energy(group, p) : energy;
+  }
+
+  Tensor<1, dim>
+  ExplicitMPM::momentum(const PointArrays &group, const unsigned int p) const
+  {
+    Tensor<1, dim> sum = group.mass[p] * group.velocity.of(p);
+    if (water.acts())
+      sum += water.relative_momentum(group, p);
+    return sum;
   }
 
   double
@@ -47,6 +58,8 @@ namespace geocone::GEOCONE_DIM
       s.momentum           = Utilities::MPI::sum(s.momentum, comm);
       s.angular_momentum   = Utilities::MPI::sum(s.angular_momentum, comm);
       s.largest_speed      = Utilities::MPI::max(s.largest_speed, comm);
+      s.saturated_volume   = Utilities::MPI::sum(s.saturated_volume, comm);
+      s.stored_water       = Utilities::MPI::sum(s.stored_water, comm);
       s.largest_plastic_strain =
         Utilities::MPI::max(s.largest_plastic_strain, comm);
     }
@@ -95,9 +108,9 @@ namespace geocone::GEOCONE_DIM
             const Tensor<1, dim> v = group.velocity.of(p);
             s.mass += m;
             s.volume += group.volume[p];
-            s.energies.kinetic += m * v.norm_square() / 2.;
+            s.energies.kinetic += kinetic_energy(group, p);
             s.energies.potential -= m * (g * (x - datum));
-            s.momentum += m * v;
+            s.momentum += momentum(group, p);
             for (unsigned int i = 0; i < n_rotations; ++i)
               {
                 const auto [a, b] = plane_of_rotation[i];
@@ -112,11 +125,16 @@ namespace geocone::GEOCONE_DIM
             s.largest_plastic_strain = std::max(
               s.largest_plastic_strain, group.cumulative_plastic_strain[p]);
             group.copy_history(p, values.data());
-            const double c2 =
-              law.wave_modulus(
-                law.full_stress(group.stress_components(p), values.data()),
-                values.data()) *
-              group.volume[p] / m;
+            double modulus = law.wave_modulus(
+              law.full_stress(group.stress_components(p), values.data()),
+              values.data());
+            if (water.acts() && water.is_saturated(group, p))
+              {
+                modulus = water.wave_modulus(group.of_material, modulus);
+                s.saturated_volume += group.volume[p];
+                s.stored_water += water.stored_water(group, p);
+              }
+            const double c2 = modulus * group.volume[p] / m;
             if (c2 > fastest)
               {
                 fastest          = c2;
@@ -192,7 +210,7 @@ namespace geocone::GEOCONE_DIM
   std::size_t
   ExplicitMPM::memory() const
   {
-    std::size_t bytes = transfer->memory();
+    std::size_t bytes = transfer->memory() + water.memory();
     for (const PointArrays &group : groups)
       bytes += group.memory();
     return bytes;

@@ -15,12 +15,14 @@ namespace geocone::GEOCONE_DIM
                            const double              flip_part,
                            const double              least_mass,
                            const BoundaryForces     *boundary,
+                           PoreWater                *water,
                            Exchange                 &sum)
     : transfer(transfer)
     , conditions(conditions)
     , flip_part(flip_part)
     , least_mass(least_mass)
     , boundary(boundary)
+    , water(water)
     , sum(sum)
     , support_impulse(conditions.list.size())
   {}
@@ -65,6 +67,8 @@ namespace geocone::GEOCONE_DIM
     std::fill_n(transfer.write.data(), node_size * n, 0.);
     if (!keep_mass)
       std::fill_n(transfer.mass.data(), n, 0.);
+    if (water != nullptr)
+      water->clear(keep_mass);
   }
 
   void
@@ -97,6 +101,8 @@ namespace geocone::GEOCONE_DIM
       if (transfer.mass[node.node] > least_mass)
         transfer.read[node_size * node.node + node.component] =
           prescribed_velocity(node, step.t + step.dt);
+    if (water != nullptr)
+      water->divide_momentum(least_mass);
     count_gravity_work(step);
     clear(false);
   }
@@ -114,6 +120,9 @@ namespace geocone::GEOCONE_DIM
         const double before = prescribed_velocity(node, step.t);
         const double after  = prescribed_velocity(node, step.t + step.dt);
         held.push_back({i, d, after, after - before});
+        if (water != nullptr)
+          water->advance_relative_at(
+            node, step.dt, step.gravity, after - before);
         if (!node.mine)
           continue;
         const double impulse =
@@ -155,6 +164,8 @@ namespace geocone::GEOCONE_DIM
       }
     if (boundary != nullptr)
       boundary->add_tractions(transfer);
+    if (water != nullptr)
+      water->add_buoyancy(dt, step.gravity);
     if (step.measures_force)
       measure_unbalanced_force();
     if (step.damping > 0.)
@@ -167,6 +178,8 @@ namespace geocone::GEOCONE_DIM
         sum.impulse += done.impulse;
       }
 
+    if (water != nullptr)
+      water->advance_relative(dt, step.gravity, least_mass, is_prescribed);
     impose_prescribed(step);
     for (const auto &range : transfer.mine)
       for (unsigned int i = range[0]; i < range[1]; ++i)
@@ -191,6 +204,8 @@ namespace geocone::GEOCONE_DIM
         v[0]              = node.velocity;
         v[change_of_node] = node.change;
       }
+    if (water != nullptr)
+      water->add_velocity_of_soil(dt);
     if (moves)
       count_gravity_work(step);
     clear(!moves);
@@ -206,6 +221,8 @@ namespace geocone::GEOCONE_DIM
         for (unsigned int d = 0; d < dim; ++d)
           momentum[d] += transfer.mass[i] * transfer.read[node_size * i + d];
     sum.gravity_work += step.dt * (step.gravity * momentum);
+    if (water != nullptr)
+      water->count_work(step.dt, step.gravity);
   }
 
   void

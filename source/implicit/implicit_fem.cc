@@ -22,9 +22,7 @@ namespace geocone::GEOCONE_DIM
   namespace
   {
     const UsedWhere used_implicit_fem[] = {
-      {"Time stepping/Inertia", "Discretisation/Method", {"FEM"}},
-      {"Time stepping/Consolidation", "Discretisation/Method", {"FEM"}},
-      {"Time stepping/Drained sides", "Time stepping/Consolidation", {"true"}}};
+      {"Time stepping/Inertia", "Discretisation/Method", {"FEM"}}};
   } // namespace
 
   namespace
@@ -79,18 +77,6 @@ namespace geocone::GEOCONE_DIM
                   "Whether inertia is included. false: quasi-static; the "
                   "density enters only the weight. true: lumped mass (row "
                   "sums; for P2 the scaled diagonal).");
-    add_parameter(
-      "Consolidation",
-      has_consolidation,
-      "Whether the excess pore pressures of undrained soil "
-      "('Materials/NAME/Pore fluid bulk modulus') dissipate by flow "
-      "through its 'Permeability', in time steps of backward Euler. "
-      "false: each point keeps its water.");
-    add_parameter("Drained sides",
-                  drained_sides,
-                  "Sides on which the excess pore pressure of consolidating "
-                  "soil is zero, comma-separated. All other sides are "
-                  "impervious, except those of 'Seepage'.");
     integration.declare(
       *this,
       ". Time integration of FEM with inertia. The midpoint rule and Newmark's "
@@ -143,8 +129,8 @@ namespace geocone::GEOCONE_DIM
       newton.linear_solver(),
       mesh_.triangulation().get_communicator(),
       scene->materials.traits().symmetric && !obstacles->exists() &&
-        !has_consolidation);
-    if (has_consolidation)
+        !drainage.acts);
+    if (drainage.acts)
       pore_pressure.reinit(space_.partitioner());
     begin(points, timer);
     unknowns = constraints->n_rows;
@@ -195,7 +181,7 @@ namespace geocone::GEOCONE_DIM
                            "take it, or leave out 'Structures/Names'");
       }
     ScaledLoads::check(*scene);
-    if (has_consolidation)
+    if (drainage.acts)
       {
         check_consolidation();
         if (linear_solver.name == LinearSolverParameters::Name::multigrid)
@@ -235,17 +221,17 @@ namespace geocone::GEOCONE_DIM
   void
   ImplicitFEM::refuse_consolidation() const
   {
-    if (has_consolidation)
-      throw InputError("Time stepping/Consolidation",
+    if (drainage.acts)
+      throw InputError(Drainage::parameter,
                        "true",
-                       "false with particles",
-                       "set Discretisation/Method = FEM");
+                       "false with implicit MPM",
+                       "set Discretisation/Method = FEM or explicit MPM");
   }
 
   void
   ImplicitFEM::check_consolidation() const
   {
-    const std::string parameter = "Time stepping/Consolidation";
+    const std::string parameter = Drainage::parameter;
     const auto        refuse    = [&](const std::string &allowed,
                             const std::string &remedy) {
       throw InputError(parameter, "true", allowed, remedy);
@@ -282,10 +268,10 @@ namespace geocone::GEOCONE_DIM
   ImplicitFEM::drained_nodes() const
   {
     std::vector<bool> is_drained(space->n_local_nodes(), false);
-    for (const std::string &name : drained_sides)
+    for (const std::string &name : drainage.sides)
       for (const unsigned int node : space->nodes_on_sides(
              {mesh->side_id(name,
-                            "Time stepping/Drained sides",
+                            Drainage::parameter_of_sides,
                             "leave it out where no water leaves")}))
         is_drained[node] = true;
     for (const auto &boundary : scene->water.seepage.list)
@@ -339,7 +325,7 @@ namespace geocone::GEOCONE_DIM
     if (bars)
       problem->add(*bars);
     if constexpr (dim == 2)
-      if (has_consolidation)
+      if (drainage.acts)
         {
           flow = std::make_unique<Consolidation>(*scene,
                                                  *mesh,
@@ -561,7 +547,7 @@ namespace geocone::GEOCONE_DIM
     save_points(archive, points);
     if (scene->loading.changes_body())
       ramped.save(archive, *mesh, *space);
-    if (has_consolidation)
+    if (drainage.acts)
       save_nodes(archive, "pore pressure", *mesh, *space, pore_pressure);
     if (bars)
       {
@@ -588,7 +574,7 @@ namespace geocone::GEOCONE_DIM
     take_points(archive, points);
     if (scene->loading.changes_body())
       ramped.load(archive, *mesh, *space);
-    if (has_consolidation)
+    if (drainage.acts)
       load_nodes(archive, "pore pressure", *mesh, *space, pore_pressure);
     if (bars)
       {

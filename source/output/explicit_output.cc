@@ -11,14 +11,19 @@ namespace geocone::GEOCONE_DIM
   using namespace dealii;
 
   void
-  ExplicitOutput::prepare(const RunOptions &options, const Scene &of_run)
+  ExplicitOutput::prepare(const RunOptions &options,
+                          const Scene      &of_run,
+                          const PoreWater  &of_points)
   {
     begin(options, of_run);
+    water       = of_points.acts() ? &of_points : nullptr;
     point_files = std::make_unique<FieldFiles>("points", fields_format);
     add_step_columns();
     add_body_columns();
     add_balance_columns();
     add_observed_columns();
+    if (water != nullptr)
+      add_observed_pressures();
     open_table("statistics.csv");
   }
 
@@ -80,6 +85,8 @@ namespace geocone::GEOCONE_DIM
     add_exchange("gravity work (J/m)", &Exchange::gravity_work);
     add_exchange("support work (J/m)", &Exchange::support_work);
     add_exchange("damping work (J/m)", &Exchange::damping_work);
+    if (water != nullptr)
+      add_exchange("seepage work (J/m)", &Exchange::seepage_work);
     add_exchange("stopped energy (J/m)", &Exchange::stopped_energy);
     add_exchange("removed kinetic energy (J/m)", &Exchange::removed_energy);
     add_loss_columns();
@@ -94,6 +101,15 @@ namespace geocone::GEOCONE_DIM
             (dim == 2 ? "" : " " + axis_of_rotation(i)) + " (N m s/m)",
           [i](const Record &r) { return r.last.angular_momentum[i]; });
     add_exchange("removed mass (kg/m)", &Exchange::removed_mass);
+    if (water != nullptr)
+      {
+        add_exchange(scene->geometry.is_axisymmetric()
+                       ? "outflow of water (m^3)"
+                       : "outflow of water (m^2)",
+                     &Exchange::outflow);
+        add("error of the water balance (-)",
+            [this](const Record &r) { return water_error(r); });
+      }
     for (unsigned int i = 0; i < dim * scene->dirichlet.list.size(); ++i)
       table.add("force " + scene->dirichlet.list[i / dim]->name + " " +
                   coordinate[i % dim] + unit(" (N/m)"),
@@ -128,11 +144,23 @@ namespace geocone::GEOCONE_DIM
       works.external +=
         e.gravity_work - (initial.energies.potential - e.removed_potential -
                           record.last.energies.potential);
-    works.dissipation = e.stress_work + e.damping_work + e.stopped_energy;
+    works.dissipation =
+      e.stress_work + e.damping_work + e.seepage_work + e.stopped_energy;
     balance.set(record.last.energies,
                 works,
                 e.removed_energy + e.removed_potential,
                 e.removed_potential);
+  }
+
+  double
+  ExplicitOutput::water_error(const ExplicitRecord &record) const
+  {
+    const double volume =
+                   record.last.saturated_volume - initial.saturated_volume,
+                 stored = record.last.stored_water - initial.stored_water;
+    const Exchange &e   = record.exchange;
+    return (e.outflow + e.removed_water + volume + stored) /
+           std::max(std::abs(volume) + std::abs(stored), 1e-300);
   }
 
   Tensor<1, dim>
@@ -232,6 +260,23 @@ namespace geocone::GEOCONE_DIM
       return g.cumulative_plastic_strain[p];
     });
 
+    if (water != nullptr)
+      {
+        add("pore_pressure", [this](const Group &g, const Index p, Index) {
+          return water->pressure(g, p);
+        });
+        add("excess_pore_pressure",
+            [this](const Group &g, const Index p, Index) {
+              return water->excess_pressure(g, p);
+            });
+        add(
+          "water_velocity",
+          [this](const Group &g, const Index p, const Index d) {
+            return water->velocity(g, p)[d];
+          },
+          dim);
+      }
+
     // Output quantities of all laws; not a number where a law has none.
     for (const std::string &name : scene->materials.shown_names())
       table.columns.push_back({name, 1, [&, name](std::vector<double> &to) {
@@ -266,12 +311,18 @@ namespace geocone::GEOCONE_DIM
     if (records.empty())
       return json;
     const ExplicitState &last = records.back().last;
+    add_pressures(json);
     add_points(json);
     json["explicit"] = steps();
     json["state"]    = body();
     json["motion"]   = {{"front_x_m", last.upper[0]},
                         {"front_y_m", last.upper[1]}};
     json["energy"]   = energy();
+    if (water != nullptr)
+      json["water"] = {
+        {scene->geometry.is_axisymmetric() ? "outflow_m3" : "outflow_m2",
+         records.back().exchange.outflow},
+        {"balance_error", water_error(records.back())}};
     json["momentum"] = momentum();
     json["law"]      = {
            {"updates", counts.updates},
@@ -335,6 +386,8 @@ namespace geocone::GEOCONE_DIM
     json[unit("gravity_work_J_per_m")] = e.gravity_work;
     json[unit("support_work_J_per_m")] = e.support_work;
     json[unit("damping_work_J_per_m")] = e.damping_work;
+    if (water != nullptr)
+      json[unit("seepage_work_J_per_m")] = e.seepage_work;
     return json;
   }
 

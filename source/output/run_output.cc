@@ -238,11 +238,7 @@ namespace geocone::GEOCONE_DIM
                   [](const Record &r) { return r.last.water.error; });
       }
     if (scene->materials.traits().undrained)
-      for (unsigned int i = 0; i < scene->observation.points.size(); ++i)
-        table.add(
-          format("excess pore pressure of point %u (Pa)", i + 1),
-          [i](const Record &r) { return r.pressures[i]; },
-          Finite::may_be);
+      add_observed_pressures();
   }
 
   void

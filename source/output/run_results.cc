@@ -329,10 +329,7 @@ namespace geocone::GEOCONE_DIM
       json["limit_load"] = limit_load();
     if (!records.empty())
       {
-        const auto &pressures = records.back().pressures;
-        for (unsigned int i = 0; i < pressures.size(); ++i)
-          json["points"][format("excess_pore_pressure_%u_Pa", i + 1)] =
-            finite_or_null(pressures[i]);
+        add_pressures(json);
         add_points(json);
       }
     json["newton"] = newton_statistics();

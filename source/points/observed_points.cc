@@ -152,6 +152,18 @@ namespace geocone::GEOCONE_DIM
       }
   }
 
+  std::vector<double>
+  ObservedPoints::gather_values(std::vector<double> &sums) const
+  {
+    sum_over_ranks(sums, comm);
+    const std::size_t   n = sums.size() / 2;
+    std::vector<double> result(n, std::numeric_limits<double>::quiet_NaN());
+    for (unsigned int i = 0; i < n; ++i)
+      if (sums[n + i] > 0.)
+        result[i] = sums[i];
+    return result;
+  }
+
   std::vector<Tensor<1, dim>>
   ObservedPoints::gather(std::vector<double> &sums) const
   {
@@ -225,12 +237,25 @@ namespace geocone::GEOCONE_DIM
       for (unsigned int i = 0; i < n; ++i)
         if (points.id[p] == id[i])
           take(i, p);
-    sum_over_ranks(sums, comm);
-    std::vector<double> result(n, std::numeric_limits<double>::quiet_NaN());
-    for (unsigned int i = 0; i < n; ++i)
-      if (sums[n + i] > 0.)
-        result[i] = sums[i];
-    return result;
+    return gather_values(sums);
+  }
+
+  std::vector<double>
+  ObservedPoints::pressures(
+    const std::vector<PointArrays> &groups,
+    const std::function<double(const PointArrays &, const unsigned int)>
+      &excess_pressure) const
+  {
+    std::vector<double> sums(2 * id.size(), 0.);
+    for (const PointArrays &group : groups)
+      for (unsigned int p = 0; p < group.n_points(); ++p)
+        for (unsigned int i = 0; i < id.size(); ++i)
+          if (group.id[p] == id[i] && group.mass[p] > 0.)
+            {
+              sums[i]             = excess_pressure(group, p);
+              sums[id.size() + i] = 1.;
+            }
+    return gather_values(sums);
   }
 
   std::vector<Tensor<1, dim>>

@@ -48,7 +48,7 @@ namespace geocone::GEOCONE_DIM
   void
   ExplicitSimulation::prepare_output(const RunOptions &options)
   {
-    explicit_output.prepare(options, scene);
+    explicit_output.prepare(options, scene, stepper.pore_water());
     state = stepper.state();
     explicit_output.set_initial(state);
   }
@@ -100,13 +100,20 @@ namespace geocone::GEOCONE_DIM
   {
     state           = stepper.state();
     state.reactions = std::move(report.reactions);
+    std::vector<double> pressures;
+    if (stepper.pore_water().acts())
+      pressures = observed_points.pressures(
+        stepper.points(), [&](const PointArrays &group, const unsigned int p) {
+          return stepper.pore_water().excess_pressure(group, p);
+        });
     explicit_output.add_step({{now.step,
                                now.time,
                                state,
                                observed_points.displacements(stepper.points())},
                               step_loop.last_cpu_time(),
                               report,
-                              stepper.exchange()});
+                              stepper.exchange(),
+                              pressures});
   }
 
   std::string

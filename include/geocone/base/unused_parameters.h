@@ -15,7 +15,8 @@ namespace geocone
    * Declares that a parameter is used only if another parameter, the chooser,
    * has certain values. Declared next to the parameter, as a constant outside
    * of functions. A '*' stands for any name, the same in all paths of a
-   * condition.
+   * condition. The rule of a parameter replaces that of its section with the
+   * same chooser.
    */
   struct UsedWhere
   {

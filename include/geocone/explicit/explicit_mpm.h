@@ -7,6 +7,7 @@
 #include <geocone/base/archive.h>
 #include <geocone/base/choice.h>
 #include <geocone/explicit/nodal_update.h>
+#include <geocone/explicit/pore_water.h>
 #include <geocone/mesh/background_mesh.h>
 #include <geocone/points/outflow.h>
 #include <geocone/points/particle_transfer.h>
@@ -42,6 +43,10 @@ namespace geocone::GEOCONE_DIM
     double left_front = 0., right_front = 0.;
     double largest_speed = 0.; ///< (m/s)
 
+    /** Volume of the saturated points (m^2), and of the water that their pore
+     *  pressure stores, sum of V u n/K_w (m^2). */
+    double saturated_volume = 0., stored_water = 0.;
+
     /** Index, position and wave speed of the point with the largest elastic
      *  wave speed. This point limits the time step. */
     unsigned int       limiting_id = 0;
@@ -62,6 +67,8 @@ namespace geocone::GEOCONE_DIM
           left_front,
           right_front,
           largest_speed,
+          saturated_volume,
+          stored_water,
           limiting_id,
           limiting_place,
           limiting_wave_speed);
@@ -173,6 +180,12 @@ namespace geocone::GEOCONE_DIM
     grid() const
     {
       return *transfer;
+    }
+
+    const PoreWater &
+    pore_water() const
+    {
+      return water;
     }
 
     /** Number of points of this rank. */
@@ -414,6 +427,13 @@ namespace geocone::GEOCONE_DIM
     void
     gather_sums();
 
+    /** Adds a part of the mass, momentum and energy of a point to the removed
+     *  totals. */
+    void
+    count_removal(const PointArrays &group,
+                  const unsigned int p,
+                  const double       part);
+
     /** Removes a point: sets its mass to zero and adds its mass, momentum and
      *  energy to the removed totals. */
     void
@@ -425,6 +445,10 @@ namespace geocone::GEOCONE_DIM
 
     double
     kinetic_energy(const PointArrays &group, const unsigned int p) const;
+
+    /** Momentum of a point with its pore water (N s/m). */
+    dealii::Tensor<1, dim>
+    momentum(const PointArrays &group, const unsigned int p) const;
 
     /** Converts a unit for plane strain to the unit for the current problem,
      *  i.e. without "per metre of thickness" in axisymmetric and
@@ -462,6 +486,7 @@ namespace geocone::GEOCONE_DIM
     std::unique_ptr<GridTransfer>   transfer;
     std::unique_ptr<BoundaryForces> boundary; ///< boundary forces, or null
     std::unique_ptr<NodalUpdate>    nodes;
+    PoreWater                       water;
     std::vector<PointArrays>        groups;
     BlockScratch                    scratch = {};
     std::vector<double *>           history;       ///< arrays passed to the law

@@ -5,6 +5,7 @@
 #define geocone_explicit_nodal_update_h
 
 #include <geocone/explicit/boundary_forces.h>
+#include <geocone/explicit/pore_water.h>
 #include <geocone/scene/boundary_conditions.h>
 #include <geocone/transfer/grid_transfer.h>
 
@@ -24,8 +25,10 @@ namespace geocone::GEOCONE_DIM
     double stress_work  = 0.; ///< stress work, sum of s : de V (J/m)
     double gravity_work = 0.; ///< work of gravity, sum of m g dx (J/m)
     double damping_work = 0.; ///< dissipated by local damping (J/m)
-    /** Work done by prescribed velocities, tractions and absorbing boundaries
-     *  (J/m). */
+    double seepage_work = 0.; ///< dissipated by flowing pore water (J/m)
+    double outflow      = 0.; ///< volume of pore water that has left (m^2)
+    /** Work done by prescribed velocities, tractions, absorbing boundaries and
+     *  the buoyancy of pore water (J/m). */
     double support_work = 0.;
 
     /** Total impulse of gravity, damping and support forces (N s/m). */
@@ -38,6 +41,10 @@ namespace geocone::GEOCONE_DIM
     double                 removed_energy    = 0.; ///< kinetic energy (J/m)
     double                 removed_potential = 0.; ///< from the lower corner
 
+    /** Volume of removed saturated points with the water that their pore
+     *  pressure stores (m^2). */
+    double removed_water = 0.;
+
     /** Kinetic energy removed by kinetic damping (J/m). */
     double stopped_energy = 0.;
 
@@ -49,12 +56,15 @@ namespace geocone::GEOCONE_DIM
       row(stress_work,
           gravity_work,
           damping_work,
+          seepage_work,
+          outflow,
           support_work,
           impulse,
           removed_mass,
           removed_momentum,
           removed_energy,
           removed_potential,
+          removed_water,
           stopped_energy,
           small_masses);
     }
@@ -75,6 +85,7 @@ namespace geocone::GEOCONE_DIM
      * which determines the momentum received from prescribed velocities
      * @param least_mass nodes with this mass or less are skipped (kg/m)
      * @param boundary boundary forces, or null
+     * @param water pore water that flows, or null
      * @param sum totals to which the impulses and work of this rank are added
      */
     NodalUpdate(GridTransfer             &transfer,
@@ -82,6 +93,7 @@ namespace geocone::GEOCONE_DIM
                 const double              flip_part,
                 const double              least_mass,
                 const BoundaryForces     *boundary,
+                PoreWater                *water,
                 Exchange                 &sum);
 
     /** Parameters of the nodal update in an explicit step. */
@@ -198,6 +210,7 @@ namespace geocone::GEOCONE_DIM
     const BoundaryConditions &conditions;
     const double              flip_part, least_mass;
     const BoundaryForces     *boundary;
+    PoreWater                *water;
     Exchange                 &sum;
 
     /** A nodal velocity component with a prescribed value in the current

@@ -6,6 +6,7 @@
 
 #include <geocone/conditions/loads.h>
 #include <geocone/implicit/implicit_stepper.h>
+#include <geocone/scene/drainage.h>
 
 #include <string>
 #include <vector>
@@ -146,9 +147,8 @@ namespace geocone::GEOCONE_DIM
     std::unique_ptr<Loads> loads;
     Vector                 weight_per_g;
 
-    bool                     has_consolidation = false;
-    std::vector<std::string> drained_sides;
-    Vector                   pore_pressure; ///< excess, see Consolidation
+    Drainage drainage;
+    Vector   pore_pressure; ///< excess, see Consolidation
   };
 } // namespace geocone::GEOCONE_DIM
 

@@ -49,6 +49,13 @@ namespace geocone
       return curve != Curve::none;
     }
 
+    /** Volume of water per volume of saturated soil (-): the porosity. */
+    double
+    saturated_content() const
+    {
+      return theta_s;
+    }
+
     /** Returns true if suction increases the shear strength. */
     bool
     adds_strength() const

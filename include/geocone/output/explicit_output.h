@@ -21,12 +21,14 @@ namespace geocone::GEOCONE_DIM
     double         cpu = 0.; ///< CPU time of the explicit steps, this rank (s)
     ExplicitReport report;
     Exchange       exchange;
+    std::vector<double>
+      pressures; ///< excess pore pressures at observed points (Pa)
 
     void
     state(StateRow &row)
     {
       StepRecord::state(row);
-      row(cpu, report, exchange);
+      row(cpu, report, exchange, pressures);
     }
   };
 
@@ -47,9 +49,12 @@ namespace geocone::GEOCONE_DIM
     using SceneOutput::SceneOutput;
 
     /** Creates the output folder, or reopens the folder of a resumed run.
+     *  @param water pore water of the points
      *  @throws InputError */
     void
-    prepare(const RunOptions &options, const Scene &scene);
+    prepare(const RunOptions &options,
+            const Scene      &scene,
+            const PoreWater  &water);
 
     void
     state_of_run(StateRow &row) override;
@@ -104,6 +109,12 @@ namespace geocone::GEOCONE_DIM
     void
     update_balance(const ExplicitRecord &record);
 
+    /** Error of the water balance: outflow and change of the volume of the
+     *  saturated points with the water that their pressure stores, over the sum
+     *  of the absolute values of the latter two. */
+    double
+    water_error(const ExplicitRecord &record) const;
+
     /** Momentum residual. */
     dealii::Tensor<1, dim>
     momentum_residual(const ExplicitRecord &record) const;
@@ -118,6 +129,7 @@ namespace geocone::GEOCONE_DIM
          const PointArrays &group,
          double            *values) const;
 
+    const PoreWater            *water = nullptr; ///< null without flow
     ExplicitState               initial;
     std::unique_ptr<FieldFiles> point_files;
     double largest_impulse = 0.; ///< over all records, scale of the residual

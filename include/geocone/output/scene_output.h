@@ -137,6 +137,18 @@ namespace geocone::GEOCONE_DIM
             [i, d](const Record &r) { return r.displacements[i][d]; },
             Finite::may_be);
     }
+
+    /** Appends the columns of the excess pore pressures at the observed points,
+     *  for records with the member `pressures`. */
+    void
+    add_observed_pressures()
+    {
+      for (unsigned int i = 0; i < scene->observation.points.size(); ++i)
+        add(
+          format("excess pore pressure of point %u (Pa)", i + 1),
+          [i](const Record &r) { return r.pressures[i]; },
+          Finite::may_be);
+    }
     /** @} */
 
     /** @name Topics of all summaries */
@@ -152,6 +164,17 @@ namespace geocone::GEOCONE_DIM
           summary["points"]
                  [format("displacement_%u_%c_m", i + 1, coordinate[d])] =
                    finite_or_null(displacements[i][d]);
+    }
+
+    /** Adds the excess pore pressures at the observed points to the section
+     *  "points" of summary.json. */
+    void
+    add_pressures(Json &summary) const
+    {
+      const std::vector<double> &pressures = records.back().pressures;
+      for (unsigned int i = 0; i < pressures.size(); ++i)
+        summary["points"][format("excess_pore_pressure_%u_Pa", i + 1)] =
+          finite_or_null(pressures[i]);
     }
 
     /** Returns the section "energy" of summary.json. @param weight_changes see

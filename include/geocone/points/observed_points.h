@@ -9,6 +9,7 @@
 #include <geocone/scene/scene.h>
 #include <geocone/space/space.h>
 
+#include <functional>
 #include <vector>
 
 namespace geocone::GEOCONE_DIM
@@ -55,6 +56,12 @@ namespace geocone::GEOCONE_DIM
      *  tracked material point. */
     std::vector<double>
     pressures(const MaterialPoints &points) const;
+    /** @param excess_pressure of a point of a group (Pa) */
+    std::vector<double>
+    pressures(
+      const std::vector<PointArrays>                    &groups,
+      const std::function<double(const PointArrays &group,
+                                 const unsigned int p)> &excess_pressure) const;
 
   private:
     /** Observed position in a cell of this rank. */
@@ -81,6 +88,12 @@ namespace geocone::GEOCONE_DIM
     void
     choose(const Scene                                 &scene,
            const std::vector<std::optional<Candidate>> &own);
+
+    /** Sums values over all ranks. @param sums a value for each observed
+     *  position, then the number of points that have it; without a point, the
+     *  result is NaN */
+    std::vector<double>
+    gather_values(std::vector<double> &sums) const;
 
     /** Sums displacement components over all ranks. The result is NaN if no rank
      *  has a value. */
