@@ -57,7 +57,7 @@ namespace geocone
       {"Loading", "stages: duration, steps, excavation, fill, strength"},
       {"Path", "stages of a single material point"},
       {"Element", "options of a single material point"},
-      {"Time stepping", "implicit steps: inertia, integration, substeps"},
+      {"Time stepping", "implicit steps: inertia, integration, substeps, consolidation"},
       {"Newton", "formulation and convergence of Newton's method"},
       {"Linear solver", "direct and multigrid solvers"},
       {"Material point method", "transfer, mass and stabilisation of the MPM"},

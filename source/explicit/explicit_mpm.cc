@@ -135,10 +135,13 @@ namespace geocone::GEOCONE_DIM
       {
         const std::string what =
           std::string("explicit MPM without ") + Drainage::parameter;
-        scene->water.refuse(what, "set it to true, or give buoyant densities");
-        scene->materials.refuse_undrained(what,
-                                          "set it to true, or take Tresca with "
-                                          "the undrained strength");
+        scene->water.refuse(what,
+                            "set Discretisation/Method = FEM or MPM, or give "
+                            "buoyant densities");
+        scene->materials.refuse_undrained(
+          what,
+          "set it to true, or Discretisation/Method = FEM or MPM, or take "
+          "Tresca with the undrained strength");
       }
     else if (order == Order::usf)
       throw InputError(section + "Order",

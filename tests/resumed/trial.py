@@ -66,6 +66,10 @@ METHODS = {
     # Excess pore pressures that are unknowns.
     "consolidation": ("../prm/consolidation/terzaghi.prm", {
         "Loading/consolidate/Output every": "5"}),
+    # Pore water that flows, and points that are taken away in time.
+    "two-phase": ("../prm/consolidation/cut_below_water.prm", {
+        "Mesh/Cell size": "1", "Loading/cut/Duration": "2",
+        "Loading/cut/Step size": "0.05", "Loading/cut/Output every": "3"}),
     "raised": ("fem/raised_footing-01.prm", {"Loading/raise/Output every": "2"}),
     # Sides that move and absorb, by explicit steps.
     "sides": ("explicit/traction_wave-01.prm", {"Loading/shake/Output every": "5"}),
