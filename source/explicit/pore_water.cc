@@ -379,6 +379,35 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
+  PoreWater::average_pressures(const Loop               &for_each_block,
+                               std::vector<PointArrays> &groups)
+  {
+    double p[BlockScratch::size], volume[BlockScratch::size];
+    transfer->clear_cells();
+    for_each_block([&](const TransferBlock &points) {
+      const PointArrays &group     = groups[points.group];
+      TransferBlock      saturated = points;
+      saturated.volume             = volume;
+      for (unsigned int k = 0; k < points.n; ++k)
+        {
+          p[k] = excess_pressure(group, points.first + k);
+          volume[k] =
+            is_saturated(group, points.first + k) ? points.volume[k] : 0.;
+        }
+      transfer->add_to_cells(saturated, p);
+    });
+    transfer->exchange_cells();
+    for_each_block([&](const TransferBlock &points) {
+      PointArrays &group = groups[points.group];
+      transfer->average(points, p);
+      for (unsigned int k = 0; k < points.n; ++k)
+        if (const unsigned int i = points.first + k; is_saturated(group, i))
+          group.history[first(group)][i] =
+            p[k] + scene->water.pressure(group.position.of(i));
+    });
+  }
+
+  void
   PoreWater::scatter(const bool                momentum,
                      const bool                force,
                      const bool                mass,
@@ -386,38 +415,22 @@ namespace geocone::GEOCONE_DIM
                      std::vector<PointArrays> &groups,
                      BlockScratch             &scratch)
   {
-    double     share[BlockScratch::size]; // n p, and their means
-    const auto find_shares = [&](const TransferBlock &points) {
-      const PointArrays &group = groups[points.group];
-      for (unsigned int k = 0; k < points.n; ++k)
-        share[k] = soils[group.of_material].porosity *
-                   excess_pressure(group, points.first + k);
-    };
     if (b_bar && force)
-      {
-        transfer->clear_cells();
-        for_each_block([&](const TransferBlock &points) {
-          find_shares(points);
-          transfer->add_to_cells(points, share);
-        });
-        transfer->exchange_cells();
-      }
+      average_pressures(for_each_block, groups);
     for_each_block([&](const TransferBlock &points) {
       PointArrays  &group = groups[points.group];
       const Soil   &soil  = soils[group.of_material];
       TransferBlock block = points;
       double        masses[BlockScratch::size], stress[BlockScratch::size],
         zero[BlockScratch::size] = {};
-      if (force && b_bar)
-        transfer->average(points, share);
-      else if (force)
-        find_shares(points);
       for (unsigned int k = 0; k < points.n; ++k)
         {
           masses[k] = is_saturated(group, points.first + k)
                         ? soil.water * points.mass[k]
                         : 0.;
-          stress[k] = force ? -share[k] : 0.;
+          stress[k] =
+            force ? -soil.porosity * excess_pressure(group, points.first + k)
+                  : 0.;
           if (axisymmetric)
             scratch.hoop_force[k] = -points.volume[k] * stress[k] /
                                     std::max(points.x[0][k], least_radius);

@@ -66,8 +66,8 @@ namespace geocone::GEOCONE_DIM
     }
 
     /** Checks the scene and computes the constants of the materials.
-     *  @param b_bar whether the rates of the water volume and the pore
-     *  pressures are averaged in each cell
+     *  @param b_bar whether the rates of the water volume and the excess pore
+     *  pressures are averaged over the points of each cell
      *  @throws InputError */
     void
     prepare(const Scene &scene, const ParticleTransfer &rule, const bool b_bar);
@@ -286,6 +286,12 @@ namespace geocone::GEOCONE_DIM
                const TransferBlock &points,
                const PointArrays   &group,
                BlockScratch        &scratch);
+
+    /** Replaces the excess pore pressure of each saturated point by the mean over
+     *  those of its cell, to which its rates are equal. */
+    void
+    average_pressures(const Loop               &for_each_block,
+                      std::vector<PointArrays> &groups);
 
     void
     update_pressures(const double         dt,
