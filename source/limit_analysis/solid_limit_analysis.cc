@@ -8,6 +8,7 @@
 #include <geocone/limit_analysis/solid_limit_analysis.h>
 #include <geocone/mesh/bisection.h>
 #include <geocone/mesh/fitted_mesh.h>
+#include <geocone/output/model_of_tetrahedra.h>
 #include <geocone/scene/magnitudes.h>
 
 #include <deal.II/base/bounding_box.h>
@@ -87,6 +88,12 @@ namespace geocone::GEOCONE_DIM
         !remark.empty())
       warnings.push_back(remark);
     return warnings;
+  }
+
+  Json
+  SolidLimitAnalysis::model()
+  {
+    return model_of(scene, model_mesh_of(*tetrahedra));
   }
 
   BoundAnalysis::Side

@@ -1,6 +1,7 @@
 # Bounds in three dimensions write the fields of the last mesh: the parts of the gap have the
 # mean one, the dissipation has the mean one over the volume, and tractions at the free surface
-# vanish. Pictures are drawn without VTK, too, and the script for ParaView is written.
+# vanish. Pictures are drawn without VTK, too, and the script for ParaView is written. The model
+# has the faces of the body, seen from outside, with its supports.
 program=$1 root=$2 folder=$3
 rm -rf "$folder" && mkdir -p "$folder" && cd "$folder"
 "$program" "$root/tests/three/bounds_solver.prm" --quiet --output run \
@@ -8,8 +9,11 @@ rm -rf "$folder" && mkdir -p "$folder" && cd "$folder"
   --set 'Analysis/Solver tolerance = 1e-4'
 GEOCONE_VTK=0 "$root/scripts/plot" run > said
 grep -qx "run/mechanism.png" said
+grep -qx "run/model.png" said
 grep -qx "run/paraview_state.py" said
 PYTHONPATH=$root/python /usr/bin/python3 -B - <<'PYTHON'
+import json
+
 import numpy as np
 
 from geocone.reader import Run
@@ -36,6 +40,12 @@ assert len(top) == 3 * 4
 for name in "yy", "xy", "yz":
     stress = field.data[f"stress_{name}"][:, 0]
     assert np.abs(stress[top]).max() < 1e-5 * np.abs(stress).max() + 1e-3, name
+model = json.loads((run.folder / "model.json").read_text())
+faces = np.array(model["cells"])
+areas = np.cross(faces[:, 1] - faces[:, 0], faces[:, 2] - faces[:, 0]) / 2.
+assert abs(np.einsum("fi,fi", areas, faces.mean(axis=1)) / 3. - 0.5) < 1e-6  # the volume
+assert len(model["material_of_cell"]) == len(faces)
+assert model["supports"] and all(one["faces"] for one in model["supports"])
 memory = run.table("bounds")["peak memory (MB)"]
 assert 20. < memory[-1] < 2000., memory
 PYTHON

@@ -79,6 +79,8 @@ namespace geocone::GEOCONE_DIM
 
     std::vector<std::string>
     prepare(const RunOptions &options) override;
+    Json
+    model() override;
     StepOutcome
     advance(TimePoint &now) override;
     void
