@@ -218,10 +218,9 @@ def obstacles_of(run, time=None):
     return field.points[field.cells] if field.points.shape[1] == 2 else none
 
 
-def draw_obstacles(axes, run, time=None):
-    """Draws the obstacles of a run in the plane. @return what is drawn"""
-    drawn = PolyCollection(obstacles_of(run, time), facecolors="#8c8c8c", edgecolors="face",
-                           linewidths=0.5)
+def draw_obstacles(axes, triangles):
+    """Draws the triangles of obstacles in the plane. @return what is drawn"""
+    drawn = PolyCollection(triangles, facecolors="#8c8c8c", edgecolors="face", linewidths=0.5)
     axes.add_collection(drawn, autolim=False)
     return drawn
 

@@ -304,7 +304,7 @@ namespace geocone::GEOCONE_DIM
     const auto [low, high] = mesh.bounding_box().get_boundary_points();
 
     // The first rank writes all of them.
-    std::vector<double> places, numbers;
+    std::vector<double> places, numbers, displacements;
     if (Utilities::MPI::this_mpi_process(comm) == 0)
       for (unsigned int o = 0; o < obstacles.list.size(); ++o)
         for (const ObstacleShape::Triangle &triangle :
@@ -312,8 +312,15 @@ namespace geocone::GEOCONE_DIM
                moved[o], low + (high - low) / 2., low.distance(high)))
           for (const Point<dim> &x : triangle)
             {
+              const Tensor<1, dim> arm =
+                x - obstacles.list[o]->centre() - moved[o].centre;
+              const Tensor<1, dim> displacement =
+                moved[o].centre + arm - moved[o].turned(arm, true);
               for (unsigned int d = 0; d < dim; ++d)
-                places.push_back(x[d]);
+                {
+                  places.push_back(x[d]);
+                  displacements.push_back(displacement[d]);
+                }
               numbers.push_back(o);
             }
     FieldTable table;
@@ -321,7 +328,10 @@ namespace geocone::GEOCONE_DIM
     table.n_nodes   = numbers.size();
     table.positions = [&](std::vector<double> &values) { values = places; };
     table.columns   = {
-        {"obstacle", 1, [&](std::vector<double> &values) { values = numbers; }}};
+        {"obstacle", 1, [&](std::vector<double> &values) { values = numbers; }},
+        {"displacement", dim, [&](std::vector<double> &values) {
+         values = displacements;
+       }}};
     solids.write(table, folder, time, comm);
   }
 } // namespace geocone::GEOCONE_DIM

@@ -27,7 +27,8 @@ namespace geocone::GEOCONE_DIM
    *    pressure (Pa), plastic strain, plastic strain rate (1/s), cumulative plastic
    *    strain, and output quantities of the laws; particles also with their number, velocity and
    *    displacement;
-   *  - obstacles-NNNN.vtu: positions of the obstacles, with their numbers;
+   *  - obstacles-NNNN.vtu: positions of the obstacles, with their numbers and
+   *    displacements since the start;
    *  - cells.pvd, points.pvd, obstacles.pvd: the series in time.
    * On several ranks: a file per rank, and .pvtu files that join them; or one file of
    * all ranks for each time, cells-NNNN.h5 and points-NNNN.h5 with the series

@@ -9,10 +9,11 @@ import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.patches import PathPatch, Polygon
 
+from geocone.plots.load import reset_of
 from geocone.plots.model import Model, draw_structures, outline_of
 from geocone.plots.point_values import recovered, vertices_of
-from geocone.reader import ReadError
-from geocone.style import draw_free_surface, draw_obstacles, draw_water
+from geocone.reader import Missing, ReadError
+from geocone.style import draw_free_surface, draw_obstacles, draw_water, obstacles_of
 
 BODY = {"edgecolor": "#303030", "linewidth": 1.}
 START = {"edgecolor": "#808080", "linewidth": 0.8, "linestyle": (0, (2, 2))}
@@ -91,10 +92,11 @@ def draw_model_outlines(axes, model, time, outline, body_look=BODY, soil_look=SO
         patch.set_clip_path(PathPatch(outline, transform=axes.transData))
 
 
-def draw_scene(axes, run, field, places=None):
+def draw_scene(axes, run, field, places=None, obstacles=None):
     """Draws over a field the outlines of body and soils, obstacles and water at its time.
 
     @param places of the nodes where they are not those of the field
+    @param obstacles triangles of the obstacles where they are not at their places
     @return what is drawn"""
     view, before = (axes.get_xlim(), axes.get_ylim()), set(axes.get_children())
     if field.cells.shape[1] < 3:
@@ -108,7 +110,7 @@ def draw_scene(axes, run, field, places=None):
         for edges, look in zip(borders_of(field), (SOIL, BODY)):
             axes.add_collection(LineCollection(places[edges], colors=look["edgecolor"], zorder=4,
                                                linewidths=look["linewidth"]), autolim=False)
-    draw_obstacles(axes, run, field.time)
+    draw_obstacles(axes, obstacles_of(run, field.time) if obstacles is None else obstacles)
     draw_water(axes, run, field.time)
     model = model_of(run)
     if model is not None:
@@ -134,6 +136,31 @@ def magnification(most, view):
     wanted = 0.05 * np.max(view[1] - view[0]) / most if most > 0. else 1.
     power = 10.**np.floor(np.log10(wanted))
     return power * max(step for step in (1., 2., 5.) if step * power <= wanted * 1.0001)
+
+
+def obstacle_displacements(run, time):
+    """Displacements (n, 3, 2) of the triangles of obstacles_of() at a time, since the
+    displacements of the body were set to zero; None where the fields do not have them."""
+    begin = reset_of(run)
+    try:
+        field, before = run.obstacles(time), run.obstacles(begin)
+    except Missing:
+        return None
+    if "displacement" not in field.data or begin > time:
+        return None
+    moved = field.data["displacement"][:, :2]
+    if begin > 0.:
+        if abs(before.time - begin) > 1e-9 * begin or len(before.points) != len(moved):
+            return None
+        moved = moved - before.data["displacement"][:, :2]
+    return moved[field.cells]
+
+
+def enlarged(vectors, factor, most):
+    """Displacements as they are drawn: times a factor, and those above `most` as large as it,
+    since single nodes at singular edges would reach across the picture."""
+    size = np.linalg.norm(vectors, axis=-1, keepdims=True)
+    return factor * vectors * (most / np.maximum(size, most))
 
 
 def draw_arrows(axes, places, vectors, most):

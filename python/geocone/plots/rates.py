@@ -10,8 +10,8 @@ from matplotlib.ticker import LogFormatterMathtext, LogLocator
 from geocone.plots import overlay
 from geocone.plots.answer import heading, is_strength_reduction, moment
 from geocone.plots.point_values import per_cell
-from geocone.style import (RATES, SHOWN, STRAINS, Skipped, add_bar, disks, level, panels, save,
-                           sizes_of, with_obstacles)
+from geocone.style import (RATES, SHOWN, STRAINS, Skipped, add_bar, disks, level, obstacles_of,
+                           panels, save, sizes_of, with_obstacles)
 
 
 def rates_of(run):
@@ -116,7 +116,7 @@ def draw_motion(axes, run, field, view):
     seen = per_cell(field, inside)
     most = max(level(size[field.cells[seen]].mean(axis=1), sizes_of(field)[seen]),
                np.finfo(float).tiny)
-    title = f"magnitude of the {name}"
+    title, obstacles = f"magnitude of the {name}", None
     if field.cells.shape[1] < 3:
         drawn = disks(axes, field, size)
         drawn.set(cmap=STRAINS, clim=(0., most))
@@ -127,15 +127,19 @@ def draw_motion(axes, run, field, view):
         if name == "displacement" and run.method != "MPM":
             metre = {"m": 1., "mm": 1e3}[unit]
             factor = overlay.magnification(most / metre, view)
-            # Single nodes at singular edges would reach across the picture.
-            places = places + factor * vectors / metre * (
-                most / np.maximum(size, most))[:, None]
-            title += f", deformed mesh ({factor:g} times)"
+            places = places + overlay.enlarged(vectors / metre, factor, most / metre)
+            title += ", deformed mesh" + f" ({factor:g} times)" * (factor != 1.)
+            now = obstacles_of(run, field.time)
+            moved = overlay.obstacle_displacements(run, field.time)
+            if moved is not None:
+                obstacles = now - moved + overlay.enlarged(moved, factor, most / metre)
+            elif len(now):
+                title += ", obstacles at their true places"
         drawn = axes.tripcolor(*places.T, overlay.triangles_of(field.cells), size,
                                shading="gouraud", cmap=STRAINS, vmin=0., vmax=most)
         if run.method != "MPM":
             overlay.draw_mesh(axes, field, places)
     overlay.draw_arrows(axes, places, vectors, most)
-    overlay.draw_scene(axes, run, field, places)
+    overlay.draw_scene(axes, run, field, places, obstacles)
     axes.set_title(title)
     add_bar(axes, drawn, unit, extend="max")
