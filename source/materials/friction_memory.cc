@@ -26,7 +26,9 @@ namespace geocone::GEOCONE_DIM
       "speed. B is its length, twice that length if it ends in a plane of "
       "symmetry (an end of the body along x where only 'Velocity x' = 0 is "
       "prescribed), and its radius in axisymmetric problems. Automatic is "
-      "always 0 with 'Time stepping/Friction' = exact and for Drucker-Prager.");
+      "always 0 with 'Time stepping/Friction' = exact, for Drucker-Prager, and "
+      "for soil that softens, where a delayed strength would lower the peak "
+      "load.");
   }
 
   void

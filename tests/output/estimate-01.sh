@@ -1,6 +1,7 @@
 # How large a run will be is printed before it is built, near to what it then is; a run
 # that is larger than the memory is refused with the parameter that drives it, unless it
-# is forced; a dry run writes nothing.
+# is forced; a dry run writes nothing. Friction has a memory by default in soil with little
+# dilatancy, but not in soil that softens, whose peak load it would lower.
 program=$1 root=$2 folder=$3
 rm -rf "$folder" && mkdir -p "$folder" && cd "$folder"
 options=(--set 'Output/Report for tests = none' --set 'Output/Pictures = false')
@@ -51,3 +52,10 @@ refuse prm/footing_mpm.prm 'Particles/Points per direction' \
 refuse tests/explicit/collapse.prm Particles/Spacing --set 'Particles/Layout = lattice' \
   --set 'Particles/Spacing = 4e-5'
 refuse tests/footing_coarse.prm 'Mesh/Cell size' --set 'Mesh/Cell size = 1e-12'
+hard=(--dry-run --set 'Materials/soil/Dilatancy angle = 0')
+"$program" "$root/prm/footing_softening.prm" "${hard[@]}" >dry
+if grep -q 'has a memory' dry; then exit 1; fi
+"$program" "$root/prm/footing_softening.prm" "${hard[@]}" \
+  --set 'Materials/soil/Cohesion with strain = constant' \
+  --set 'Materials/soil/Friction angle with strain = constant' >dry
+grep -q 'has a memory of 0.01 s' dry

@@ -86,6 +86,12 @@ namespace geocone::GEOCONE_DIM
     double
     non_associativity() const override;
 
+    /** Sets the relaxation time tau (s) of friction with memory, see
+     *  Material::set_friction_memory(). Without effect if the strength
+     *  decreases. */
+    void
+    set_friction_memory(const double tau) override;
+
     /** Returns true if the tangent stiffness is symmetric. False for hardening
      *  with friction, where the apex of the cone depends on shear but not on
      *  opening, and for softening, where the tangent is not positive
