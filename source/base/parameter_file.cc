@@ -102,14 +102,13 @@ namespace geocone
       const std::string best = nearest_name(name, known);
       if (!best.empty())
         return did_you_mean(section + best);
-      if (known.size() > 16)
+      if (known.size() > 16 || known.empty())
         return "\n  remedy:  " + help_on(section) + " lists all";
       std::string all;
       for (const std::string &candidate : known)
         all += (all.empty() ? "" : ", ") + candidate;
-      return "\n  allowed: " + (all.empty() ? "nothing here" : all) +
-             "\n  remedy:  choose one of these; " + help_on(section) +
-             " describes them";
+      return "\n  allowed: " + all + "\n  remedy:  choose one of these; " +
+             help_on(section) + " describes them";
     }
 
     /** "SECTION/NAME" if exactly one other section has a parameter of this
@@ -562,7 +561,7 @@ namespace geocone
                                  "the option --run-gmsh-script");
               }
             const std::string elsewhere =
-              set.sections.size() == 1 ? path_of_entry(set.name, declared) : "";
+              set.sections.size() <= 1 ? path_of_entry(set.name, declared) : "";
             throw InputError(set.line->place() + ": unknown parameter '" +
                              printable(path) + "'" +
                              (elsewhere.empty()
