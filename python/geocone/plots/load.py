@@ -75,12 +75,20 @@ def load_text(name, value, unit, error=None):
             ("" if error is None else f" ({100. * error:+.2f} %)"))
 
 
+def level_text(name, limit, unit, is_single):
+    """The plateau of a curve as the legend gives it, or the peak where the load falls."""
+    peak, last = limit.get("peak"), limit.get("last")
+    if limit["value"] is None and peak and last is not None and abs(peak) > 1.02 * abs(last):
+        return load_text("peak" if is_single else f"{name}, peak", peak, unit)
+    return load_text("plateau" if is_single else name, limit["value"], unit,
+                     limit["relative_error"])
+
+
 def draw_lines(axes, names, curves, unit):
     """Draws curves, plateaus and references; a single plateau has its own name."""
     single = len(curves) == 1
     for i, (name, (displacement, load, limit, _, _)) in enumerate(zip(names, curves)):
-        color, text = COLORS[i % len(COLORS)], load_text(
-            "plateau" if single else name, limit["value"], unit, limit["relative_error"])
+        color, text = COLORS[i % len(COLORS)], level_text(name, limit, unit, single)
         # Many steps are often noisy: a thin line behind all others.
         style = ({"linewidth": 1., "zorder": 1.2} if len(load) > 61 else
                  {"marker": "o", "markersize": 3.5})
