@@ -57,5 +57,6 @@ hard=(--dry-run --set 'Materials/soil/Dilatancy angle = 0')
 if grep -q 'has a memory' dry; then exit 1; fi
 "$program" "$root/prm/footing_softening.prm" "${hard[@]}" \
   --set 'Materials/soil/Cohesion with strain = constant' \
-  --set 'Materials/soil/Friction angle with strain = constant' >dry
+  --set 'Materials/soil/Friction angle with strain = constant' \
+  --set 'Materials/soil/Softening length = 0' >dry
 grep -q 'has a memory of 0.01 s' dry
