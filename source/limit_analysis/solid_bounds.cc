@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 #include <utility>
+#include <variant>
 
 namespace geocone::GEOCONE_DIM
 {
@@ -131,10 +132,33 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    using Bulk   = PointGroupOf<MohrCoulombCones, 12>;
-    using Cones  = PointGroupOf<CircularCone, 12>;
-    using Faces  = PointGroupOf<FaceCone, 6>;
-    using Planes = PointGroupOf<OpeningCone, 6>;
+    using Bulk     = PointGroupOf<MohrCoulombCones, 12>;
+    using CutBulk  = PointGroupOf<CutMohrCoulombCones, 12>;
+    using Cones    = PointGroupOf<CircularCone, 12>;
+    using Faces    = PointGroupOf<FaceCone, 6>;
+    using CutFaces = PointGroupOf<CutMohrCoulombCones, 6>;
+    using Planes   = PointGroupOf<OpeningCone, 6>;
+
+    /** Kinds of groups of the points in cells, in their order. */
+    enum CellKind
+    {
+      pyramid,
+      circular,
+      cut,
+      n_kinds
+    };
+
+    CellKind
+    kind_of(const SolidStrength &one)
+    {
+      return one.is_circular ? circular : one.is_cut() ? cut : pyramid;
+    }
+
+    CutMohrCoulombCones
+    cut_law(const SolidStrength &one)
+    {
+      return cut_mohr_coulomb_cones(one.a, one.tension / one.k);
+    }
 
     /** sym(b x g) of the unit vector b along a component. */
     Eigen::Matrix<double, 6, 1>
@@ -158,20 +182,29 @@ namespace geocone::GEOCONE_DIM
     public:
       explicit CellPoints(const SolidScene &bound)
       {
-        std::vector<MohrCoulombCones> pyramids;
-        std::vector<CircularCone>     circles;
+        std::vector<MohrCoulombCones>    pyramids;
+        std::vector<CircularCone>        circles;
+        std::vector<CutMohrCoulombCones> cuts;
         for (const SolidStrength &one : bound.strengths)
           {
-            is_circular.push_back(one.is_circular);
-            number.push_back(one.is_circular ? circles.size()
-                                             : pyramids.size());
-            if (one.is_circular)
-              circles.push_back(circular_cone(one.a));
-            else
-              pyramids.push_back(mohr_coulomb_cones(one.a));
+            kind.push_back(kind_of(one));
+            number.push_back(std::array<std::size_t, n_kinds>{
+              {pyramids.size(), circles.size(), cuts.size()}}[kind.back()]);
+            switch (kind.back())
+              {
+                case pyramid:
+                  pyramids.push_back(mohr_coulomb_cones(one.a));
+                  break;
+                case circular:
+                  circles.push_back(circular_cone(one.a));
+                  break;
+                default:
+                  cuts.push_back(cut_law(one));
+              }
           }
-        pyramid = std::make_unique<Bulk>(pyramids);
-        circle  = std::make_unique<Cones>(circles);
+        groups = {{std::make_unique<Bulk>(pyramids),
+                   std::make_unique<Cones>(circles),
+                   std::make_unique<CutBulk>(cuts)}};
       }
 
       void
@@ -181,26 +214,32 @@ namespace geocone::GEOCONE_DIM
           const double                        V,
           const double                        k)
       {
-        if (is_circular[material])
-          circle->add(B, dofs, V, number[material], k);
-        else
-          pyramid->add(B, dofs, V, number[material], k);
+        std::visit(
+          [&](auto &group) { group->add(B, dofs, V, number[material], k); },
+          groups[kind[material]]);
       }
 
       void
       move_to(ConicProblem &problem)
       {
-        if (pyramid->n_points() > 0)
-          problem.groups.push_back(std::move(pyramid));
-        if (circle->n_points() > 0)
-          problem.groups.push_back(std::move(circle));
+        for (Group &one : groups)
+          std::visit(
+            [&](auto &group) {
+              if (group->n_points() > 0)
+                problem.groups.push_back(std::move(group));
+            },
+            one);
       }
 
     private:
-      std::vector<bool>         is_circular;
-      std::vector<unsigned int> number;
-      std::unique_ptr<Bulk>     pyramid;
-      std::unique_ptr<Cones>    circle;
+      using Group = std::variant<std::unique_ptr<Bulk>,
+                                 std::unique_ptr<Cones>,
+                                 std::unique_ptr<CutBulk>>;
+
+      std::vector<CellKind> kind;
+      std::vector<unsigned int>
+        number; ///< of the law of a material in its group
+      std::array<Group, n_kinds> groups;
     };
 
     ConicProblem
@@ -303,10 +342,22 @@ namespace geocone::GEOCONE_DIM
           add_load(problem, dof_of(c, i), V / n_nodes * bound.body_force(c));
       }
 
-    std::vector<FaceCone> faces;
+    std::vector<FaceCone>            faces;
+    std::vector<CutMohrCoulombCones> cut_faces;
+    std::vector<unsigned int>        number; // of the law of a material's faces
     for (const SolidStrength &one : bound.strengths)
-      faces.push_back(face_cone(one.face_friction()));
-    auto jumps = std::make_unique<Faces>(faces);
+      if (one.is_cut())
+        {
+          number.push_back(cut_faces.size());
+          cut_faces.push_back(cut_law(one));
+        }
+      else
+        {
+          number.push_back(faces.size());
+          faces.push_back(face_cone(one.face_friction()));
+        }
+    auto jumps     = std::make_unique<Faces>(faces);
+    auto cut_jumps = std::make_unique<CutFaces>(cut_faces);
     auto planes =
       std::make_unique<Planes>(std::vector<OpeningCone>{opening_cone()});
     for (unsigned int f = 0; f < tetrahedra.facets.size(); ++f)
@@ -322,11 +373,12 @@ namespace geocone::GEOCONE_DIM
           second = nodes_in_cell(tetrahedra, order, f, 1);
         const unsigned int material =
           tetrahedra.material[cell_of_jump(bound, f)];
-        const auto         k = strength_of_jumps(bound, order, f);
-        const unsigned int body =
+        const SolidStrength &one = bound.strengths[material];
+        const auto           k   = strength_of_jumps(bound, order, f);
+        const unsigned int   body =
           held.kind == FacetCondition::Kind::free
-            ? 0
-            : first_body +
+              ? 0
+              : first_body +
                 dim *
                   bodies.at(
                     {{held.velocity[0], held.velocity[1], held.velocity[2]}});
@@ -343,6 +395,18 @@ namespace geocone::GEOCONE_DIM
               }
             if (is_inner || held.kind == FacetCondition::Kind::fixed)
               {
+                if (one.is_cut())
+                  {
+                    CutFaces::Strains B; // of a thin layer
+                    for (unsigned int d = 0; d < dim; ++d)
+                      {
+                        B.col(dim + d) = symmetric_product(d, axes[0]);
+                        B.col(d)       = -B.col(dim + d);
+                      }
+                    cut_jumps->add(
+                      B, dofs, A / n_facet, number[material], one.k);
+                    continue;
+                  }
                 Faces::Strains B;
                 for (unsigned int row = 0; row < 3; ++row)
                   for (unsigned int d = 0; d < dim; ++d)
@@ -350,12 +414,12 @@ namespace geocone::GEOCONE_DIM
                       B(row, d)       = -axes[row][d];
                       B(row, dim + d) = axes[row][d];
                     }
-                jumps->add(B, dofs, A / n_facet, material, k[i]);
+                jumps->add(B, dofs, A / n_facet, number[material], k[i]);
               }
             else if (held.kind == FacetCondition::Kind::plane)
               {
-                const double mu = bound.strengths[material].face_friction();
-                if (mu > 0.)
+                const double mu = one.face_friction();
+                if (mu > 0. || one.is_cut())
                   {
                     Planes::Strains B;
                     for (unsigned int d = 0; d < dim; ++d)
@@ -363,7 +427,11 @@ namespace geocone::GEOCONE_DIM
                         B(0, d)       = -axes[0][d];
                         B(0, dim + d) = axes[0][d];
                       }
-                    planes->add(B, dofs, A / n_facet, 0, k[i] / mu);
+                    planes->add(B,
+                                dofs,
+                                A / n_facet,
+                                0,
+                                one.is_cut() ? one.tension : k[i] / mu);
                   }
                 else
                   {
@@ -387,7 +455,10 @@ namespace geocone::GEOCONE_DIM
             }
       }
     points.move_to(problem);
-    problem.groups.push_back(std::move(jumps));
+    if (jumps->n_points() > 0)
+      problem.groups.push_back(std::move(jumps));
+    if (cut_jumps->n_points() > 0)
+      problem.groups.push_back(std::move(cut_jumps));
     if (planes->n_points() > 0)
       problem.groups.push_back(std::move(planes));
     return problem;
@@ -504,17 +575,18 @@ namespace geocone::GEOCONE_DIM
   std::vector<StressPlace>
   places_of_stresses(const SolidScene &bound, const unsigned int order)
   {
-    std::array<unsigned int, 2> n = {{0, 0}};
-    std::vector<StressPlace>    places;
+    std::array<unsigned int, n_kinds> n = {};
+    std::vector<StressPlace>          places;
     for (const unsigned int material : bound.tetrahedra->material)
       {
-        unsigned int &own = n[bound.strengths[material].is_circular];
-        places.push_back({bound.strengths[material].is_circular, own});
-        own += simplex_nodes::n_in_cell(order);
+        const CellKind kind = kind_of(bound.strengths[material]);
+        places.push_back({kind, n[kind]});
+        n[kind] += simplex_nodes::n_in_cell(order);
       }
-    if (n[0] == 0) // the circular cones are then the first group
-      for (StressPlace &place : places)
-        place.group = 0;
+    for (StressPlace &place : places) // groups without points are left out
+      place.group = std::count_if(n.begin(),
+                                  n.begin() + place.group,
+                                  [](const auto size) { return size > 0; });
     return places;
   }
 } // namespace geocone::GEOCONE_DIM

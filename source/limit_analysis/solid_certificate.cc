@@ -17,118 +17,15 @@ namespace geocone::GEOCONE_DIM
     /** Tolerated rounding error of equilibrium and of incompressibility. */
     constexpr double rounding = 1e-8;
 
-    /** Error of computed eigenvalues of symmetric 3 x 3 matrices, relative to their norm:
-     *  some ten units of the last place, by Weyl's theorem. */
-    constexpr double of_eigenvalues = 1e-14;
-
-    Eigen::Matrix3d
-    tensor_of(const Mandel &s)
-    {
-      Eigen::Matrix3d m;
-      for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j)
-          m(i, j) = s[index_of_component[i][j]] / (i == j ? 1. : sqrt2);
-      return m;
-    }
-
-    Eigen::Vector3d
-    eigenvalues_of(const Eigen::Matrix3d &m)
-    {
-      return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(
-               m, Eigen::EigenvaluesOnly)
-        .eigenvalues();
-    }
-
     Tensor<1, dim>
     traction_of(const Mandel &s, const Tensor<1, dim> &n)
     {
-      const Eigen::Matrix3d m = tensor_of(s);
+      const Eigen::Matrix3d m = SemidefiniteCone::matrix(s);
       Tensor<1, dim>        t;
       for (unsigned int i = 0; i < dim; ++i)
         for (unsigned int j = 0; j < dim; ++j)
           t[i] += m(i, j) * n[j];
       return t;
-    }
-
-    /** Violation of the strength, with the rounding of eigenvalues. */
-    double
-    excess_of(const SolidStrength &one, const double k, const Mandel &s)
-    {
-      const double guard = of_eigenvalues * s.norm();
-      if (one.is_circular)
-        {
-          const double mean     = (s[0] + s[1] + s[3]) / 3.;
-          Mandel       deviator = s;
-          for (const int i : index_of_normal)
-            deviator[i] -= mean;
-          return deviator.norm() + one.a * std::sqrt(3.) * mean - k + guard;
-        }
-      const Eigen::Vector3d l = eigenvalues_of(tensor_of(s));
-      return (1. + one.a) * l[2] - (1. - one.a) * l[0] - k + 4. * guard;
-    }
-
-    /** Dissipation of a strain rate or a jump, and its distance from admissible ones. */
-    struct Flow
-    {
-      double dissipation = 0., miss = 0.;
-      double constrained = 0.; ///< rate that must vanish
-    };
-
-    Flow
-    flow_of(const SolidStrength &one, const double k, const Eigen::Matrix3d &e)
-    {
-      Flow         flow;
-      const double trace = e.trace(), guard = of_eigenvalues * e.norm();
-      if (one.is_circular)
-        {
-          const double shear =
-            (e - trace / 3. * Eigen::Matrix3d::Identity()).norm();
-          const double expansion = trace / std::sqrt(3.);
-          if (one.a > 0.)
-            {
-              flow.miss        = one.a * shear - expansion + guard;
-              flow.dissipation = k / one.a * expansion;
-            }
-          else
-            {
-              flow.constrained = std::abs(trace);
-              flow.dissipation = k * shear;
-            }
-          return flow;
-        }
-      const double sum = eigenvalues_of(e).cwiseAbs().sum();
-      if (one.a > 0.)
-        {
-          flow.miss        = one.a * sum - trace + 4. * guard;
-          flow.dissipation = k / (2. * one.a) * trace;
-        }
-      else
-        {
-          flow.constrained = std::abs(trace);
-          flow.dissipation = k / 2. * sum;
-        }
-      return flow;
-    }
-
-    /** Of a jump u_n along the normal and u_t along the face, for the cohesion c. */
-    Flow
-    flow_of_jump(const double mu,
-                 const double c,
-                 const double u_n,
-                 const double u_t)
-    {
-      Flow flow;
-      if (mu > 0.)
-        {
-          flow.miss = mu * u_t - u_n + of_eigenvalues * std::hypot(u_n, u_t);
-          flow.dissipation = c / mu * u_n;
-        }
-      else
-        {
-          flow.constrained = std::abs(u_n);
-          flow.dissipation = c * u_t;
-        }
-      return flow;
     }
   } // namespace
 
@@ -157,17 +54,18 @@ namespace geocone::GEOCONE_DIM
         const Mandel *const  s   = &stress[n_nodes * c];
         for (unsigned int i = 0; i < n_nodes; ++i)
           {
-            const double k_i = i < 4 ? k[i]
-                                     : (k[simplex_nodes::edges[i - 4][0]] +
+            const double k_i  = i < 4 ? k[i]
+                                      : (k[simplex_nodes::edges[i - 4][0]] +
                                         k[simplex_nodes::edges[i - 4][1]]) /
                                          2.;
-            largest          = std::max(largest, s[i].norm());
-            const double f   = excess_of(one, k_i, s[i]);
-            if (!(f <= 0.))
+            largest           = std::max(largest, s[i].norm());
+            const double part = one.utilisation(k_i, s[i]);
+            if (!(part <= 1.))
               {
-                result.violation = std::max(result.violation, f);
+                result.violation =
+                  std::max(result.violation, (part - 1.) * k_i);
                 // Scaled stresses have the rounding of eigenvalues again.
-                theta = std::min(theta, k_i / (k_i + f) * (1. - 1e-13));
+                theta = std::min(theta, (1. - 1e-13) / part);
               }
           }
         const auto           g = tetrahedra.gradients(c);
@@ -188,12 +86,12 @@ namespace geocone::GEOCONE_DIM
     double power = 0.; // of the reactions to prescribed velocities
     for (unsigned int f = 0; f < tetrahedra.facets.size(); ++f)
       {
-        const auto          &facet = tetrahedra.facets[f];
+        const auto           &facet = tetrahedra.facets[f];
         const FacetCondition &held  = bound.facet_conditions[f];
-        const Tensor<1, dim> n     = tetrahedra.normal(f);
-        const double         A     = tetrahedra.area(f) / (L * L);
-        const auto           first = nodes_in_cell(tetrahedra, order, f, 0);
-        const auto           given = bound.tractions(f);
+        const Tensor<1, dim>  n     = tetrahedra.normal(f);
+        const double          A     = tetrahedra.area(f) / (L * L);
+        const auto            first = nodes_in_cell(tetrahedra, order, f, 0);
+        const auto            given = bound.tractions(f);
         for (unsigned int i = 0; i < n_facet; ++i)
           {
             Tensor<1, dim> left =
@@ -251,9 +149,8 @@ namespace geocone::GEOCONE_DIM
     result.dissipation_of_cell.assign(tetrahedra.cells.size(), 0.);
     result.dissipation_of_facet.assign(tetrahedra.facets.size(), 0.);
     double power = 0., work = 0.;
-    double largest_rate = std::numeric_limits<double>::min(),
-           rate_missed = 0., jump_missed = 0., volume_change = 0.,
-           normal_jump = 0.;
+    double largest_rate = std::numeric_limits<double>::min(), rate_missed = 0.,
+           jump_missed = 0., volume_change = 0., normal_jump = 0.;
     for (unsigned int c = 0; c < tetrahedra.cells.size(); ++c)
       {
         const auto                  g = tetrahedra.gradients(c);
@@ -272,8 +169,8 @@ namespace geocone::GEOCONE_DIM
                     gradient(a, b) += order * v_j[a] * L * g[j][b];
               }
             const Eigen::Matrix3d e = (gradient + gradient.transpose()) / 2.;
-            const Flow            flow =
-              flow_of(bound.strengths[tetrahedra.material[c]], k[i], e);
+            const SolidFlow       flow =
+              bound.strengths[tetrahedra.material[c]].flow(k[i], e);
             result.dissipation_of_cell[c] += V / k.size() * flow.dissipation;
             largest_rate  = std::max(largest_rate, e.norm());
             rate_missed   = std::max(rate_missed, flow.miss);
@@ -289,15 +186,14 @@ namespace geocone::GEOCONE_DIM
       }
     for (unsigned int f = 0; f < tetrahedra.facets.size(); ++f)
       {
-        const auto      &facet    = tetrahedra.facets[f];
+        const auto           &facet    = tetrahedra.facets[f];
         const FacetCondition &held     = bound.facet_conditions[f];
-        const double     A        = tetrahedra.area(f) / (L * L);
-        const auto       first    = nodes_in_cell(tetrahedra, order, f, 0);
-        const bool       is_inner = facet.cells[1] != Tetrahedra::none;
-        const auto       axes     = axes_of_facet(tetrahedra, f);
-        const double     mu =
-          bound.strengths[tetrahedra.material[cell_of_jump(bound, f)]]
-            .face_friction();
+        const double          A        = tetrahedra.area(f) / (L * L);
+        const auto            first    = nodes_in_cell(tetrahedra, order, f, 0);
+        const bool            is_inner = facet.cells[1] != Tetrahedra::none;
+        const auto            axes     = axes_of_facet(tetrahedra, f);
+        const SolidStrength  &one =
+          bound.strengths[tetrahedra.material[cell_of_jump(bound, f)]];
         const auto                  k = strength_of_jumps(bound, order, f);
         std::vector<Tensor<1, dim>> outer; // of the nodes
         for (unsigned int i = 0; i < n_facet; ++i)
@@ -330,10 +226,10 @@ namespace geocone::GEOCONE_DIM
                         : held.velocity) -
               outer[i];
             // Along a plane of symmetry, or a smooth one, soil slides freely.
-            const double slip = held.kind == FacetCondition::Kind::plane
-                                  ? 0.
-                                  : std::hypot(u * axes[1], u * axes[2]);
-            const Flow   flow = flow_of_jump(mu, k[i], u * axes[0], slip);
+            const double    slip = held.kind == FacetCondition::Kind::plane
+                                     ? 0.
+                                     : std::hypot(u * axes[1], u * axes[2]);
+            const SolidFlow flow = one.flow_of_jump(k[i], u * axes[0], slip);
             result.dissipation_of_facet[f] += A / n_facet * flow.dissipation;
             jump_missed = std::max(jump_missed, flow.miss);
             normal_jump = std::max(normal_jump, flow.constrained);

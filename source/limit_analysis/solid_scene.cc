@@ -19,35 +19,6 @@ namespace geocone::GEOCONE_DIM
   using dealii::Point;
   using dealii::Tensor;
 
-  double
-  SolidStrength::face_friction() const
-  {
-    return is_circular ? std::sqrt(3. * a * a / (2. - 4. * a * a))
-                       : a / std::sqrt(1. - a * a);
-  }
-
-  double
-  SolidStrength::face_cohesion_per_k() const
-  {
-    if (!is_circular)
-      return 1. / (2. * std::sqrt(1. - a * a));
-    return a > 0. ? face_friction() / (a * std::sqrt(3.)) : 1. / std::sqrt(2.);
-  }
-
-  void
-  SolidStrength::reduce(const double F)
-  {
-    double by = F; // of k = 2 c cos(phi)
-    if (!is_circular)
-      {
-        const double cosine = std::sqrt(1. - a * a), sine = a;
-        a = sine / std::hypot(F * cosine, sine);
-        by *= cosine / std::sqrt(1. - a * a);
-      }
-    k /= by;
-    growth.slope /= by;
-  }
-
   SolidScene::Load
   SolidScene::body_force(const unsigned int cell) const
   {
@@ -59,6 +30,11 @@ namespace geocone::GEOCONE_DIM
     const bool is_live =
       factor == LoadFactor::weight || factor == LoadFactor::all;
     (is_live ? load.live : load.dead) = b;
+    // Cells do not cross the water table, which is checked on the first mesh.
+    if (scene->water.acts())
+      (factor == LoadFactor::all ? load.live : load.dead) +=
+        scene->water.force(tetrahedra->centre(cell)) * units.length /
+        units.stress;
     return load;
   }
 
@@ -71,6 +47,35 @@ namespace geocone::GEOCONE_DIM
         tetrahedra->vertices[tetrahedra->cells[cell][i]]);
     return k;
   }
+
+  namespace
+  {
+    /** Takes the tensile strength of a material, unless it is beyond the apex of the
+     *  pyramid. */
+    void
+    take_tension(SolidStrength            &one,
+                 const FrictionalStrength &given,
+                 const std::string        &section)
+    {
+      if (!(given.tension * 2. * one.a < one.k))
+        return;
+      const std::string parameter = section + "/Tensile strength";
+      if (given.tension == 0.)
+        throw InputError(parameter,
+                         0,
+                         "none, or > 0 Pa where loads are bounded",
+                         "free surfaces would be at their strength whatever "
+                         "the load: give a small one, e.g. a hundredth of the "
+                         "cohesion");
+      if (given.gradient != 0.)
+        throw InputError(parameter,
+                         given.tension,
+                         "none beside a 'Cohesion gradient' where loads are "
+                         "bounded in three dimensions",
+                         "take layers instead of the gradient");
+      one.tension = given.tension;
+    }
+  } // namespace
 
   void
   SolidLoad::take_strengths(const Scene &scene)
@@ -89,7 +94,8 @@ namespace geocone::GEOCONE_DIM
             const double             phi   = radians(given.phi);
             one.a                          = std::sin(phi);
             one.k                          = 2. * given.c * std::cos(phi);
-            one.growth    = {2. * given.gradient * std::cos(phi), given.level};
+            one.growth = {2. * given.gradient * std::cos(phi), given.level};
+            take_tension(one, given, section);
             less_dilatant = less_dilatant || given.theta < given.phi;
           }
         else if (const auto *circular =
@@ -389,6 +395,7 @@ namespace geocone::GEOCONE_DIM
       {
         one.k /= units.stress;
         one.growth.slope /= units.stress;
+        one.tension /= units.stress;
         bound.strengths.push_back(one);
       }
     bound.facet_conditions = facet_conditions(scene, tetrahedra);

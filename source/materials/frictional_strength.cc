@@ -52,8 +52,10 @@ namespace geocone
       "Tensile strength",
       tension_text,
       "Tensile strength [Pa], >= 0: tension cut-off (Rankine) of the principal "
-      "stresses in the plane, with associated flow. none: tension is limited "
-      "only by the cone, to c cot(phi).");
+      "stresses, of those in the plane in plane strain, with associated flow. "
+      "Three-dimensional scenes have it for 'Analysis/Kind' = limit load and "
+      "strength reduction. none: tension is limited only by the cone, to "
+      "c cot(phi).");
   }
 
   void

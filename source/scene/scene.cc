@@ -11,6 +11,7 @@
 #include <deal.II/base/bounding_box.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <limits>
 
@@ -111,6 +112,21 @@ namespace geocone::GEOCONE_DIM
           throw InputError(error.what());
         }
     }
+
+    /** Refuses tensile strengths, which steps know in the plane alone. */
+    [[maybe_unused]] void
+    refuse_tension(const Materials &materials)
+    {
+      for (unsigned int m = 0; m < materials.size(); ++m)
+        if (const auto given = materials[m].plane_strain_strength();
+            given && std::isfinite(given->tension))
+          throw InputError(
+            "Materials/" + materials.name(m) + "/Tensile strength",
+            given->tension,
+            "none with steps in three dimensions",
+            "set 'Analysis/Kind' to limit load or strength reduction, or "
+            "take a plane scene");
+    }
   } // namespace
 
   Scene::Scene(const ParameterFile &file)
@@ -155,6 +171,8 @@ namespace geocone::GEOCONE_DIM
   {
     geometry.prepare();
     materials.prepare();
+    if constexpr (dim == 3)
+      refuse_tension(materials);
     if (geometry.is_axisymmetric())
       materials.set_axisymmetric();
     std::vector<int>  stage_that_adds;

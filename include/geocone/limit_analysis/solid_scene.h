@@ -5,6 +5,7 @@
 #define geocone_limit_analysis_solid_scene_h
 
 #include <geocone/limit_analysis/load_choice.h>
+#include <geocone/limit_analysis/solid_strength.h>
 #include <geocone/mesh/tetrahedra.h>
 #include <geocone/scene/scene.h>
 
@@ -15,37 +16,6 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Strength of a material in three-dimensional limit analysis, in scaled units. */
-  struct SolidStrength
-  {
-    /** True for the circular cone |s_t| <= a s_n + k, false for Mohr-Coulomb's yield
-     *  condition (1 + a) s_1 - (1 - a) s_3 <= k. */
-    bool   is_circular = false;
-    double a = 0., k = 0.;
-
-    /** Increase of the strength k with depth (in scaled units, per m). */
-    Material::StrengthGradient growth;
-
-    double
-    k_at(const dealii::Point<dim> &x) const
-    {
-      return k + growth.at(x[1]);
-    }
-
-    /** Reduces the strength of a material: divides c and tan(phi), or k of a
-     *  circular cone without friction, by F. */
-    void
-    reduce(const double F);
-
-    /** Coulomb strength |s_t| <= c - mu s_n of a face across which the velocity
-     *  jumps. Its dissipation is that of the material
-     *  (doc/theory/limit_analysis.md). */
-    double
-    face_friction() const;
-    double
-    face_cohesion_per_k() const;
-  };
-
   /** Velocity prescribed on a boundary facet, in scaled units. */
   struct FacetCondition
   {
@@ -65,12 +35,13 @@ namespace geocone::GEOCONE_DIM
   class SolidScene
   {
   public:
-    const Scene                *scene      = nullptr;
-    const Tetrahedra           *tetrahedra = nullptr;
-    LoadFactor                  factor     = LoadFactor::automatic;
-    BoundUnits                  units;
-    std::vector<SolidStrength>  strengths; ///< strength of each material
-    std::vector<FacetCondition> facet_conditions; ///< prescribed velocity of each facet
+    const Scene               *scene      = nullptr;
+    const Tetrahedra          *tetrahedra = nullptr;
+    LoadFactor                 factor     = LoadFactor::automatic;
+    BoundUnits                 units;
+    std::vector<SolidStrength> strengths; ///< strength of each material
+    std::vector<FacetCondition>
+      facet_conditions; ///< prescribed velocity of each facet
 
     /** Body force of a cell or traction at a vertex of a facet, in scaled units. The dead
      *  part is constant; the live part is multiplied by the load factor. */

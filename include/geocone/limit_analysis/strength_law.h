@@ -158,6 +158,30 @@ namespace geocone
     return law;
   }
 
+  /** Mohr-Coulomb strength with the tension cut-off s_1 <= T, expressed by the third
+   *  semidefinite matrix T I - s. */
+  using CutMohrCoulombCones =
+    StrengthLaw<ProductCone<MohrCoulombCones::Cone, SemidefiniteCone>, 6, 1>;
+
+  /** @param tension tensile strength T over k, below the apex of the pyramid */
+  inline CutMohrCoulombCones
+  cut_mohr_coulomb_cones(const double sine, const double tension)
+  {
+    const MohrCoulombCones            pyramid = mohr_coulomb_cones(sine);
+    const Eigen::Matrix<double, 6, 1> m       = SemidefiniteCone::unit();
+    const double                      K       = start_of_friction(sine),
+                 p = sine > 0. ? (K - 1.) / (2. * sine) : 2.;
+    CutMohrCoulombCones law;
+    law.A.setZero();
+    law.A.topRows<12>() = pyramid.A;
+    law.A.bottomLeftCorner<6, 6>().setIdentity();
+    law.o << pyramid.o, tension * m;
+    law.start << -p * m, -(1. - sine) * p - K / 2.;
+    law.inside = m / std::sqrt(3.);
+    law.finish();
+    return law;
+  }
+
   /** Circular yield cone |s_t| <= a s_n + k (Drucker-Prager; von Mises for a = 0). The
    *  axis is n = -(1, 1, 0, 1, 0, 0)/sqrt3. */
   using CircularCone = StrengthLaw<SecondOrderCone<6>, 6, 0>;

@@ -34,7 +34,9 @@ namespace geocone::GEOCONE_DIM
   public:
     explicit SpatialMohrCoulomb(const std::string &section)
       : FrictionalSpatialLaw(section)
-    {}
+    {
+      declare_tension();
+    }
 
     std::optional<FrictionalStrength>
     plane_strain_strength() const override
@@ -82,7 +84,13 @@ namespace geocone::GEOCONE_DIM
                         const double        *history) const override;
 
   protected:
-    using FrictionalSpatialLaw::FrictionalSpatialLaw;
+    /** @param documentation of the cohesion */
+    SpatialMohrCoulomb(const std::string &section,
+                       const std::string &documentation)
+      : FrictionalSpatialLaw(section, documentation)
+    {
+      declare_tension();
+    }
 
     void
     set_strength(const double F) override;
@@ -104,6 +112,15 @@ namespace geocone::GEOCONE_DIM
                        SpatialMandelMatrix *tangent) const override;
 
   private:
+    /** Declares the tensile strength in three dimensions, where bounds of limit
+     *  loads use it and steps refuse it (Scene::prepare()). */
+    void
+    declare_tension()
+    {
+      if constexpr (dim == 3)
+        given.declare_tension(*this);
+    }
+
     using Principal       = Eigen::Vector3d;
     using PrincipalMatrix = Eigen::Matrix3d;
 
