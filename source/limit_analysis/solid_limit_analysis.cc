@@ -57,11 +57,11 @@ namespace geocone::GEOCONE_DIM
   void
   SolidLimitAnalysis::prepare_water(const RunOptions &)
   {
-    if (scene.water.acts())
-      throw InputError("Water/Table",
-                       "water",
-                       "none with " + where() + " in three dimensions",
-                       "bounds with water are those of plane scenes");
+    if (scene.water.varies_in_cells())
+      scene.water.refuse(
+        where() + " in three dimensions",
+        "bounds of several meshes are those of one load, but pressures of a "
+        "file would be linear in the cells of each mesh: give a 'Water/Table'");
   }
 
   std::vector<std::string>
@@ -71,6 +71,13 @@ namespace geocone::GEOCONE_DIM
     prepare_scene(options);
     mesh_parameters.prepare(scene.geometry, method);
     tetrahedra.emplace(fitted_mesh(mesh_parameters, scene, comm));
+    if (scene.water.acts())
+      {
+        const dealii::BoundingBox<dim> body(tetrahedra->vertices);
+        const auto [low, high] = body.get_boundary_points();
+        tetrahedra.emplace(
+          divided_at(*tetrahedra, scene.water.lines(low, high)));
+      }
     if (tetrahedra->cells.size() > most_cells)
       throw InputError("Analysis/Maximum cells",
                        most_cells,

@@ -30,7 +30,7 @@ namespace geocone::GEOCONE_DIM
     const bool is_live =
       factor == LoadFactor::weight || factor == LoadFactor::all;
     (is_live ? load.live : load.dead) = b;
-    // Cells do not cross the water table, which is checked on the first mesh.
+    // No cell crosses the water table, at which the first mesh is divided.
     if (scene->water.acts())
       (factor == LoadFactor::all ? load.live : load.dead) +=
         scene->water.force(tetrahedra->centre(cell)) * units.length /

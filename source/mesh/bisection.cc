@@ -3,21 +3,33 @@
 
 #include <geocone/mesh/bisection.h>
 
+#include <deal.II/base/bounding_box.h>
 #include <deal.II/base/exceptions.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <queue>
+#include <set>
 #include <tuple>
 #include <utility>
 
 namespace geocone::GEOCONE_DIM
 {
   using dealii::Point;
+  using dealii::Tensor;
 
   namespace
   {
+    /** Trace of a plane along z. */
+    using Line = std::array<Point<dim>, 2>;
+
+    bool
+    is_upright(const Line &line)
+    {
+      return line[0][0] == line[1][0];
+    }
+
     /** A conforming mesh of tetrahedra that are bisected at their longest edges. */
     class BisectedMesh
     {
@@ -35,6 +47,11 @@ namespace geocone::GEOCONE_DIM
        *  bisected */
       bool
       bisect_largest();
+
+      /** Divides all cells that cross a plane along z, see divided_at().
+       *  @param size of the body (m) */
+      void
+      divide_at(const Line &line, const double size);
 
       CoarseMesh
       mesh(
@@ -72,15 +89,16 @@ namespace geocone::GEOCONE_DIM
       void
       bisect(const unsigned int cell);
 
+      /** Divides all cells around an edge at a point on it. */
       void
-      bisect_at(const Edge &edge);
+      divide(const Edge &edge, const Point<dim> &at);
 
-      /** Replaces a vertex of a cell by the midpoint of the edge to another one. */
+      /** Replaces a vertex of a cell by the new point on the edge to another one. */
       static Cell
-      half_of(Cell               cell,
+      part_of(Cell               cell,
               const unsigned int replaced,
               const unsigned int other,
-              const unsigned int midpoint);
+              const unsigned int point);
 
       void
       put(const unsigned int place, const Cell &cell);
@@ -172,46 +190,77 @@ namespace geocone::GEOCONE_DIM
                 break;
               }
         }
-      bisect_at(edge);
+      const auto [a, b] = edge;
+      divide(edge, Point<dim>(points[a] + (points[b] - points[a]) / 2.));
     }
 
     BisectedMesh::Cell
-    BisectedMesh::half_of(Cell               cell,
+    BisectedMesh::part_of(Cell               cell,
                           const unsigned int replaced,
                           const unsigned int other,
-                          const unsigned int midpoint)
+                          const unsigned int point)
     {
       for (unsigned int i = 0; i < 4; ++i)
         if (cell.vertices[i] == replaced)
-          cell.vertices[i] = midpoint;
+          cell.vertices[i] = point;
         else if (cell.vertices[i] == other)
-          cell.side[i] = -1; // the facet between the halves
+          cell.side[i] = -1; // the facet between the parts
       ++cell.depth;
       cell.error *= std::pow(2., -4. / 3.);
       return cell;
     }
 
     void
-    BisectedMesh::bisect_at(const Edge &edge)
+    BisectedMesh::divide(const Edge &edge, const Point<dim> &at)
     {
-      const auto [a, b]           = edge;
-      const unsigned int midpoint = points.size();
-      points.push_back(Point<dim>(points[a] + (points[b] - points[a]) / 2.));
+      const auto [a, b]        = edge;
+      const unsigned int point = points.size();
+      points.push_back(at);
       cells_at.emplace_back();
       for (const unsigned int c : cells_around(edge))
         {
           const Cell         whole  = cells[c];
           const unsigned int second = cells.size();
           cells.emplace_back();
-          put(c, half_of(whole, b, a, midpoint));
-          put(second, half_of(whole, a, b, midpoint));
+          put(c, part_of(whole, b, a, point));
+          put(second, part_of(whole, a, b, point));
           for (const unsigned int v : whole.vertices)
             if (v == b)
               *std::find(cells_at[v].begin(), cells_at[v].end(), c) = second;
             else if (v != a)
               cells_at[v].push_back(second);
-          cells_at[midpoint].push_back(c);
-          cells_at[midpoint].push_back(second);
+          cells_at[point].push_back(c);
+          cells_at[point].push_back(second);
+        }
+    }
+
+    void
+    BisectedMesh::divide_at(const Line &line, const double size)
+    {
+      const double         tiny  = 1e-9 * size;
+      const Tensor<1, dim> along = line[1] - line[0];
+      Tensor<1, dim>       normal;
+      normal[0] = along[1] / along.norm();
+      normal[1] = -along[0] / along.norm();
+      // Edges of the divided cells, which end on the plane, do not cross it.
+      std::set<Edge> edges;
+      for (const Cell &cell : cells)
+        for (unsigned int i = 0; i < 4; ++i)
+          for (unsigned int j = 0; j < i; ++j)
+            edges.insert(Edge{{std::min(cell.vertices[i], cell.vertices[j]),
+                               std::max(cell.vertices[i], cell.vertices[j])}});
+      for (const Edge &edge : edges)
+        {
+          const Point<dim> &p = points[edge[0]], &q = points[edge[1]];
+          const double      above = (p - line[0]) * normal,
+                       below      = (q - line[0]) * normal;
+          if (above * below >= 0. ||
+              std::min(std::abs(above), std::abs(below)) <= tiny)
+            continue;
+          const Point<dim> at(p + above / (above - below) * (q - p));
+          if (is_upright(line) ||
+              (at[0] >= line[0][0] - tiny && at[0] <= line[1][0] + tiny))
+            divide(edge, at);
         }
     }
 
@@ -264,6 +313,21 @@ namespace geocone::GEOCONE_DIM
     BisectedMesh mesh(tetrahedra, error);
     while (mesh.n_cells() < n_wanted && mesh.bisect_largest())
       {}
+    return mesh.mesh(tetrahedra.sides);
+  }
+
+  CoarseMesh
+  divided_at(const Tetrahedra &tetrahedra, const MeshLines &lines)
+  {
+    BisectedMesh                   mesh(tetrahedra,
+                      std::vector<double>(tetrahedra.cells.size(), 0.));
+    const dealii::BoundingBox<dim> body(tetrahedra.vertices);
+    const auto [low, high] = body.get_boundary_points();
+    for (const bool first :
+         {true, false}) // no edge crosses two of the others then
+      for (const auto &line : lines)
+        if (is_upright(line) == first)
+          mesh.divide_at(line, low.distance(high));
     return mesh.mesh(tetrahedra.sides);
   }
 } // namespace geocone::GEOCONE_DIM

@@ -4,7 +4,8 @@
 // If this failed, bounds in three dimensions would be those of another body, or of cells as
 // thin as needles. A box of two materials is bisected ten times near a point: the mesh must
 // conform, keep the volumes of its materials and the areas of its sides, equalise the
-// contributions to an error, and keep the shape of its cells.
+// contributions to an error, and keep the shape of its cells. Divided at the table of ground
+// water, the body must be the same again.
 
 #include <geocone/mesh/bisection.h>
 
@@ -132,6 +133,32 @@ namespace three_bisection_01
         most = std::max(most, error_of(c));
         sum += error_of(c);
       }
+    // Divided at a plane along z that cuts the cells, no cell is on both sides of it.
+    const Point<3>   a(-1., 0.1, 0.), b(3., 1.3, 0.);
+    const Tetrahedra divided(divided_at(mesh, {{{a, b}}}));
+    const Shape      whole    = shape_of(divided);
+    double           crossing = 0.;
+    for (const auto &[material, volume] : first.volume)
+      difference =
+        std::max(difference, std::abs(whole.volume.at(material) - volume));
+    for (const auto &[side, area] : first.area)
+      difference = std::max(difference, std::abs(whole.area.at(side) - area));
+    for (const auto &cell : divided.cells)
+      {
+        double above = 0., below = 0.;
+        for (const unsigned int v : cell)
+          {
+            const double y = divided.vertices[v][1] - 0.1 -
+                             0.3 * (divided.vertices[v][0] + 1.);
+            above = std::max(above, y);
+            below = std::max(below, -y);
+          }
+        crossing = std::max(crossing, std::min(above, below));
+      }
+    std::cout << "more cells, none of which crosses the plane: "
+              << (divided.cells.size() > mesh.cells.size() && crossing < 1e-8)
+              << "\nsides of the divided mesh: " << whole.area.size()
+              << ", complete: " << whole.is_closed << "\n";
     std::cout << "volumes and areas are kept: " << (difference < 1e-12)
               << "\nsides: " << last.area.size()
               << ", all outer facets, and no others, have one: "

@@ -4,6 +4,7 @@
 #ifndef geocone_mesh_bisection_h
 #define geocone_mesh_bisection_h
 
+#include <geocone/mesh/gmsh_mesh.h>
 #include <geocone/mesh/tetrahedra.h>
 
 #include <cstddef>
@@ -26,6 +27,16 @@ namespace geocone::GEOCONE_DIM
   bisected(const Tetrahedra          &tetrahedra,
            const std::vector<double> &error,
            const std::size_t          n_wanted);
+
+  /**
+   * Divides tetrahedra at planes along z, so that none of them crosses a plane.
+   * The new mesh is nested in the given one and keeps its materials and sides.
+   * @param lines traces of the planes in the plane of x and y. Upright ones
+   * extend over the whole height; other ones end at an upright one, outside of
+   * the mesh, or where another one continues them
+   */
+  CoarseMesh
+  divided_at(const Tetrahedra &tetrahedra, const MeshLines &lines);
 } // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -1,0 +1,18 @@
+# A cut under open water has the factor of safety of the same cut with the buoyant weight.
+program=$1 root=$2 folder=$3
+rm -rf "$folder" && mkdir -p "$folder" && cd "$folder"
+run()
+{
+  "$program" "$root/tests/three/bounds_solver.prm" --quiet --output "$1" \
+    --set 'Analysis/Kind = strength reduction' --set "Materials/clay/Density = $2" \
+    --set "Water/Table = $3"
+}
+run dry 100 ''
+run submerged 1081 '0, 3' # 9810 N/m^3 over g = 10 m/s^2
+PYTHONPATH=$root/python /usr/bin/python3 -B - <<'PYTHON'
+from geocone.reader import Run
+
+for bound in "lower", "upper":
+    dry, submerged = (Run(name).value(f"safety/{bound}") for name in ("dry", "submerged"))
+    assert abs(dry / submerged - 1.) < 1e-4, (bound, dry, submerged)
+PYTHON
