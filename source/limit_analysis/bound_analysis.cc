@@ -374,5 +374,19 @@ namespace geocone::GEOCONE_DIM
                       100. * *gap));
     if (best.lower || best.upper)
       log.print(best.text());
+    // In the plane the gap is about one per cent.
+    const auto &levels = limit_output.all_records();
+    if (const auto order = order_of_gap(levels); order && !is_plane)
+      {
+        const auto middle = middle_without_gap(levels);
+        log.print(
+          format("order of the gap in the number of %s: %.2f",
+                 name_of_cells.c_str(),
+                 *order) +
+          (middle ? format("; without a gap the middle is %.6g, an estimate, "
+                           "which is no bound",
+                           *middle)
+                  : std::string()));
+      }
   }
 } // namespace geocone::GEOCONE_DIM

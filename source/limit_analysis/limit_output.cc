@@ -56,6 +56,28 @@ namespace geocone::GEOCONE_DIM
     return -(n * xy - x * y) / spread;
   }
 
+  std::optional<double>
+  middle_without_gap(const std::vector<BoundLevel> &levels)
+  {
+    const auto is_complete = [](const BoundLevel &level) {
+      return level.certified();
+    };
+    const auto last = std::find_if(levels.rbegin(), levels.rend(), is_complete);
+    if (last == levels.rend())
+      return std::nullopt;
+    const auto before = std::find_if(last + 1, levels.rend(), is_complete);
+    if (before == levels.rend() || !(before->gap > last->gap))
+      return std::nullopt;
+    const double middle = (last->lower + last->upper) / 2.,
+                 change = middle - (before->lower + before->upper) / 2.,
+                 estimate =
+                   middle + change * last->gap / (before->gap - last->gap);
+    const LoadBracket best = best_of(levels);
+    if (!(estimate >= *best.lower && estimate <= *best.upper))
+      return std::nullopt;
+    return estimate;
+  }
+
   void
   LimitOutput::prepare(const RunOptions           &options,
                        const std::string          &unit,
@@ -115,8 +137,10 @@ namespace geocone::GEOCONE_DIM
         most = std::max({most, level.iterations_lower, level.iterations_upper});
       }
     const auto order            = order_of_gap(records);
+    const auto middle           = middle_without_gap(records);
     Json       json             = bracket.bounds();
     json["order"]               = order ? Json(*order) : Json();
+    json["middle_without_gap"]  = middle ? Json(*middle) : Json();
     json["iterations"]          = iterations;
     json["iterations_max"]      = most;
     json["levels"]              = records.size();

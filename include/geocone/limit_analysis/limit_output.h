@@ -55,6 +55,15 @@ namespace geocone::GEOCONE_DIM
   std::optional<double>
   order_of_gap(const std::vector<BoundLevel> &levels);
 
+  /**
+   * Returns an estimate of the limit load, which is no bound: the middle between the
+   * bounds, extrapolated linearly in the gap from the last two meshes with both bounds to
+   * a gap of zero. Empty if fewer than two meshes have both bounds, if the gap has not
+   * decreased, or if the estimate is not between the best bounds.
+   */
+  std::optional<double>
+  middle_without_gap(const std::vector<BoundLevel> &levels);
+
   /** Output of a limit analysis: table of levels, fields of each level, and summary. The
    *  table bounds.csv has a line for each level. */
   class LimitOutput : public TableOutput<BoundLevel>
