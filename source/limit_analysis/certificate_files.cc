@@ -3,7 +3,6 @@
 
 #include <geocone/base/constants.h>
 #include <geocone/base/files.h>
-#include <geocone/base/unused_parameters.h>
 #include <geocone/cone/second_order_cone.h>
 #include <geocone/limit_analysis/certificate_files.h>
 #include <geocone/output/json.h>
@@ -17,11 +16,6 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    const UsedWhere used_certificate_files[] = {
-      {"Output/Certificates",
-       "Analysis/Kind",
-       {"limit load", "strength reduction"}}};
-
     Json
     pair(const double x, const double y)
     {
@@ -252,17 +246,6 @@ namespace geocone::GEOCONE_DIM
                           {"obstacles", of_obstacles}};
     }
   } // namespace
-
-  CertificateFiles::CertificateFiles()
-    : dealii::ParameterAcceptor("/Output")
-  {
-    add_parameter(
-      "Certificates",
-      asked,
-      "Whether certificate_lower.json and certificate_upper.json are "
-      "written, with the fields that prove the best bounds so far, for "
-      "scripts/check_certificate.");
-  }
 
   void
   CertificateFiles::write(const std::string &folder,

@@ -3,6 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/limit_analysis/bound_fields.h>
+#include <geocone/limit_analysis/certificate_files.h>
 #include <geocone/limit_analysis/fans_of_jumps.h>
 #include <geocone/limit_analysis/limit_analysis.h>
 #include <geocone/mesh/adapted_sizes.h>
@@ -32,6 +33,7 @@ namespace geocone::GEOCONE_DIM
       "strengths and weights from 'Random fields'; whether a sample fails is "
       "certified by the bounds.");
     declare_parameters(bounded_load);
+    limit_output.declare_certificates();
   }
 
   void
@@ -293,7 +295,7 @@ namespace geocone::GEOCONE_DIM
     level.cpu_seconds  = time.cpu_time();
     level.mesh_seconds = in_mesh;
     add_level(level, now);
-    if (certificates.are_written())
+    if (limit_output.writes_certificates())
       write_certificates(level);
     const bool is_last =
       is_complete(certified_by(limit_output.all_records()).gap());

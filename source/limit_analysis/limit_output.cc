@@ -1,6 +1,7 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <geocone/base/unused_parameters.h>
 #include <geocone/limit_analysis/limit_output.h>
 
 #include <algorithm>
@@ -9,6 +10,14 @@
 
 namespace geocone::GEOCONE_DIM
 {
+  namespace
+  {
+    const UsedWhere used_certificates[] = {
+      {"Output/Certificates",
+       "Analysis/Kind",
+       {"limit load", "strength reduction"}}};
+  } // namespace
+
   void
   BoundLevel::state(StateRow &row)
   {
@@ -76,6 +85,17 @@ namespace geocone::GEOCONE_DIM
     if (!(estimate >= *best.lower && estimate <= *best.upper))
       return std::nullopt;
     return estimate;
+  }
+
+  void
+  LimitOutput::declare_certificates()
+  {
+    add_parameter(
+      "Certificates",
+      with_certificates,
+      "Whether certificate_lower.json and certificate_upper.json are "
+      "written, with the fields that prove the best bounds so far, for "
+      "scripts/check_certificate.");
   }
 
   void

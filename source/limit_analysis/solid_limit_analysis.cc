@@ -3,6 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/unused_parameters.h>
+#include <geocone/limit_analysis/solid_certificate_files.h>
 #include <geocone/limit_analysis/solid_fields.h>
 #include <geocone/limit_analysis/solid_gap.h>
 #include <geocone/limit_analysis/solid_limit_analysis.h>
@@ -42,6 +43,7 @@ namespace geocone::GEOCONE_DIM
                  "reduction: strict bounds of the factor of safety, by which c "
                  "and tan(phi) are divided at collapse.");
     declare_parameters(load);
+    limit_output.declare_certificates();
     velocities.declare(
       *this,
       "Velocities",
@@ -234,9 +236,36 @@ namespace geocone::GEOCONE_DIM
     level.cpu_seconds   = time.cpu_time();
     check_finite(level.upper + level.lower + level.gap);
     add_level(level, now);
+    if (limit_output.writes_certificates())
+      write_certificates(level);
     error = gap;
     return is_complete(bracket().gap()) ? StepOutcome::stage
                                         : StepOutcome::well;
+  }
+
+  void
+  SolidLimitAnalysis::write_certificates(const BoundLevel &level) const
+  {
+    const LoadBracket best  = best_of(limit_output.all_records());
+    const SolidScene  given = load.on(scene, *tetrahedra);
+    const auto        write = [&](const bool                  is_lower,
+                           const bool                  is_certified,
+                           const double                value,
+                           const std::optional<double> best_value,
+                           const SolidBound           &bound) {
+      if (is_certified && best_value == value)
+        write_certificate(
+          limit_output.folder(),
+          kind_word(),
+          given,
+          {is_lower,
+           bound,
+           value,
+           reduces_strength() ? value : 1.,
+           load.is_reaction() ? std::abs(scene.observation.factor) : 1.});
+    };
+    write(true, level.lower_certified, level.lower, best.lower, lower);
+    write(false, level.upper_certified, level.upper, best.upper, upper);
   }
 
   void

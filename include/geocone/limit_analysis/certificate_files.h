@@ -6,8 +6,6 @@
 
 #include <geocone/limit_analysis/certificate.h>
 
-#include <deal.II/base/parameter_acceptor.h>
-
 #include <string>
 
 namespace geocone::GEOCONE_DIM
@@ -19,18 +17,8 @@ namespace geocone::GEOCONE_DIM
    * values are in SI units, so that the file can be checked without this program;
    * scripts/check_certificate is such a checker.
    */
-  class CertificateFiles : public dealii::ParameterAcceptor
+  struct CertificateFiles
   {
-  public:
-    CertificateFiles();
-
-    /** Returns true if the files are requested. */
-    bool
-    are_written() const
-    {
-      return asked;
-    }
-
     /** Certified bound on the limit load or the factor of safety. */
     struct Claim
     {
@@ -54,9 +42,6 @@ namespace geocone::GEOCONE_DIM
           const std::string &kind,
           const BoundScene  &given,
           const Claim       &claim);
-
-  private:
-    bool asked = false;
   };
 } // namespace geocone::GEOCONE_DIM
 

@@ -6,7 +6,6 @@
 
 #include <geocone/limit_analysis/bound_analysis.h>
 #include <geocone/limit_analysis/bounded_load.h>
-#include <geocone/limit_analysis/certificate_files.h>
 #include <geocone/limit_analysis/certified_bounds.h>
 #include <geocone/limit_analysis/gradients.h>
 #include <geocone/limit_analysis/strength_reduction.h>
@@ -161,7 +160,6 @@ namespace geocone::GEOCONE_DIM
 
     BoundedLoad       bounded_load;
     StrengthReduction reduction;
-    CertificateFiles  certificates;
 
     Choice<AnalysisKind> analysis = {
       {{"steps", AnalysisKind::steps},

@@ -71,6 +71,17 @@ namespace geocone::GEOCONE_DIM
   public:
     using TableOutput::TableOutput;
 
+    /** Declares the parameter for files that prove both bounds. */
+    void
+    declare_certificates();
+
+    /** Returns true if files that prove both bounds are requested. */
+    bool
+    writes_certificates() const
+    {
+      return with_certificates;
+    }
+
     /** Opens the output files of a limit analysis. @param unit of the load,
      *  e.g. "N/m"
      *  @param reference value of the load or factor of safety, if known */
@@ -96,6 +107,7 @@ namespace geocone::GEOCONE_DIM
     report_results(std::ostream &out) const override;
 
     std::unique_ptr<FieldFiles> fields;
+    bool                        with_certificates = false;
   };
 } // namespace geocone::GEOCONE_DIM
 

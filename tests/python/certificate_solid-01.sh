@@ -1,0 +1,86 @@
+# Bounds on tetrahedra are verified by a script that does not use the program: a reaction of clay, a
+# live weight with friction and a cut-off, a factor of safety under water, a circular cone.
+# Fields, loads and strengths that were changed are found.
+program=$1 root=$2 folder=$3
+rm -rf "$folder" && mkdir -p "$folder" && cd "$folder"
+run() {
+  local name=$1 scene=$2
+  shift 2
+  local settings=()
+  for setting in "$@"; do settings+=(--set "$setting"); done
+  "$program" "$root/tests/three/$scene.prm" --quiet --output "$name" \
+    --set 'Output/Certificates = true' --set 'Output/Expectations =' "${settings[@]}"
+}
+run reaction bounds_layer-01 'Analysis/Stresses = linear' 'Analysis/Velocities = linear'
+run weight bounds_solver 'Analysis/Velocities = quadratic' 'Analysis/Stresses = quadratic' \
+  'Materials/clay/Friction angle = 20' 'Materials/clay/Dilatancy angle = 20' \
+  'Materials/clay/Tensile strength = 100'
+run factor bounds_solver 'Analysis/Kind = strength reduction' 'Analysis/Solver tolerance = 1e-5' \
+  'Water/Table = 0, 1' 'Materials/clay/Density = 1081'
+run circular bounds_block-04
+/usr/bin/python3 -B - "$root/scripts/check_certificate" <<'PYTHON'
+import contextlib
+import copy
+import io
+import json
+import runpy
+import sys
+from pathlib import Path
+
+CHECKER = runpy.run_path(sys.argv[1])
+
+
+def verdict(function, path):
+    """Result of a function of the checker, and its words."""
+    words = io.StringIO()
+    with contextlib.redirect_stdout(words):
+        found = CHECKER[function](path)
+    print(words.getvalue(), end="")
+    return found, words.getvalue()
+
+
+for folder in "reaction", "weight", "factor", "circular":
+    good, text = verdict("check_folder", folder)
+    assert good and text.count(" proved for ") == 2, folder
+
+CHANGES = (
+    ("reaction", "lower", "div s + b", ("stress", 3, 1, 1), 1.001),
+    ("reaction", "lower", "only", ("materials", 0, "cohesion"), 0.9),
+    ("reaction", "upper", "only", ("value",), 0.999),
+    ("reaction", "upper", "stated magnitude", ("speed",), 1.001),
+    ("weight", "lower", "div s + b", ("body_force", "live", 5, 1), 1.001),
+    ("weight", "upper", "only", ("materials", 0, "tensile_strength"), 2.),
+    ("weight", "upper", "flow", ("materials", 0, "friction_angle"), 1.5),
+    ("factor", "lower", "load factor", ("strength_factor",), 1.1),
+    ("factor", "lower", "div s + b", ("body_force", "live", 5, 1), 0.5),
+    ("factor", "upper", "flow rule", ("strength_factor",), 0.9),
+    ("circular", "lower", "only", ("materials", 0, "strength"), 0.9),
+    ("circular", "upper", "only", ("materials", 0, "strength"), 1.1),
+)
+for folder, side, reason, place, factor in CHANGES:
+    content = json.loads(Path(folder, f"certificate_{side}.json").read_text())
+    data = content
+    for key in place[:-1]:
+        data = data[key]
+    data[place[-1]] *= factor
+    path = Path(f"changed_{side}.json")
+    path.write_text(json.dumps(content))
+    body, text = verdict("check", path)
+    assert body is None and reason in text, (folder, side, place, text)
+
+# A tetrahedron that is left out, and bounds of two problems.
+content = json.loads(Path("weight", "certificate_lower.json").read_text())
+less = copy.deepcopy(content)
+for key in "tetrahedra", "material", "stress":
+    less[key] = less[key][1:]
+for kind in "dead", "live":
+    less["body_force"][kind] = less["body_force"][kind][1:]
+Path("changed_lower.json").write_text(json.dumps(less))
+assert "boundary is not complete" in verdict("check", Path("changed_lower.json"))[1]
+Path("two").mkdir()
+for side, folder in ("lower", "weight"), ("upper", "factor"):
+    Path("two", f"certificate_{side}.json").write_text(
+        Path(folder, f"certificate_{side}.json").read_text())
+good, text = verdict("check_folder", "two")
+assert not good and "different problems" in text
+PYTHON
