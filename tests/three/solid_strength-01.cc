@@ -89,7 +89,7 @@ namespace three_solid_strength_01
     std::vector<Mandel>    admissible;
     for (unsigned int i = 0; i < n; ++i)
       {
-        const Mandel s = tensor();
+        const Mandel s = 0.4 * tensor();
         const double f = yield_function(law, principal(s));
         if (std::abs(f) < 1e-9)
           continue; // of rounding
@@ -115,10 +115,7 @@ namespace three_solid_strength_01
         const SolidFlow flow = law.flow(k, e);
         const Mandel    rate = SemidefiniteCone::vector(e);
         if (flow.miss > 0.)
-          {
-            // Some ray of admissible stresses has a growing power.
-            continue;
-          }
+          continue; // some ray of admissible stresses has a growing power
         ++n_rates;
         for (unsigned int j = 0; j < 20; ++j)
           beyond =
