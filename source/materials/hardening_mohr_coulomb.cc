@@ -169,8 +169,8 @@ namespace geocone::GEOCONE_DIM
       {
         const double G       = elasticity().two_G / 2.;
         const double steep   = -cohesion_curve.least_slope();
-        const double largest = steep > 0. ? length * G / steep : size;
-        if (size > 0.9 * largest)
+        const double largest = steep > 0. ? length * G / steep : 0.;
+        if (steep > 0. && size > 0.9 * largest)
           throw InputError(
             parameter("Softening length"),
             length,

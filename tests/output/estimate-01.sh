@@ -60,3 +60,6 @@ if grep -q 'has a memory' dry; then exit 1; fi
   --set 'Materials/soil/Friction angle with strain = constant' \
   --set 'Materials/soil/Softening length = 0' >dry
 grep -q 'has a memory of 0.01 s' dry
+# Friction may fall while cohesion is constant.
+"$program" "$root/prm/footing_softening.prm" --dry-run \
+  --set 'Materials/soil/Cohesion with strain = constant' >dry
