@@ -50,14 +50,14 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    /** Takes the tensile strength of a material, unless it is beyond the apex of the
-     *  pyramid. */
+    /** Takes the tensile strength of a material. Beyond the apex of the pyramid it may
+     *  count once the strength is reduced. */
     void
     take_tension(SolidStrength            &one,
                  const FrictionalStrength &given,
                  const std::string        &section)
     {
-      if (!(given.tension * 2. * one.a < one.k))
+      if (!std::isfinite(given.tension))
         return;
       const std::string parameter = section + "/Tensile strength";
       if (given.tension == 0.)

@@ -41,11 +41,12 @@ namespace geocone::GEOCONE_DIM
       return k + growth.at(x[1]);
     }
 
-    /** Returns true if a tension cut-off is part of the strength. */
+    /** Returns true if a tension cut-off below the apex of the pyramid is part of the
+     *  strength. */
     bool
     is_cut() const
     {
-      return std::isfinite(tension);
+      return std::isfinite(tension) && 2. * a * tension < k;
     }
 
     /** Reduces the strength of a material: divides c, tan(phi) and T, or k of a
