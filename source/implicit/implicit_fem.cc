@@ -9,6 +9,7 @@
 #include <geocone/points/point_record.h>
 #include <geocone/points/quadrature_points.h>
 #include <geocone/problem/consolidation.h>
+#include <geocone/space/vertex_interpolation.h>
 #include <geocone/time_stepping/check_removal.h>
 
 #include <deal.II/base/mpi.h>
@@ -125,11 +126,18 @@ namespace geocone::GEOCONE_DIM
         kinematics.velocity.local_element(dim * node + c) =
           scene->initial_velocity.at(space_.node_positions()[node])[c];
 
+    std::shared_ptr<VertexInterpolation> vertices;
+    if (has_vertex_interpolation(space_) &&
+        newton.linear_solver().selects_p_multigrid(
+          dim == 3 ? dim * space_.n_nodes() : 0))
+      vertices = std::make_shared<VertexInterpolation>(
+        interpolation_from_vertices(mesh_, space_));
     system = std::make_unique<LinearSystem>(
       newton.linear_solver(),
       mesh_.triangulation().get_communicator(),
       scene->materials.traits().symmetric && !obstacles->exists() &&
-        !drainage.acts);
+        !drainage.acts,
+      vertices);
     if (drainage.acts)
       pore_pressure.reinit(space_.partitioner());
     begin(points, timer);
@@ -184,7 +192,7 @@ namespace geocone::GEOCONE_DIM
     if (drainage.acts)
       {
         check_consolidation();
-        if (linear_solver.name == LinearSolverParameters::Name::multigrid)
+        if (linear_solver.is_iterative())
           throw InputError("Linear solver/Name",
                            linear_solver.name.word(),
                            "a direct solver with 'Time stepping/Consolidation'",

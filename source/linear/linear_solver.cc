@@ -4,6 +4,7 @@
 #include <geocone/base/exceptions.h>
 #include <geocone/base/unused_parameters.h>
 #include <geocone/linear/linear_solver.h>
+#include <geocone/linear/preconditioner.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -15,6 +16,10 @@ namespace geocone
   {
     const UsedWhere used_linear_solver[] = {
       {"Linear solver/*", "Discretisation/Method", {"FEM", "MPM"}}};
+
+    /** Number of degrees of freedom in three dimensions up to which 'automatic'
+     *  selects a direct solver (doc/performance.md). */
+    constexpr std::size_t largest_direct_in_space = 300000;
   } // namespace
 
   void
@@ -32,7 +37,8 @@ namespace geocone
       *this,
       "Name",
       ". Automatic: Cholmod for associated flow on one rank, otherwise Mumps. "
-      "Multigrid needs less memory in three dimensions.");
+      "Multigrid needs less memory in three dimensions; p-multigrid is for FEM "
+      "with P2, P3, Q2 or Q3.");
     index_size.declare(
       *this,
       "Index size",
@@ -52,6 +58,15 @@ namespace geocone
       "Tolerance of multigrid: residual relative to the right-hand side [-].",
       prm,
       dealii::Patterns::Double(1e-14, 0.1));
+    add_parameter(
+      "Largest tolerance",
+      largest_tolerance,
+      "Largest tolerance of multigrid [-] in steps of soil that can yield: far "
+      "from equilibrium, Newton's method takes a larger tolerance (Eisenstat "
+      "and Walker 1996). Values below Tolerance have no effect: it is then "
+      "constant.",
+      prm,
+      dealii::Patterns::Double(1e-14, 0.5));
     add_parameter("Maximum iterations",
                   max_iterations,
                   "Maximum number of multigrid iterations; if exceeded, a "
@@ -61,15 +76,38 @@ namespace geocone
   }
 
   std::unique_ptr<LinearSolver>
-  LinearSolverParameters::make(const MPI_Comm comm, const bool symmetric) const
+  LinearSolverParameters::make(const MPI_Comm comm,
+                               const bool     symmetric,
+                               const bool     on_degrees) const
   {
-    if (name != Name::multigrid)
+    if (name == Name::p_multigrid && !on_degrees)
+      throw InputError("Linear solver/Name",
+                       name.word(),
+                       "automatic | Cholmod | Umfpack | Mumps | multigrid, "
+                       "except for FEM with P2, P3, Q2 or Q3",
+                       "take multigrid, or such an element");
+    if (name != Name::multigrid && !on_degrees)
       return make_direct(name.get(), comm, symmetric);
-    return make_multigrid(comm,
-                          symmetric,
+    const auto direct = [&]() {
+      return make_direct(Name::automatic, comm, symmetric);
+    };
+    auto preconditioner = make_aggregation(comm, symmetric);
+    if (on_degrees)
+      preconditioner = make_p_multigrid(direct(), std::move(preconditioner));
+    return make_iterative(symmetric,
                           tolerance,
+                          largest_tolerance,
                           max_iterations,
-                          make_direct(Name::automatic, comm, symmetric));
+                          std::move(preconditioner),
+                          direct());
+  }
+
+  bool
+  LinearSolverParameters::selects_p_multigrid(const std::size_t n_dofs) const
+  {
+    return name == Name::p_multigrid ||
+           (name == Name::automatic && !out_of_core &&
+            n_dofs > largest_direct_in_space);
   }
 
   std::unique_ptr<LinearSolver>

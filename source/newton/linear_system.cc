@@ -14,11 +14,14 @@ namespace geocone::GEOCONE_DIM
 {
   using dealii::TimerOutput;
 
-  LinearSystem::LinearSystem(const LinearSolverParameters &parameters,
-                             const MPI_Comm                comm,
-                             const bool                    symmetric)
-    : solver(parameters.make(comm, symmetric))
+  LinearSystem::LinearSystem(
+    const LinearSolverParameters              &parameters,
+    const MPI_Comm                             comm,
+    const bool                                 symmetric,
+    std::shared_ptr<const VertexInterpolation> vertices)
+    : solver(parameters.make(comm, symmetric, vertices != nullptr))
     , comm(comm)
+    , vertices(std::move(vertices))
   {}
 
   void
@@ -37,7 +40,11 @@ namespace geocone::GEOCONE_DIM
     if (dealii::Utilities::MPI::max(changes, comm) == 0)
       return;
     if (solver->wants_nodal_rows())
-      solver->set_nodal_rows(problem.nodal_rows());
+      {
+        NodalRows rows = problem.nodal_rows();
+        rows.vertices  = vertices;
+        solver->set_nodal_rows(std::move(rows));
+      }
     solver->analyse(pressures != nullptr ? coupled : matrix);
   }
 

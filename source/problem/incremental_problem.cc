@@ -200,6 +200,14 @@ namespace geocone::GEOCONE_DIM
       if (unknowns.is_free(i))
         rows.dof.push_back(layout->local_to_global(i));
 
+    for (const Unknowns::TurnedNode &turned : unknowns.turned_nodes)
+      {
+        std::array<double, 9> axes{};
+        for (unsigned int a = 0; a < dim; ++a)
+          for (unsigned int b = 0; b < dim; ++b)
+            axes[dim * a + b] = turned.axes[a][b];
+        rows.turned.emplace_back(turned.node, axes);
+      }
     const auto add = [&](const auto &velocity) {
       std::vector<double> values(n_dofs);
       for (unsigned int i = 0; i < n_dofs; ++i)

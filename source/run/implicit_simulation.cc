@@ -344,7 +344,7 @@ namespace geocone::GEOCONE_DIM
                   stepper->has_inertia() ? "with inertia" : "quasi-static",
                   Utilities::MPI::n_mpi_processes(comm),
                   Utilities::MPI::n_mpi_processes(comm) > 1 ? "s" : "",
-                  stepper->linear_solver_name().c_str());
+                  stepper->linear_solver().name().c_str());
   }
 
   Json
@@ -679,21 +679,30 @@ namespace geocone::GEOCONE_DIM
     const double linear = seconds["factorise"] + seconds["solve"];
     const double steps  = step_loop.wall_time();
     const double megabytes = Utilities::MPI::sum(peak_memory_of_rank(), comm);
-    return {{"total_s", total.wall_time()},
-            {"cpu_s", Utilities::MPI::sum(cpu_time_of_rank(), comm)},
-            {"step_loop_s", steps},
-            {"residual_s", seconds["residual"]},
-            {"assembly_s", seconds["assemble"]},
-            {"analyse_s", seconds["analyse"]},
-            {"factorise_s", seconds["factorise"]},
-            {"solve_s", seconds["solve"]},
-            {"commit_s", seconds["commit"]},
-            {"transfer_s", seconds["transfer"]},
-            {"output_s", output_time.wall_time()},
-            {"linear_solver", stepper->linear_solver_name()},
-            {"factorisations", n_factorisations},
-            {"ratio_to_factorise_and_solve",
-             linear > 0. ? Json(steps / linear) : Json()},
-            {"peak_memory_MB", megabytes}};
+    Json         json      = {{"total_s", total.wall_time()},
+                              {"cpu_s", Utilities::MPI::sum(cpu_time_of_rank(), comm)},
+                              {"step_loop_s", steps},
+                              {"residual_s", seconds["residual"]},
+                              {"assembly_s", seconds["assemble"]},
+                              {"analyse_s", seconds["analyse"]},
+                              {"factorise_s", seconds["factorise"]},
+                              {"solve_s", seconds["solve"]},
+                              {"commit_s", seconds["commit"]},
+                              {"transfer_s", seconds["transfer"]},
+                              {"output_s", output_time.wall_time()},
+                              {"linear_solver", stepper->linear_solver().name()},
+                              {"factorisations", n_factorisations},
+                              {"ratio_to_factorise_and_solve",
+                  linear > 0. ? Json(steps / linear) : Json()},
+                              {"peak_memory_MB", megabytes}};
+    if (const LinearIterations *counts = stepper->linear_solver().iterations())
+      {
+        json["linear_iterations_mean"] =
+          counts->systems > 0 ? Json(counts->total / double(counts->systems))
+                              : Json();
+        json["linear_iterations_max"]   = counts->most;
+        json["factorisations_directly"] = counts->directly;
+      }
+    return json;
   }
 } // namespace geocone::GEOCONE_DIM

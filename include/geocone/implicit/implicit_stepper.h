@@ -48,10 +48,10 @@ namespace geocone::GEOCONE_DIM
       return unknowns;
     }
 
-    std::string
-    linear_solver_name() const final
+    const LinearSolver &
+    linear_solver() const final
     {
-      return system->solver_name();
+      return system->linear_solver();
     }
 
     std::size_t

@@ -16,6 +16,18 @@
 
 namespace geocone
 {
+  class Preconditioner;
+
+  /** Iteration counts of an iterative linear solver, since the start of the
+   *  run. */
+  struct LinearIterations
+  {
+    unsigned int systems  = 0; ///< right-hand sides solved by iterations
+    unsigned int total    = 0; ///< iterations for these right-hand sides
+    unsigned int most     = 0; ///< for one right-hand side
+    unsigned int directly = 0; ///< matrices left to the direct solver
+  };
+
   /**
    * Interface of solvers for sparse linear systems. Call analyse() once per
    * sparsity pattern and factorise() once per matrix. The matrix must outlive
@@ -67,6 +79,22 @@ namespace geocone
     virtual std::string
     name() const = 0;
 
+    /**
+     * Sets the tolerance of the next linear systems: residual relative to the
+     * right-hand side. The solver may be more accurate; direct solvers ignore
+     * the tolerance.
+     */
+    virtual void
+    set_tolerance(const double)
+    {}
+
+    /** Returns the iteration counts of the solver; null for direct solvers. */
+    virtual const LinearIterations *
+    iterations() const
+    {
+      return nullptr;
+    }
+
     /** Terminates the run because a linear solver has failed.
      *  @throws RunError */
     [[noreturn]] static void
@@ -85,13 +113,22 @@ namespace geocone
       cholmod,
       umfpack,
       mumps,
-      multigrid
+      multigrid,
+      p_multigrid
     };
     Choice<Name> name = {{{"automatic", Name::automatic},
                           {"Cholmod", Name::cholmod},
                           {"Umfpack", Name::umfpack},
                           {"Mumps", Name::mumps},
-                          {"multigrid", Name::multigrid}}};
+                          {"multigrid", Name::multigrid},
+                          {"p-multigrid", Name::p_multigrid}}};
+
+    /** Returns true if the linear systems are solved by iterations. */
+    bool
+    is_iterative() const
+    {
+      return name == Name::multigrid || name == Name::p_multigrid;
+    }
 
     /** Size (bits) of the integer indices in the factors computed by
      *  CHOLMOD. */
@@ -109,10 +146,11 @@ namespace geocone
     bool        out_of_core = false;
     std::string folder      = "/tmp";
 
-    /** Options of the multigrid solver: tolerance of the relative residual, and
-     *  maximum number of iterations. */
-    double       tolerance      = 1e-6;
-    unsigned int max_iterations = 200;
+    /** Options of the multigrid solvers: smallest and largest tolerance of the
+     *  relative residual, and maximum number of iterations. */
+    double       tolerance         = 1e-6;
+    double       largest_tolerance = 1e-2;
+    unsigned int max_iterations    = 200;
 
     /**
      * Creates the selected linear solver. The following solvers are available:
@@ -122,13 +160,27 @@ namespace geocone
      * - Mumps: distributed multifrontal LU, or Cholesky if symmetric;
      * - multigrid: Krylov method with smoothed aggregation of Trilinos' ML, and
      *   the direct solver of 'automatic' if it does not converge;
+     * - p-multigrid: the same with linear shape functions on the mesh as the
+     *   coarse level, for finite elements of higher degree;
      * - automatic: Cholmod for symmetric matrices in memory on one rank,
      *   otherwise Mumps, which is faster than Umfpack (doc/performance.md).
      *
+     * @param on_degrees whether to create p-multigrid; it requires nodal rows
+     * with an interpolation from the vertices
      * @throws InputError for unsupported combinations
      */
     std::unique_ptr<LinearSolver>
-    make(const MPI_Comm comm, const bool symmetric) const;
+    make(const MPI_Comm comm,
+         const bool     symmetric,
+         const bool     on_degrees = false) const;
+
+    /**
+     * Returns true if p-multigrid is selected, by name or by 'automatic'.
+     * @param n_dofs number of degrees of freedom on all ranks if 'automatic'
+     * may select p-multigrid, otherwise zero
+     */
+    bool
+    selects_p_multigrid(const std::size_t n_dofs) const;
 
   private:
     std::unique_ptr<LinearSolver>
@@ -154,14 +206,17 @@ namespace geocone
              const bool         symmetric,
              const std::string &folder);
 
-  /** Creates a Krylov solver preconditioned by algebraic multigrid.
+  /** Creates a Krylov solver with a preconditioner: conjugate gradients, or
+   *  GMRES for non-symmetric matrices. See LinearSolverParameters for the
+   *  tolerances.
    *  @param direct direct solver for systems that exceed max_iterations */
   std::unique_ptr<LinearSolver>
-  make_multigrid(const MPI_Comm                comm,
-                 const bool                    symmetric,
-                 const double                  tolerance,
-                 const unsigned int            max_iterations,
-                 std::unique_ptr<LinearSolver> direct);
+  make_iterative(const bool                      symmetric,
+                 const double                    tolerance,
+                 const double                    largest_tolerance,
+                 const unsigned int              max_iterations,
+                 std::unique_ptr<Preconditioner> preconditioner,
+                 std::unique_ptr<LinearSolver>   direct);
   /** @} */
 } // namespace geocone
 

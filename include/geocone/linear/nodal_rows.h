@@ -6,11 +6,39 @@
 
 #include <deal.II/base/partitioner.h>
 
+#include <array>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace geocone
 {
+  /**
+   * Linear interpolation of a nodal field from the vertices of the mesh.
+   * Vertices are nodes as well.
+   */
+  struct VertexInterpolation
+  {
+    /** A vertex (local number of its node) and its weight. */
+    using Weight = std::pair<unsigned int, double>;
+
+    /** Vertices with nonzero weights of each local node, one node after the
+     *  other. */
+    std::vector<Weight> weights;
+
+    /** Index of the first weight of each local node in the array `weights`, and
+     *  finally the number of weights. */
+    std::vector<std::size_t> first;
+
+    /** Returns true if a local node is a vertex. */
+    bool
+    is_vertex(const unsigned int node) const
+    {
+      return first[node + 1] == first[node] + 1 &&
+             weights[first[node]].first == node;
+    }
+  };
+
   /**
    * Assignment of the rows of a Jacobian to nodes, for algebraic multigrid.
    * Multigrid aggregates nodes instead of rows, with rigid motions as the
@@ -32,6 +60,14 @@ namespace geocone
      *  available. Values at the owned dofs, zero at dofs without a matrix
      *  row. */
     std::vector<std::vector<double>> rigid_motions;
+
+    /** Interpolation from the vertices of the mesh, for multigrid on polynomial
+     *  degrees; null for other solvers. */
+    std::shared_ptr<const VertexInterpolation> vertices;
+
+    /** Local nodes whose components are not those of the coordinate axes, with
+     *  the unit vectors of their components (row by row). */
+    std::vector<std::pair<unsigned int, std::array<double, 9>>> turned;
   };
 } // namespace geocone
 

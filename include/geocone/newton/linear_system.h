@@ -28,9 +28,19 @@ namespace geocone::GEOCONE_DIM
   class LinearSystem
   {
   public:
-    LinearSystem(const LinearSolverParameters &parameters,
-                 const MPI_Comm                comm,
-                 const bool                    symmetric);
+    /** @param vertices interpolation from the vertices of the mesh; selects
+     *  p-multigrid unless null */
+    LinearSystem(const LinearSolverParameters              &parameters,
+                 const MPI_Comm                             comm,
+                 const bool                                 symmetric,
+                 std::shared_ptr<const VertexInterpolation> vertices = nullptr);
+
+    /** Sets the tolerance of the next linear systems, for iterative solvers. */
+    void
+    set_tolerance(const double tolerance)
+    {
+      solver->set_tolerance(tolerance);
+    }
 
     /** Sets the sparsity pattern of the Jacobian of a problem. The unknowns are
      *  reordered if the pattern has changed. Collective. */
@@ -78,10 +88,10 @@ namespace geocone::GEOCONE_DIM
       return matrix.column.size();
     }
 
-    std::string
-    solver_name() const
+    const LinearSolver &
+    linear_solver() const
     {
-      return solver->name();
+      return *solver;
     }
 
   private:
@@ -96,6 +106,7 @@ namespace geocone::GEOCONE_DIM
     SparseMatrix                  matrix;  ///< of the velocities
     SparseMatrix                  coupled; ///< with rows of pore pressures
     PorePressures                *pressures = nullptr;
+    std::shared_ptr<const VertexInterpolation> vertices;
     LowRank                       low_rank;
     Eigen::MatrixXd               solved_U;  ///< K^-1 U, K without U W'
     Eigen::MatrixXd               to_change; ///< (1 + W' K^-1 U)^-1, Woodbury

@@ -290,8 +290,8 @@ namespace geocone::GEOCONE_DIM
     virtual unsigned int
     n_unknowns() const = 0;
 
-    virtual std::string
-    linear_solver_name() const = 0;
+    virtual const LinearSolver &
+    linear_solver() const = 0;
 
     /** Returns the number of nonzero (stored) entries of the Jacobian on this
      *  rank. */

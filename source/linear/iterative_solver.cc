@@ -1,0 +1,243 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/linear/linear_solver.h>
+#include <geocone/linear/preconditioner.h>
+
+#include <deal.II/lac/solver_cg.h>
+#include <deal.II/lac/solver_control.h>
+#include <deal.II/lac/solver_gmres.h>
+
+#include <algorithm>
+
+namespace geocone
+{
+  namespace
+  {
+    /**
+     * Conjugate gradients, or GMRES for non-symmetric matrices, with a
+     * preconditioner. Systems that take too many iterations are solved
+     * directly, and so are the next ones: one after the first failure, two
+     * after the next, and so on, until one converges in time.
+     */
+    class IterativeSolver : public LinearSolver
+    {
+    public:
+      IterativeSolver(const bool                      symmetric,
+                      const double                    tolerance,
+                      const double                    largest_tolerance,
+                      const unsigned int              max_iterations,
+                      std::unique_ptr<Preconditioner> preconditioner,
+                      std::unique_ptr<LinearSolver>   direct)
+        : symmetric(symmetric)
+        , smallest_tolerance(tolerance)
+        , largest_tolerance(std::max(tolerance, largest_tolerance))
+        , max_iterations(max_iterations)
+        , preconditioner(std::move(preconditioner))
+        , direct(std::move(direct))
+        , tolerance(tolerance)
+      {}
+
+      bool
+      wants_nodal_rows() const override
+      {
+        return true;
+      }
+
+      void
+      set_nodal_rows(NodalRows new_nodes) override
+      {
+        nodes = std::move(new_nodes);
+      }
+
+      void
+      set_tolerance(const double wanted) override
+      {
+        tolerance =
+          std::min(std::max(wanted, smallest_tolerance), largest_tolerance);
+      }
+
+      const LinearIterations *
+      iterations() const override
+      {
+        return &counts;
+      }
+
+      void
+      analyse(const SparseMatrix &matrix) override
+      {
+        direct_is_ready = false;
+        rows.reinit(matrix);
+        preconditioner->analyse(matrix, std::move(nodes));
+        solution.reinit(rows.layout());
+        right_side.reinit(rows.layout());
+      }
+
+      bool
+      factorise(const SparseMatrix &matrix) override
+      {
+        last      = &matrix;
+        is_direct = n_to_skip > 0;
+        if (is_direct)
+          --n_to_skip;
+        else
+          is_direct = !preconditioner->factorise(matrix);
+        return is_direct ? factorise_directly() : true;
+      }
+
+      void
+      solve(std::vector<double> &x, const unsigned int n_columns) override
+      {
+        const std::size_t n = last->n_owned;
+        for (unsigned int c = 0; c < n_columns && !is_direct; ++c)
+          if (!iterate(&x[n * c]))
+            {
+              // Columns already solved are kept.
+              std::vector<double> rest(x.begin() + n * c, x.end());
+              n_in_a_row = std::min(2 * n_in_a_row + 1, 15U);
+              n_to_skip  = n_in_a_row;
+              is_direct  = true;
+              if (factorise_directly())
+                direct->solve(rest, n_columns - c);
+              else
+                // Singular: too late to report, so the direction is zero.
+                std::fill(rest.begin(), rest.end(), 0.);
+              std::copy(rest.begin(), rest.end(), x.begin() + n * c);
+              return;
+            }
+        if (is_direct)
+          direct->solve(x, n_columns);
+        else
+          n_in_a_row = 0;
+      }
+
+      bool
+      wants_one_triangle() const override
+      {
+        return false;
+      }
+
+      std::string
+      name() const override
+      {
+        return preconditioner->name();
+      }
+
+    private:
+      /** @return whether the tolerance was reached within the allowed
+       *  iterations */
+      bool
+      iterate(double *x)
+      {
+        std::copy_n(x, last->n_owned, right_side.begin());
+        solution          = 0.;
+        const double norm = right_side.l2_norm();
+        if (norm == 0.)
+          return true;
+        dealii::SolverControl control(
+          max_iterations, tolerance * norm, false, false);
+        bool converged = true;
+        try
+          {
+            if (symmetric)
+              dealii::SolverCG<RowVector>(control).solve(
+                rows, solution, right_side, *preconditioner);
+            else
+              dealii::SolverGMRES<RowVector>(
+                control,
+                dealii::SolverGMRES<RowVector>::AdditionalData(100, true))
+                .solve(rows, solution, right_side, *preconditioner);
+          }
+        catch (const dealii::SolverControl::NoConvergence &)
+          {
+            converged = false;
+          }
+        ++counts.systems;
+        counts.total += control.last_step();
+        counts.most = std::max(counts.most, control.last_step());
+        if (converged)
+          std::copy_n(solution.begin(), last->n_owned, x);
+        return converged;
+      }
+
+      /** Factorises the last matrix by the direct solver. */
+      bool
+      factorise_directly()
+      {
+        ++counts.directly;
+        const bool lower = direct->wants_one_triangle();
+        if (!direct_is_ready)
+          {
+            for_direct = lower ? lower_triangle(*last) : SparseMatrix();
+            direct->analyse(lower ? for_direct : *last);
+            direct_is_ready = true;
+          }
+        if (!lower)
+          return direct->factorise(*last);
+        copy_lower_triangle(*last, for_direct);
+        return direct->factorise(for_direct);
+      }
+
+      static SparseMatrix
+      lower_triangle(const SparseMatrix &full)
+      {
+        SparseMatrix lower = full;
+        lower.symmetric    = true;
+        lower.column.clear();
+        lower.row_start.assign(1, 0);
+        for (int i = 0; i < full.n_rows(); ++i)
+          {
+            for (int e = full.row_start[i]; e < full.row_start[i + 1]; ++e)
+              if (full.column[e] <= i)
+                lower.column.push_back(full.column[e]);
+            lower.row_start.push_back(lower.column.size());
+          }
+        lower.value.resize(lower.column.size());
+        return lower;
+      }
+
+      static void
+      copy_lower_triangle(const SparseMatrix &full, SparseMatrix &lower)
+      {
+        for (int i = 0; i < full.n_rows(); ++i)
+          std::copy_n(&full.value[full.row_start[i]],
+                      lower.row_start[i + 1] - lower.row_start[i],
+                      &lower.value[lower.row_start[i]]);
+      }
+
+      const bool                      symmetric;
+      const double                    smallest_tolerance, largest_tolerance;
+      const unsigned int              max_iterations;
+      std::unique_ptr<Preconditioner> preconditioner;
+      std::unique_ptr<LinearSolver>   direct;
+
+      double           tolerance;
+      NodalRows        nodes;
+      RowOperator      rows;
+      RowVector        solution, right_side;
+      LinearIterations counts;
+
+      const SparseMatrix *last = nullptr; ///< last factorised
+      SparseMatrix        for_direct;
+      bool                direct_is_ready = false;
+      bool                is_direct       = false;
+      unsigned int        n_in_a_row = 0, n_to_skip = 0; ///< failures
+    };
+  } // namespace
+
+  std::unique_ptr<LinearSolver>
+  make_iterative(const bool                      symmetric,
+                 const double                    tolerance,
+                 const double                    largest_tolerance,
+                 const unsigned int              max_iterations,
+                 std::unique_ptr<Preconditioner> preconditioner,
+                 std::unique_ptr<LinearSolver>   direct)
+  {
+    return std::make_unique<IterativeSolver>(symmetric,
+                                             tolerance,
+                                             largest_tolerance,
+                                             max_iterations,
+                                             std::move(preconditioner),
+                                             std::move(direct));
+  }
+} // namespace geocone
