@@ -84,6 +84,50 @@ namespace geocone::GEOCONE_DIM
     }
   } // namespace
 
+  namespace
+  {
+    /**
+     * Forcing terms of inexact Newton iterations: tolerances of the linear
+     * systems by choice 2 of Eisenstat and Walker (1996), with gamma = 0.9 and
+     * alpha = 2. The last systems are solved no more accurately than the
+     * tolerance of the step requires. Linear steps have no forcing term.
+     */
+    class ForcingTerms
+    {
+    public:
+      explicit ForcingTerms(const StepWorkspace &work)
+        : work(work)
+      {}
+
+      ~ForcingTerms()
+      {
+        work.system.set_tolerance(0.);
+      }
+
+      /** Sets the tolerance of the next linear system.
+       *  @param needed sufficient reduction of the residual */
+      void
+      set(const double norm, const double needed)
+      {
+        if (!work.traits.law.can_yield)
+          return;
+        const double of_last = 0.9 * term * term;
+        term = last_norm > 0. ? 0.9 * std::pow(norm / last_norm, 2) : largest;
+        if (of_last > 0.1)
+          term = std::max(term, of_last);
+        term      = std::min(term, largest);
+        last_norm = norm;
+        work.system.set_tolerance(std::max(term, 0.3 * needed));
+      }
+
+    private:
+      static constexpr double largest = 0.9;
+
+      const StepWorkspace &work;
+      double               term = 0., last_norm = 0.;
+    };
+  } // namespace
+
   void
   NewtonLoop::run(Globalisation &globalisation, const StepWorkspace &work) const
   {
@@ -97,6 +141,7 @@ namespace geocone::GEOCONE_DIM
     const bool          jumps = !jump.is_zero();
     line.state                = work.evaluate(law);
     work.record(line.state, 0., 0., law.friction_lag);
+    ForcingTerms forcing(work);
     for (bool first = true;; first = false)
       {
         stop_if_asked(work.v.get_mpi_communicator());
@@ -143,6 +188,8 @@ namespace geocone::GEOCONE_DIM
           }
         const Vector *const prescribed =
           first && jumps ? &jump.prescribed : nullptr;
+        forcing.set(line.state.norm,
+                    tolerance * line.state.force_norm / line.state.norm);
         line.contact = contact && contact->is_used() ? &*contact : nullptr;
         if (line.contact != nullptr)
           contact->solve(prescribed, jump.defect, line.direction);
