@@ -184,4 +184,61 @@ namespace geocone::GEOCONE_DIM
       check(*condition, false);
     return warnings;
   }
+
+  std::vector<std::string>
+  warn_of_cut_cells(const Scene &scene, const BackgroundMesh &mesh)
+  {
+    constexpr double noticed = 0.02; ///< part of the volume
+    // Volumes of a region: of its cells, and by samples within all cells.
+    struct Volumes
+    {
+      double of_cells = 0., sampled = 0.;
+    };
+    const unsigned int n_materials = scene.materials.size();
+    const bool has_regions = n_materials > 1 && !scene.regions.have_groups();
+    if (!has_regions && !scene.loading.changes_body())
+      return {};
+    std::vector<Volumes> volumes(n_materials + scene.loading.list.size());
+    const auto add = [&](const Point<dim> &x, const double V, auto member) {
+      volumes[scene.regions.material_at(x)].*member += V;
+      for (unsigned int s = 0; s < scene.loading.list.size(); ++s)
+        if (scene.loading.list[s]->removes(x))
+          volumes[n_materials + s].*member += V;
+    };
+    for (const auto &cell : mesh.own_cells())
+      {
+        const double       V = cell->measure();
+        const unsigned int n = cell->n_vertices();
+        add(cell->center(), V, &Volumes::of_cells);
+        for (unsigned int i = 0; i < n; ++i)
+          for (unsigned int j = 0; j < n; ++j)
+            add(cell->center() +
+                  0.999 * (2. / 3. * (cell->vertex(i) - cell->center()) +
+                           1. / 3. * (cell->vertex(j) - cell->center())),
+                V / (n * n),
+                &Volumes::sampled);
+      }
+    std::vector<std::string> warnings;
+    // The first material fills what the others leave.
+    for (unsigned int r = has_regions ? 1 : n_materials; r < volumes.size();
+         ++r)
+      {
+        const MPI_Comm comm   = mesh.triangulation().get_communicator();
+        const double of_cells = Utilities::MPI::sum(volumes[r].of_cells, comm),
+                     sampled  = Utilities::MPI::sum(volumes[r].sampled, comm);
+        if (std::abs(of_cells - sampled) >
+            noticed * std::max(of_cells, sampled))
+          warnings.push_back(format(
+            "%s '%s' takes cells by their centres, of %.3g %s in all, where "
+            "about %.3g are in its region: put cell edges on the boundary of "
+            "the region (Mesh/Type = unstructured), or take smaller cells",
+            r < n_materials ? "the material" : "the excavation of the stage",
+            r < n_materials ? scene.materials.name(r).c_str()
+                            : scene.loading.list[r - n_materials]->name.c_str(),
+            of_cells,
+            dim == 2 ? "m^2" : "m^3",
+            sampled));
+      }
+    return warnings;
+  }
 } // namespace geocone::GEOCONE_DIM

@@ -293,6 +293,8 @@ namespace geocone::GEOCONE_DIM
     log.print(options.name + ": " + text_of_magnitudes(scene, body));
     for (const auto &more : {warn_of_magnitudes(scene, body),
                              warn_of_partial_coverage(scene, mesh, space),
+                             method.is_mpm() ? std::vector<std::string>()
+                                             : warn_of_cut_cells(scene, mesh),
                              warn_of_fixed_ends(scene.structures, mesh)})
       warnings.insert(warnings.end(), more.begin(), more.end());
     warnings.push_back(outside_strength(points, scene.materials, comm));

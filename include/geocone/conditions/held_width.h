@@ -20,6 +20,13 @@ namespace geocone::GEOCONE_DIM
   warn_of_partial_coverage(const Scene          &scene,
                            const BackgroundMesh &mesh,
                            const Space          &space);
+
+  /** Returns a warning for each material region and each excavation whose cells
+   *  differ in volume from the region in the mesh by more than 2 %: cells belong
+   *  to regions by their centres. For methods whose points are those of cells.
+   *  Collective. */
+  std::vector<std::string>
+  warn_of_cut_cells(const Scene &scene, const BackgroundMesh &mesh);
 } // namespace geocone::GEOCONE_DIM
 
 #endif
