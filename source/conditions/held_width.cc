@@ -101,11 +101,13 @@ namespace geocone::GEOCONE_DIM
                 asked.add(end);
             return;
           }
-        spacing = std::max(spacing, a.distance(b) / n_samples);
         for (unsigned int i = 0; i <= n_samples; ++i)
           if (const Point<dim> x = a + double(i) / n_samples * (b - a);
               condition.holds_at(x))
-            asked.add(x);
+            {
+              asked.add(x);
+              spacing = std::max(spacing, a.distance(b) / n_samples);
+            }
       };
       for_each_face(mesh, ids, [&](const auto &cell, const unsigned int f) {
         const auto face = cell->face(f);

@@ -286,6 +286,8 @@ namespace geocone::GEOCONE_DIM
                                     point_history.data());
         if (b_bar)
           s_zz += scratch.mean_stress[k] - mean_stress(points, k);
+        else if (water.acts())
+          s_zz -= water.excess_pressure(group, points.first + k);
         scratch.hoop_force[k] =
           -points.volume[k] * s_zz / std::max(points.x[0][k], least_radius);
         hoop_force += scratch.hoop_force[k];

@@ -270,8 +270,8 @@ namespace geocone::GEOCONE_DIM
     if (water.acts() && water.is_saturated(group, p))
       {
         sum.removed_momentum += part * water.relative_momentum(group, p);
-        sum.removed_water +=
-          part * (group.volume[p] + water.stored_water(group, p));
+        sum.removed_volume += part * group.volume[p];
+        sum.removed_stored += part * water.stored_water(group, p);
       }
   }
 

@@ -145,11 +145,11 @@ namespace geocone::GEOCONE_DIM
             law.fluid_modulus(),
             "> 0 Pa " + with,
             "water has 2.2 GPa; divide it by the porosity");
-    require(k[0][0] == k[1][1] && k[0][1] == 0.,
-            section + "Permeability",
-            k[1][1],
-            format("%g m/s in all directions with explicit MPM", k[0][0]),
-            "give one value, or set Discretisation/Method = FEM");
+    if (k[0][0] != k[1][1] || k[0][1] != 0.)
+      throw InputError(section + "Permeability",
+                       ParameterFile::value(section + "Permeability"),
+                       "one value for all directions with explicit MPM",
+                       "give one value, or set Discretisation/Method = FEM");
     Soil all;
     all.modulus  = law.fluid_modulus();
     all.porosity = law.retention().saturated_content();
@@ -373,8 +373,6 @@ namespace geocone::GEOCONE_DIM
           points.volume[k] * excess_pressure(group, points.first + k);
         for (unsigned int d = 0; d < dim; ++d)
           out[4 + 4 * d + forces + d] += f;
-        if (axisymmetric)
-          out[forces] += f / std::max(points.x[0][k], least_radius);
       }
   }
 
@@ -391,8 +389,9 @@ namespace geocone::GEOCONE_DIM
       for (unsigned int k = 0; k < points.n; ++k)
         {
           p[k] = excess_pressure(group, points.first + k);
-          volume[k] =
-            is_saturated(group, points.first + k) ? points.volume[k] : 0.;
+          volume[k] = is_saturated(group, points.first + k)
+                        ? points.volume[k] / soils[group.of_material].modulus
+                        : 0.;
         }
       transfer->add_to_cells(saturated, p);
     });

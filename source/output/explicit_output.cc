@@ -155,12 +155,16 @@ namespace geocone::GEOCONE_DIM
   double
   ExplicitOutput::water_error(const ExplicitRecord &record) const
   {
-    const double volume =
-                   record.last.saturated_volume - initial.saturated_volume,
-                 stored = record.last.stored_water - initial.stored_water;
-    const Exchange &e   = record.exchange;
-    return (e.outflow + e.removed_water + volume + stored) /
-           std::max(std::abs(volume) + std::abs(stored), 1e-300);
+    constexpr double rounding = 1e-12; // of the volume: water at rest
+    const Exchange  &e        = record.exchange;
+    const double     volume   = record.last.saturated_volume -
+                          initial.saturated_volume + e.removed_volume,
+                 stored = record.last.stored_water - initial.stored_water +
+                          e.removed_stored,
+                 size = std::abs(volume) + std::abs(stored);
+    return size > rounding * initial.saturated_volume
+             ? (e.outflow + volume + stored) / size
+             : 0.;
   }
 
   Tensor<1, dim>

@@ -61,7 +61,9 @@ namespace geocone::GEOCONE_DIM
           record_start();
         follow_programme();
         finish(now.time);
-        output().print_result(); // its warnings belong to the summary
+        // The result is printed from a summary, which then takes its warnings.
+        write_summary("running");
+        output().print_result();
         write_summary("finished");
         output().report();
       }

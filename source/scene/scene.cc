@@ -333,7 +333,9 @@ namespace geocone::GEOCONE_DIM
     if (scene.gravity.acts() &&
         !(size >= smallest_body && size <= largest_body))
       warnings.push_back(
-        format("the body is %g m large: lengths are in m", size));
+        format("the body is %g m large: is it meant in other units? Lengths "
+               "are in m",
+               size));
     for (unsigned int m = 0; m < scene.materials.size(); ++m)
       {
         const std::string name    = scene.materials.name(m);

@@ -41,9 +41,9 @@ namespace geocone::GEOCONE_DIM
     double                 removed_energy    = 0.; ///< kinetic energy (J/m)
     double                 removed_potential = 0.; ///< from the lower corner
 
-    /** Volume of removed saturated points with the water that their pore
+    /** Volume of removed saturated points, and of the water that their pore
      *  pressure stores (m^2). */
-    double removed_water = 0.;
+    double removed_volume = 0., removed_stored = 0.;
 
     /** Kinetic energy removed by kinetic damping (J/m). */
     double stopped_energy = 0.;
@@ -64,7 +64,8 @@ namespace geocone::GEOCONE_DIM
           removed_momentum,
           removed_energy,
           removed_potential,
-          removed_water,
+          removed_volume,
+          removed_stored,
           stopped_energy,
           small_masses);
     }

@@ -50,12 +50,6 @@ namespace geocone::GEOCONE_DIM
       double                 pressure_work = 0.; ///< of the excess (J/m)
       double                 outflow       = 0.; ///< from the body (m^2)
       dealii::Tensor<1, dim> impulse;            ///< of the buoyancy (N s/m)
-
-      void
-      state(StateRow &row)
-      {
-        row(work, loss, pressure_work, outflow, impulse);
-      }
     };
 
     /** Returns true if pore water flows relative to the soil. */
@@ -160,7 +154,7 @@ namespace geocone::GEOCONE_DIM
 
     /** Subtracts the excess pore pressure from the point values that scatter()
      *  of GridTransfer adds to the nodes of the mixture, so that their stress is
-     *  the total one. */
+     *  the total one. Hoop stresses include it already. */
     void
     add_pressure(const TransferBlock &points,
                  const PointArrays   &group,

@@ -109,9 +109,10 @@ namespace geocone::GEOCONE_DIM
     void
     update_balance(const ExplicitRecord &record);
 
-    /** Error of the water balance: outflow and change of the volume of the
-     *  saturated points with the water that their pressure stores, over the sum
-     *  of the absolute values of the latter two. */
+    /** Error of the water balance: sum of the outflow, the change of the volume
+     *  of the saturated points and that of the water that their pressure stores,
+     *  over the sum of the absolute values of the latter two; 0 for water at
+     *  rest. Removed points do not count as changes. */
     double
     water_error(const ExplicitRecord &record) const;
 
