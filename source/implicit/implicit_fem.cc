@@ -129,7 +129,7 @@ namespace geocone::GEOCONE_DIM
     std::shared_ptr<VertexInterpolation> vertices;
     if (has_vertex_interpolation(space_) &&
         newton.linear_solver().selects_p_multigrid(
-          dim == 3 ? dim * space_.n_nodes() : 0))
+          dim == 3 && !obstacles->exists() ? dim * space_.n_nodes() : 0))
       vertices = std::make_shared<VertexInterpolation>(
         interpolation_from_vertices(mesh_, space_));
     system = std::make_unique<LinearSystem>(

@@ -15,7 +15,10 @@ namespace geocone
   namespace
   {
     const UsedWhere used_linear_solver[] = {
-      {"Linear solver/*", "Discretisation/Method", {"FEM", "MPM"}}};
+      {"Linear solver/*", "Discretisation/Method", {"FEM", "MPM"}},
+      {"Linear solver/Largest tolerance",
+       "Linear solver/Name",
+       {"automatic", "multigrid", "p-multigrid"}}};
 
     /** Number of degrees of freedom in three dimensions up to which 'automatic'
      *  selects a direct solver (doc/performance.md). */
@@ -36,9 +39,12 @@ namespace geocone
     name.declare(
       *this,
       "Name",
-      ". Automatic: Cholmod for associated flow on one rank, otherwise Mumps. "
-      "Multigrid needs less memory in three dimensions; p-multigrid is for FEM "
-      "with P2, P3, Q2 or Q3.");
+      ". Automatic: Cholmod for associated flow on one rank, otherwise Mumps; "
+      "beyond 300 000 degrees of freedom in three dimensions p-multigrid, "
+      "where "
+      "it is possible and there are no obstacles. Multigrid needs less memory "
+      "in "
+      "three dimensions; p-multigrid is for FEM with P2, P3, Q2 or Q3.");
     index_size.declare(
       *this,
       "Index size",
@@ -84,7 +90,7 @@ namespace geocone
       throw InputError("Linear solver/Name",
                        name.word(),
                        "automatic | Cholmod | Umfpack | Mumps | multigrid, "
-                       "except for FEM with P2, P3, Q2 or Q3",
+                       "except for FEM with P2, P3, Q2 or Q3 and no tied sides",
                        "take multigrid, or such an element");
     if (name != Name::multigrid && !on_degrees)
       return make_direct(name.get(), comm, symmetric);

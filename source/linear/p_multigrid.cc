@@ -406,10 +406,7 @@ namespace geocone
           x->reinit(fine.layout());
         for (RowVector *x : {&coarse_b, &coarse_x})
           x->reinit(levels.coarse_rows.layout());
-        eigenvector.reinit(fine.layout());
-        for (unsigned int i = 0; i < eigenvector.locally_owned_size(); ++i)
-          eigenvector.local_element(i) =
-            std::sin(1. + 7. * (fine.layout()->local_range().first + i));
+        start_eigenvector();
         largest_eigenvalue = 0.;
       }
 
@@ -417,7 +414,8 @@ namespace geocone
       factorise(const SparseMatrix &matrix) override
       {
         blocks.invert(matrix, fine);
-        find_largest_eigenvalue();
+        if (!find_largest_eigenvalue())
+          return false;
         levels.project(matrix);
         return is_large ? aggregation->factorise(levels.coarse)
                         : direct->factorise(levels.coarse);
@@ -460,9 +458,20 @@ namespace geocone
       static constexpr int    degree = 4;
       static constexpr double range  = 15.;
 
-      /** Power iterations, a few more after the pattern has changed. The last
-       *  eigenvector is the start of the next ones. */
+      /** Takes a vector with parts of all frequencies. */
       void
+      start_eigenvector()
+      {
+        eigenvector.reinit(fine.layout());
+        for (unsigned int i = 0; i < eigenvector.locally_owned_size(); ++i)
+          eigenvector.local_element(i) =
+            std::sin(1. + 7. * (fine.layout()->local_range().first + i));
+      }
+
+      /** Power iterations, a few more after the pattern has changed. The last
+       *  eigenvector is the start of the next ones.
+       *  @return false for a matrix without a finite eigenvalue above zero */
+      bool
       find_largest_eigenvalue()
       {
         const int n = largest_eigenvalue == 0. ? 12 : 4;
@@ -472,8 +481,15 @@ namespace geocone
             fine.vmult(product, eigenvector);
             blocks.apply(product);
             largest_eigenvalue = product.l2_norm();
+            if (!std::isfinite(largest_eigenvalue) || largest_eigenvalue == 0.)
+              {
+                largest_eigenvalue = 0.;
+                start_eigenvector();
+                return false;
+              }
             eigenvector.swap(product);
           }
+        return true;
       }
 
       /** Chebyshev smoother, x += p(D^-1 A) D^-1 (b - A x). */

@@ -65,6 +65,7 @@ namespace geocone::GEOCONE_DIM
     const unsigned int m = low_rank.rank();
     if (m == 0)
       return true;
+    solver->set_tolerance(0.); // forcing terms are for directions
     std::vector<double> columns(low_rank.U.data(),
                                 low_rank.U.data() + low_rank.U.size());
     solve_factorised(columns, m);

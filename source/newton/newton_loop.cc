@@ -90,7 +90,8 @@ namespace geocone::GEOCONE_DIM
      * Forcing terms of inexact Newton iterations: tolerances of the linear
      * systems by choice 2 of Eisenstat and Walker (1996), with gamma = 0.9 and
      * alpha = 2. The last systems are solved no more accurately than the
-     * tolerance of the step requires. Linear steps have no forcing term.
+     * tolerance of the step requires. Linear steps have no forcing term, nor
+     * have steps with contact, whose law requires accurate compliances.
      */
     class ForcingTerms
     {
@@ -109,7 +110,7 @@ namespace geocone::GEOCONE_DIM
       void
       set(const double norm, const double needed)
       {
-        if (!work.traits.law.can_yield)
+        if (!work.traits.law.can_yield || work.traits.contact.exists)
           return;
         const double of_last = 0.9 * term * term;
         term = last_norm > 0. ? 0.9 * std::pow(norm / last_norm, 2) : largest;

@@ -13,7 +13,7 @@ namespace geocone::GEOCONE_DIM
   inline bool
   has_vertex_interpolation(const Space &space)
   {
-    return !space.is_spline() && space.degree() > 1;
+    return !space.is_spline() && space.degree() > 1 && !space.has_ties();
   }
 
   /**
