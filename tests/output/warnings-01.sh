@@ -117,3 +117,25 @@ created explicit/two_discs --set 'Explicit/Order = USL' --set 'Discretisation/El
 [ "$(grep -c 'the numerical method has created' log)" = 1 ]
 created verification/absorbing_column_explicit --output column
 fails grep -q 'the numerical method has created' log
+
+# The bounded load is the reaction along the velocity; the load of steps may be another one.
+observed() {
+  "$program" "$root/prm/limit_load/footing_rough.prm" --dry-run "$@" >log 2>&1
+}
+observed
+fails grep -q 'the bounded load is' log
+observed --set 'Observation/Component = x'
+grep -q 'bounded load is 2 times the reaction in the direction (0, -1) .* component x' log
+observed --set 'Observation/Factor = 2'
+grep -q 'the load of steps is 2 times its component y' log
+
+# Values in other units.
+magnitude() {
+  "$program" "$root/prm/safety/slope_water.prm" --dry-run --set "$1" >log 2>&1
+}
+magnitude 'Water/Unit weight = 9.81'
+grep -q 'water weighs 9.81 N/m^3 .* about 9[0-9]* N/m^3' log
+magnitude 'Gravity/Acceleration = 0, -9810'
+grep -q 'gravity is 9810 m/s^2' log
+magnitude 'Output/Pictures = false'
+fails grep -Eq 'weighs|gravity (is|acts)|is it meant' log

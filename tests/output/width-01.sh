@@ -23,3 +23,26 @@ width '0, -0.1; 0.2, 0.1' --set 'Boundary conditions/Names = bottom, sides, corn
   --set 'Boundary conditions/corner/Box = -0.01, -10; 0.01, 10' \
   --set 'Boundary conditions/corner/Velocity x = 0'
 fails grep -q 'holds nodes' err
+# A formula selects nodes, and whole faces for a traction.
+width '' --set 'Boundary conditions/footing/Where = 0.09 - x'
+grep -q "'footing' holds nodes from x = 0 to 0.0666667 m, .* are in its formula" err
+width '' --set 'Boundary conditions/footing/Where = 0.201 - x'
+fails grep -q 'holds nodes' err
+load() { # FORMULA
+  width '0, -0.1; 0.2, 0.1' --set 'Tractions/Names = q' --set 'Tractions/q/Sides = top' \
+    --set "Tractions/q/Where = $1" --set 'Tractions/q/Traction y = -1'
+}
+load 'x - 0.56'
+grep -q "'q' acts on whole faces from x = 0.6 to 1 m, .* where 0.43[0-9]* m are in its" err
+load 'x - 0.599'
+fails grep -q 'whole faces' err
+# Cells belong to regions and excavations by their centres.
+layer() { # DEPTH
+  width '0, -0.1; 0.2, 0.1' --set 'Materials/Names = soil, weak' \
+    --set 'Materials/weak/Young modulus = 1e8' --set 'Materials/weak/Cohesion = 1e3' \
+    --set "Materials/weak/Region polygon = -2, -$1; 2, -$1; 2, 1; -2, 1"
+}
+layer 0.24
+grep -q "material 'weak' takes cells by their centres, of 0.2 m^2 in all, where about 0.2[2-6]" err
+layer 0.3
+fails grep -q 'by their centres' err
