@@ -7,7 +7,6 @@
 #include <cmath>
 #include <map>
 #include <utility>
-#include <variant>
 
 namespace geocone::GEOCONE_DIM
 {
@@ -56,7 +55,7 @@ namespace geocone::GEOCONE_DIM
   {
     const auto &cells    = bound.tetrahedra->facets[facet].cells;
     const auto  cohesion = [&](const unsigned int cell) {
-      const SolidStrength &one =
+      const SpatialStrength &one =
         bound.strengths[bound.tetrahedra->material[cell]];
       return one.face_cohesion_per_k() * one.k;
     };
@@ -88,7 +87,7 @@ namespace geocone::GEOCONE_DIM
                     const unsigned int facet)
   {
     const unsigned int   cell = cell_of_jump(bound, facet);
-    const SolidStrength &one =
+    const SpatialStrength &one =
       bound.strengths[bound.tetrahedra->material[cell]];
     std::array<double, 3> c;
     for (unsigned int i = 0; i < 3; ++i)
@@ -132,32 +131,27 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    using Bulk     = PointGroupOf<MohrCoulombCones, 12>;
-    using CutBulk  = PointGroupOf<CutMohrCoulombCones, 12>;
-    using Cones    = PointGroupOf<CircularCone, 12>;
+    using Points =
+      CellPoints<12, MohrCoulombCones, CircularCone, CutMohrCoulombCones>;
     using Faces    = PointGroupOf<FaceCone, 6>;
     using CutFaces = PointGroupOf<CutMohrCoulombCones, 6>;
     using Planes   = PointGroupOf<OpeningCone, 6>;
 
-    /** Kinds of groups of the points in cells, in their order. */
-    enum CellKind
-    {
-      pyramid,
-      circular,
-      cut,
-      n_kinds
-    };
-
-    CellKind
-    kind_of(const SolidStrength &one)
-    {
-      return one.is_circular ? circular : one.is_cut() ? cut : pyramid;
-    }
-
     CutMohrCoulombCones
-    cut_law(const SolidStrength &one)
+    cut_law(const SpatialStrength &one)
     {
       return cut_mohr_coulomb_cones(one.a, one.tension / one.k);
+    }
+
+    /** Groups of the points of cells, without points. */
+    Points
+    empty_points(const SolidScene &bound)
+    {
+      return Points(
+        bound.strengths,
+        [](const auto &one) { return mohr_coulomb_cones(one.a); },
+        [](const auto &one) { return circular_cone(one.a); },
+        cut_law);
     }
 
     /** sym(b x g) of the unit vector b along a component. */
@@ -175,72 +169,6 @@ namespace geocone::GEOCONE_DIM
         }
       return e;
     }
-
-    /** Points of cells, in one group for each form of the law that occurs. */
-    class CellPoints
-    {
-    public:
-      explicit CellPoints(const SolidScene &bound)
-      {
-        std::vector<MohrCoulombCones>    pyramids;
-        std::vector<CircularCone>        circles;
-        std::vector<CutMohrCoulombCones> cuts;
-        for (const SolidStrength &one : bound.strengths)
-          {
-            kind.push_back(kind_of(one));
-            number.push_back(std::array<std::size_t, n_kinds>{
-              {pyramids.size(), circles.size(), cuts.size()}}[kind.back()]);
-            switch (kind.back())
-              {
-                case pyramid:
-                  pyramids.push_back(mohr_coulomb_cones(one.a));
-                  break;
-                case circular:
-                  circles.push_back(circular_cone(one.a));
-                  break;
-                default:
-                  cuts.push_back(cut_law(one));
-              }
-          }
-        groups = {{std::make_unique<Bulk>(pyramids),
-                   std::make_unique<Cones>(circles),
-                   std::make_unique<CutBulk>(cuts)}};
-      }
-
-      void
-      add(const unsigned int                  material,
-          const Bulk::Strains                &B,
-          const std::array<unsigned int, 12> &dofs,
-          const double                        V,
-          const double                        k)
-      {
-        std::visit(
-          [&](auto &group) { group->add(B, dofs, V, number[material], k); },
-          groups[kind[material]]);
-      }
-
-      void
-      move_to(ConicProblem &problem)
-      {
-        for (Group &one : groups)
-          std::visit(
-            [&](auto &group) {
-              if (group->n_points() > 0)
-                problem.groups.push_back(std::move(group));
-            },
-            one);
-      }
-
-    private:
-      using Group = std::variant<std::unique_ptr<Bulk>,
-                                 std::unique_ptr<Cones>,
-                                 std::unique_ptr<CutBulk>>;
-
-      std::vector<CellKind> kind;
-      std::vector<unsigned int>
-        number; ///< of the law of a material in its group
-      std::array<Group, n_kinds> groups;
-    };
 
     ConicProblem
     begin_problem(const unsigned int n_dofs)
@@ -318,7 +246,7 @@ namespace geocone::GEOCONE_DIM
       return dim * (n_nodes * cell + node);
     };
 
-    CellPoints points(bound);
+    Points points = empty_points(bound);
     for (unsigned int c = 0; c < n_cells; ++c)
       {
         const auto   g = tetrahedra.gradients(c);
@@ -327,7 +255,7 @@ namespace geocone::GEOCONE_DIM
         for (unsigned int i = 0; i < k.size(); ++i)
           {
             // The gradient at vertex i is 2 sum_j v_ij x g_j.
-            Bulk::Strains                B;
+            Points::Strains              B;
             std::array<unsigned int, 12> dofs;
             for (unsigned int j = 0; j < 4; ++j)
               for (unsigned int d = 0; d < dim; ++d)
@@ -345,7 +273,7 @@ namespace geocone::GEOCONE_DIM
     std::vector<FaceCone>            faces;
     std::vector<CutMohrCoulombCones> cut_faces;
     std::vector<unsigned int>        number; // of the law of a material's faces
-    for (const SolidStrength &one : bound.strengths)
+    for (const SpatialStrength &one : bound.strengths)
       if (one.is_cut())
         {
           number.push_back(cut_faces.size());
@@ -373,7 +301,7 @@ namespace geocone::GEOCONE_DIM
           second = nodes_in_cell(tetrahedra, order, f, 1);
         const unsigned int material =
           tetrahedra.material[cell_of_jump(bound, f)];
-        const SolidStrength &one = bound.strengths[material];
+        const SpatialStrength &one = bound.strengths[material];
         const auto           k   = strength_of_jumps(bound, order, f);
         const unsigned int   body =
           held.kind == FacetCondition::Kind::free
@@ -501,7 +429,7 @@ namespace geocone::GEOCONE_DIM
       return first_w + dim * (n_facet * facet + node);
     };
 
-    CellPoints points(bound);
+    Points points = empty_points(bound);
     for (unsigned int c = 0; c < n_cells; ++c)
       {
         const auto   g       = tetrahedra.gradients(c);
@@ -509,7 +437,7 @@ namespace geocone::GEOCONE_DIM
         const double V       = tetrahedra.volume(c) / (L * L * L);
         const auto   k       = bound.strength_at_vertices(c);
         const auto add_point = [&](const unsigned int i, const unsigned int j) {
-          Bulk::Strains                B;
+          Points::Strains              B;
           std::array<unsigned int, 12> dofs;
           unsigned int                 n   = 0;
           const auto                   add = [&](const unsigned int    dof,
@@ -553,8 +481,7 @@ namespace geocone::GEOCONE_DIM
           {
             const unsigned int dof = first_w + dim * (n_facet * f + i);
             for (unsigned int d = 0; d < dim; ++d)
-              if (held.kind == FacetCondition::Kind::fixed ||
-                  (held.kind == FacetCondition::Kind::plane && held.axis == d))
+              if (held.holds(d))
                 {
                   problem.is_prescribed[dof + d] = true;
                   problem.prescribed[dof + d]    = held.velocity[d];
@@ -570,23 +497,5 @@ namespace geocone::GEOCONE_DIM
       }
     points.move_to(problem);
     return problem;
-  }
-
-  std::vector<StressPlace>
-  places_of_stresses(const SolidScene &bound, const unsigned int order)
-  {
-    std::array<unsigned int, n_kinds> n = {};
-    std::vector<StressPlace>          places;
-    for (const unsigned int material : bound.tetrahedra->material)
-      {
-        const CellKind kind = kind_of(bound.strengths[material]);
-        places.push_back({kind, n[kind]});
-        n[kind] += simplex_nodes::n_in_cell(order);
-      }
-    for (StressPlace &place : places) // groups without points are left out
-      place.group = std::count_if(n.begin(),
-                                  n.begin() + place.group,
-                                  [](const auto size) { return size > 0; });
-    return places;
   }
 } // namespace geocone::GEOCONE_DIM

@@ -41,7 +41,7 @@ namespace geocone::GEOCONE_DIM
                        n_facet    = simplex_nodes::n_on_facet(order);
     SolidBound result;
     result.stress      = stress;
-    double     largest = std::numeric_limits<double>::min(), theta = 1.;
+    StrengthCheck check;
     bool       is_dead = false;
     const auto total   = [&](const SolidScene::Load &load) {
       is_dead = is_dead || load.dead.norm() > 0.;
@@ -49,7 +49,7 @@ namespace geocone::GEOCONE_DIM
     };
     for (unsigned int c = 0; c < tetrahedra.cells.size(); ++c)
       {
-        const SolidStrength &one = bound.strengths[tetrahedra.material[c]];
+        const SpatialStrength &one = bound.strengths[tetrahedra.material[c]];
         const auto           k   = bound.strength_at_vertices(c);
         const Mandel *const  s   = &stress[n_nodes * c];
         for (unsigned int i = 0; i < n_nodes; ++i)
@@ -58,15 +58,7 @@ namespace geocone::GEOCONE_DIM
                                       : (k[simplex_nodes::edges[i - 4][0]] +
                                         k[simplex_nodes::edges[i - 4][1]]) /
                                          2.;
-            largest           = std::max(largest, s[i].norm());
-            const double part = one.utilisation(k_i, s[i]);
-            if (!(part <= 1.))
-              {
-                result.violation =
-                  std::max(result.violation, (part - 1.) * k_i);
-                // Scaled stresses have the rounding of eigenvalues again.
-                theta = std::min(theta, (1. - 1e-13) / part);
-              }
+            check.add(one, k_i, SemidefiniteCone::matrix(s[i]));
           }
         const auto           g = tetrahedra.gradients(c);
         const Tensor<1, dim> b = total(bound.body_force(c));
@@ -108,24 +100,23 @@ namespace geocone::GEOCONE_DIM
                    simplex_nodes::edges_of_facet[i - 3])
                 left -= total(given[end]) / 2.;
             for (unsigned int d = 0; d < dim; ++d)
-              if (held.kind == FacetCondition::Kind::fixed ||
-                  (held.kind == FacetCondition::Kind::plane && held.axis == d))
+              if (held.holds(d))
                 power += A / n_facet * left[d] * held.velocity[d];
               else
                 result.error = std::max(result.error, std::abs(left[d]));
           }
       }
-    result.violation /= largest;
-    result.error /= largest;
-    const bool is_scaled = !is_dead && theta > 0.;
-    if (!is_scaled && theta < 1.)
+    result.violation = check.violation / check.largest;
+    result.error /= check.largest;
+    const bool is_scaled = !is_dead && check.theta > 0.;
+    if (!is_scaled && check.theta < 1.)
       result.rejection = format(
         "its stresses exceed the strength by %.1e of the largest one, and a "
         "dead load leaves nothing to scale",
         result.violation);
     result.lambda = bound.factor == LoadFactor::velocity ? power : lambda;
-    result.load   = (is_scaled ? theta : 1.) * result.lambda;
-    if (!std::isfinite(result.load + result.error + largest))
+    result.load   = (is_scaled ? check.theta : 1.) * result.lambda;
+    if (!std::isfinite(result.load + result.error + check.largest))
       result.rejection = "it is not a number";
     else if (!(result.error < rounding))
       result.rejection =
@@ -169,7 +160,7 @@ namespace geocone::GEOCONE_DIM
                     gradient(a, b) += order * v_j[a] * L * g[j][b];
               }
             const Eigen::Matrix3d e = (gradient + gradient.transpose()) / 2.;
-            const SolidFlow       flow =
+            const SpatialStrength::Flow flow =
               bound.strengths[tetrahedra.material[c]].flow(k[i], e);
             result.dissipation_of_cell[c] += V / k.size() * flow.dissipation;
             largest_rate  = std::max(largest_rate, e.norm());
@@ -192,7 +183,7 @@ namespace geocone::GEOCONE_DIM
         const auto            first    = nodes_in_cell(tetrahedra, order, f, 0);
         const bool            is_inner = facet.cells[1] != Tetrahedra::none;
         const auto            axes     = axes_of_facet(tetrahedra, f);
-        const SolidStrength  &one =
+        const SpatialStrength &one =
           bound.strengths[tetrahedra.material[cell_of_jump(bound, f)]];
         const auto                  k = strength_of_jumps(bound, order, f);
         std::vector<Tensor<1, dim>> outer; // of the nodes
@@ -229,7 +220,8 @@ namespace geocone::GEOCONE_DIM
             const double    slip = held.kind == FacetCondition::Kind::plane
                                      ? 0.
                                      : std::hypot(u * axes[1], u * axes[2]);
-            const SolidFlow flow = one.flow_of_jump(k[i], u * axes[0], slip);
+            const SpatialStrength::Flow flow =
+              one.flow_of_jump(k[i], u * axes[0], slip);
             result.dissipation_of_facet[f] += A / n_facet * flow.dissipation;
             jump_missed = std::max(jump_missed, flow.miss);
             normal_jump = std::max(normal_jump, flow.constrained);
@@ -316,11 +308,11 @@ namespace geocone::GEOCONE_DIM
     options.tolerance            = tolerance;
     options.flow_tolerance       = tolerance;
     const ConicSolution solution = solve(problem, options);
-    std::vector<Mandel> stress;
-    const unsigned int  n_nodes = simplex_nodes::n_in_cell(order);
-    for (const StressPlace &place : places_of_stresses(bound, order))
-      for (unsigned int i = 0; i < n_nodes; ++i)
-        stress.push_back(problem.groups[place.group]->stress(place.point + i));
+    const auto          stress =
+      stresses_of_cells<Mandel>(problem,
+                                bound.strengths,
+                                bound.tetrahedra->material,
+                                simplex_nodes::n_in_cell(order));
     SolidBound side = certify_lower(bound, order, stress, solution.load);
     add_solution(side, solution, problem);
     return side;

@@ -30,7 +30,7 @@ namespace geocone::GEOCONE_DIM
       Json materials = Json::array();
       for (unsigned int m = 0; m < given.strengths.size(); ++m)
         {
-          const SolidStrength &one    = given.strengths[m];
+          const SpatialStrength &one    = given.strengths[m];
           const double         stress = given.units.stress;
           Json                 law = {{"name", given.scene->materials.name(m)},
                                       {"is_circular", one.is_circular},
@@ -80,9 +80,7 @@ namespace geocone::GEOCONE_DIM
           Json of_face = Json::array(), dead_at = Json::array(),
                live_at = Json::array();
           for (unsigned int d = 0; d < dim; ++d)
-            of_face.push_back(condition.kind == FacetCondition::Kind::fixed ||
-                              (condition.kind == FacetCondition::Kind::plane &&
-                               condition.axis == d));
+            of_face.push_back(condition.holds(d));
           for (const SolidScene::Load &at_vertex : given.tractions(f))
             {
               dead_at.push_back(triple(at_vertex.dead, stress));

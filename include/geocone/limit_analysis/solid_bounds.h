@@ -4,7 +4,7 @@
 #ifndef geocone_limit_analysis_solid_bounds_h
 #define geocone_limit_analysis_solid_bounds_h
 
-#include <geocone/limit_analysis/conic_solver.h>
+#include <geocone/limit_analysis/cell_points.h>
 #include <geocone/limit_analysis/solid_scene.h>
 
 #include <array>
@@ -106,14 +106,6 @@ namespace geocone::GEOCONE_DIM
    */
   ConicProblem
   lower_problem(const SolidScene &bound, const unsigned int order);
-
-  /** Location of the stress coefficients of a cell in the lower-bound problem. */
-  struct StressPlace
-  {
-    unsigned int group, point; ///< of the coefficient 0; others follow
-  };
-  std::vector<StressPlace>
-  places_of_stresses(const SolidScene &bound, const unsigned int order);
 } // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -4,8 +4,9 @@
 #ifndef geocone_limit_analysis_solid_scene_h
 #define geocone_limit_analysis_solid_scene_h
 
+#include <geocone/limit_analysis/facet_condition.h>
 #include <geocone/limit_analysis/load_choice.h>
-#include <geocone/limit_analysis/solid_strength.h>
+#include <geocone/limit_analysis/spatial_strength.h>
 #include <geocone/mesh/tetrahedra.h>
 #include <geocone/scene/scene.h>
 
@@ -16,20 +17,6 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Velocity prescribed on a boundary facet, in scaled units. */
-  struct FacetCondition
-  {
-    enum class Kind
-    {
-      free,
-      fixed, ///< all velocity components prescribed
-      plane  ///< only the normal component prescribed
-    };
-    Kind                   kind = Kind::free;
-    dealii::Tensor<1, dim> velocity;
-    unsigned int           axis = 0; ///< axis of the normal, for Kind::plane
-  };
-
   /** Input of a three-dimensional limit analysis on a mesh: scene, tetrahedra, loads and
    *  strengths. */
   class SolidScene
@@ -39,7 +26,7 @@ namespace geocone::GEOCONE_DIM
     const Tetrahedra          *tetrahedra = nullptr;
     LoadFactor                 factor     = LoadFactor::automatic;
     BoundUnits                 units;
-    std::vector<SolidStrength> strengths; ///< strength of each material
+    std::vector<SpatialStrength> strengths; ///< strength of each material
     std::vector<FacetCondition>
       facet_conditions; ///< prescribed velocity of each facet
 
@@ -104,14 +91,10 @@ namespace geocone::GEOCONE_DIM
                 const std::vector<FacetCondition> &held);
     std::vector<FacetCondition>
     facet_conditions(const Scene &scene, const Tetrahedra &tetrahedra) const;
-    /** Returns the prescribed non-zero velocity of the body, or no value.
-     *  @throws InputError for several different velocities */
-    static std::optional<dealii::Tensor<1, dim>>
-    prescribed_velocity(const std::vector<FacetCondition> &held);
     void
     choose_units(const Scene &scene, const Tetrahedra &tetrahedra);
 
-    std::vector<SolidStrength> strengths; ///< strength of each material (Pa)
+    std::vector<SpatialStrength> strengths; ///< strength of each material (Pa)
   };
 } // namespace geocone::GEOCONE_DIM
 

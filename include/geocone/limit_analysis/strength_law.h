@@ -183,49 +183,58 @@ namespace geocone
   }
 
   /** Circular yield cone |s_t| <= a s_n + k (Drucker-Prager; von Mises for a = 0). The
-   *  axis is n = -(1, 1, 0, 1, 0, 0)/sqrt3. */
-  using CircularCone = StrengthLaw<SecondOrderCone<6>, 6, 0>;
+   *  axis is n = -(1, 1, 0, 1, 0, 0)/sqrt3.
+   *  @tparam n 6, or 4 for stresses without the last two shear components */
+  template <int n>
+  using CircularConeOf = StrengthLaw<SecondOrderCone<n>, n, 0>;
+  using CircularCone   = CircularConeOf<6>;
 
-  inline CircularCone
+  template <int n = 6>
+  CircularConeOf<n>
   circular_cone(const double a)
   {
-    const Eigen::Matrix<double, 6, 1> n =
-      -SemidefiniteCone::unit() / std::sqrt(3.);
-    // Rows n and five orthonormal deviators.
-    Eigen::Matrix<double, 6, 6> Q = Eigen::Matrix<double, 6, 6>::Zero();
-    Q.row(0)                      = n.transpose();
+    const Eigen::Matrix<double, n, 1> axis =
+      -SemidefiniteCone::unit().head<n>() / std::sqrt(3.);
+    // Rows axis and the orthonormal deviators.
+    Eigen::Matrix<double, n, n> Q = Eigen::Matrix<double, n, n>::Zero();
+    Q.row(0)                      = axis.transpose();
     Q(1, 0)                       = M_SQRT1_2;
     Q(1, 1)                       = -M_SQRT1_2;
     Q(2, 0) = Q(2, 1) = 1. / std::sqrt(6.);
     Q(2, 3)           = -2. / std::sqrt(6.);
-    Q(3, 2) = Q(4, 4) = Q(5, 5) = 1.;
-    CircularCone law;
+    Q(3, 2)           = 1.;
+    for (int i = 4; i < n; ++i)
+      Q(i, i) = 1.;
+    CircularConeOf<n> law;
     law.A = -Q;
     law.A.row(0) *= a;
     law.o[0] = 1.;
     if (a > 0.)
       {
-        law.start  = (start_of_friction(a) - 1.) / a * n;
-        law.inside = -n;
+        law.start  = (start_of_friction(a) - 1.) / a * axis;
+        law.inside = -axis;
       }
     else
-      law.null_vector = n;
+      law.null_vector = axis;
     law.finish();
     return law;
   }
 
-  /** Strength |s_t| <= k - mu s_n of a facet across which the velocity jumps,
-   *  with the traction s = (s_n, s_t1, s_t2). */
-  using FaceCone = StrengthLaw<SecondOrderCone<3>, 3, 0>;
+  /** Strength |s_t| <= k - mu s_n of a facet across which the velocity jumps, with the
+   *  traction s = (s_n, s_t).
+   *  @tparam n number of components of the traction */
+  template <int n>
+  using FaceConeOf = StrengthLaw<SecondOrderCone<n>, n, 0>;
+  using FaceCone   = FaceConeOf<3>;
 
-  inline FaceCone
+  template <int n = 3>
+  FaceConeOf<n>
   face_cone(const double mu)
   {
-    FaceCone law;
-    law.A.setZero();
+    FaceConeOf<n> law;
+    law.A       = -Eigen::Matrix<double, n, n>::Identity();
     law.A(0, 0) = mu;
-    law.A(1, 1) = law.A(2, 2) = -1.;
-    law.o[0]                  = 1.;
+    law.o[0]    = 1.;
     if (mu > 0.)
       {
         const double a = std::min(mu / std::sqrt(1. + mu * mu), 0.9);

@@ -63,6 +63,20 @@ namespace geocone::GEOCONE_DIM
                       : std::nullopt;
     }
 
+    /** Returns true if the cohesion does not vary in space. */
+    bool
+    has_constant_cohesion() const
+    {
+      return !cohesion_grows();
+    }
+
+    /** Initial yield cone of the exact law in the space of all stress components. */
+    const FlowCone &
+    spatial_cone() const
+    {
+      return cone;
+    }
+
     std::optional<FlowCone>
     step_cone(const Mandel   &stress_n,
               const double   *history_n,

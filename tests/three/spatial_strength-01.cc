@@ -8,7 +8,7 @@
 // exceeded by none, and a jump must dissipate as the strain of a thin layer.
 
 #include <geocone/base/types.h>
-#include <geocone/limit_analysis/solid_strength.h>
+#include <geocone/limit_analysis/spatial_strength.h>
 #include <geocone/limit_analysis/strength_law.h>
 
 #include "../test.h"
@@ -19,7 +19,7 @@
 #include <random>
 #include <string>
 
-namespace three_solid_strength_01
+namespace three_spatial_strength_01
 {
   using namespace geocone;
   using namespace geocone::dim3;
@@ -37,7 +37,7 @@ namespace three_solid_strength_01
 
   /** Yield function over k, from principal stresses. */
   double
-  yield_function(const SolidStrength &law, const Eigen::Vector3d &s)
+  yield_function(const SpatialStrength &law, const Eigen::Vector3d &s)
   {
     if (law.is_circular)
       {
@@ -52,7 +52,7 @@ namespace three_solid_strength_01
 
   /** How much X = k o - A (s, t) is outside of its cones, for the best t. */
   double
-  excess_of_cones(const SolidStrength &law, const Mandel &s)
+  excess_of_cones(const SpatialStrength &law, const Mandel &s)
   {
     if (law.is_circular)
       {
@@ -74,7 +74,7 @@ namespace three_solid_strength_01
   }
 
   void
-  check(const std::string &name, const SolidStrength &law)
+  check(const std::string &name, const SpatialStrength &law)
   {
     std::mt19937                     random(1);
     std::normal_distribution<double> normal;
@@ -94,7 +94,8 @@ namespace three_solid_strength_01
         if (std::abs(f) < 1e-9)
           continue; // of rounding
         ++(f < 0. ? inside : outside);
-        wrong += (law.utilisation(k, s) <= 1.) != (f < 0.);
+        wrong +=
+          (law.utilisation(k, SemidefiniteCone::matrix(s)) <= 1.) != (f < 0.);
         wrong += (excess_of_cones(law, s) <= 0.) != (f < 0.);
         if (f < 0.)
           admissible.push_back(s);
@@ -112,7 +113,7 @@ namespace three_solid_strength_01
         const double    expansion =
           is_incompressible ? 0. : std::abs(normal(random)) * e.norm();
         e += (expansion - e.trace() / 3.) * Eigen::Matrix3d::Identity();
-        const SolidFlow flow = law.flow(k, e);
+        const SpatialStrength::Flow flow = law.flow(k, e);
         const Mandel    rate = SemidefiniteCone::vector(e);
         if (flow.miss > 0.)
           continue; // some ray of admissible stresses has a growing power
@@ -153,9 +154,9 @@ namespace three_solid_strength_01
         Eigen::Matrix3d e = Eigen::Matrix3d::Zero();
         e(0, 0)           = u_n;
         e(0, 1) = e(1, 0)      = u_t / 2.;
-        const SolidFlow layer  = law.flow(k, e),
-                        across = law.flow_of_jump(
-                          law.face_cohesion_per_k() * k, u_n, u_t);
+        const SpatialStrength::Flow layer  = law.flow(k, e),
+                                    across = law.flow_of_jump(
+                                      law.face_cohesion_per_k() * k, u_n, u_t);
         if ((layer.miss > 0.) != (across.miss > 0.))
           jump = 1.;
         if (layer.miss <= 0.)
@@ -170,7 +171,7 @@ namespace three_solid_strength_01
   void
   test()
   {
-    SolidStrength law;
+    SpatialStrength law;
     law.k = k;
     for (const double phi : {0., 20., 40.})
       {
@@ -190,4 +191,4 @@ namespace three_solid_strength_01
   }
 
   const RegisteredTest registered(__FILE__, test);
-} // namespace three_solid_strength_01
+} // namespace three_spatial_strength_01
