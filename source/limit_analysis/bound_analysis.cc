@@ -135,10 +135,14 @@ namespace geocone::GEOCONE_DIM
   {
     scene.geometry.may_run_script = options.may_run_scripts;
     scene.geometry.prepare();
-    scene.geometry.refuse_axis(where(),
-                               "strict bounds are those of plane strain; take "
-                               "an incremental run");
+    if (!is_possible_around_axis())
+      scene.geometry.refuse_axis(where(),
+                                 "bound the load of one body instead, or take "
+                                 "an incremental run");
     scene.materials.prepare();
+    const bool is_round = scene.geometry.is_axisymmetric();
+    if (is_round)
+      scene.materials.set_axisymmetric();
     scene.materials.refuse_undrained(
       where(),
       "bounds know no stress before the load, on which undrained strength "
@@ -153,9 +157,10 @@ namespace geocone::GEOCONE_DIM
                                   "conditions/Names'");
     scene.absorbing.refuse(where(), "nothing moves fast here: leave it out");
     scene.obstacles.prepare();
-    if (!is_plane)
-      scene.obstacles.refuse(where() + " in three dimensions",
-                             "hold a part of the boundary instead");
+    if (!is_plane || is_round)
+      scene.obstacles.refuse(
+        where() + (is_round ? " around an axis" : " in three dimensions"),
+        "hold a part of the boundary instead");
     scene.contacts.refuse(where(),
                           is_plane ? "let one of the bodies be an obstacle"
                                    : "mesh the bodies as one");

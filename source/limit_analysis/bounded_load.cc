@@ -3,6 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
+#include <geocone/limit_analysis/axisymmetric_bounds.h>
 #include <geocone/limit_analysis/bounded_load.h>
 #include <geocone/mesh/empty_regions.h>
 
@@ -132,7 +133,7 @@ namespace geocone::GEOCONE_DIM
   void
   BoundedLoad::prepare(const Scene &scene, const Triangles &triangles)
   {
-    take_cones(scene);
+    take_strengths(scene);
     choose(prescribed_velocity(scene, triangles), scene.gravity.acts());
     check_loads(scene, triangles);
   }
@@ -142,9 +143,11 @@ namespace geocone::GEOCONE_DIM
                                  const Triangles   &triangles,
                                  const std::string &kind)
   {
-    take_cones(scene);
+    take_strengths(scene);
+    check_reducible(scene, strengths);
     choose_all(prescribed_velocity(scene, triangles).has_value(), kind);
-    if (std::all_of(flow_cones.begin(),
+    if (!scene.geometry.is_axisymmetric() &&
+        std::all_of(flow_cones.begin(),
                     flow_cones.end(),
                     [](const FlowCone &cone) { return cone.k == 0.; }) &&
         std::all_of(growth.begin(), growth.end(), [](const auto &more) {
@@ -178,6 +181,8 @@ namespace geocone::GEOCONE_DIM
     for (const unsigned int material : triangles.material)
       ++n_cells[material];
     refuse_empty_regions(scene, n_cells);
+    if (scene.geometry.is_axisymmetric())
+      return check_axisymmetric_loads(scene, triangles);
     check_strength(scene, triangles);
     choose_units(scene, triangles);
     const BoundScene   bound   = on(scene, triangles);
@@ -186,6 +191,45 @@ namespace geocone::GEOCONE_DIM
     check_ways(bound, problem);
     if (!is_reaction() && !problem.has_factor())
       refuse_zero_load();
+  }
+
+  void
+  BoundedLoad::check_axisymmetric_loads(const Scene     &scene,
+                                        const Triangles &triangles)
+  {
+    double area  = 0.;
+    units.stress = 0.;
+    for (unsigned int c = 0; c < triangles.cells.size(); ++c)
+      {
+        area += triangles.area(c);
+        for (const unsigned int v : triangles.cells[c])
+          units.stress = std::max(
+            units.stress,
+            positive_strength(
+              scene, strengths, triangles.material[c], triangles.vertices[v]));
+      }
+    units.length     = std::sqrt(area) / 8.;
+    unit_of_reaction = scene.geometry.unit(unit_of_reaction);
+    if (is_reaction()) // of the whole body, 2 pi radians
+      load_unit = 2. * M_PI * units.stress * units.length * units.length *
+                  std::abs(scene.observation.factor);
+    const BoundScene        bound = on(scene, triangles);
+    const AxisymmetricScene body(bound);
+    body.check_support();
+    if (!is_reaction() && !body.has_live_load())
+      refuse_zero_load();
+  }
+
+  void
+  BoundedLoad::take_strengths(const Scene &scene)
+  {
+    strengths.clear();
+    less_dilatant = false;
+    if (!scene.geometry.is_axisymmetric())
+      return take_cones(scene);
+    strengths = spatial_strengths(scene);
+    for (const SpatialStrength &one : strengths)
+      less_dilatant = less_dilatant || !one.is_associated;
   }
 
   void
@@ -342,8 +386,14 @@ namespace geocone::GEOCONE_DIM
   BoundScene
   BoundedLoad::on(const Scene &scene, const Triangles &triangles) const
   {
-    BoundScene bound = {
-      scene, triangles, factor(), units, {}, interfaces(scene, triangles), {}};
+    BoundScene bound = {scene,
+                        triangles,
+                        factor(),
+                        units,
+                        {},
+                        interfaces(scene, triangles),
+                        {},
+                        {}};
     for (unsigned int m = 0; m < flow_cones.size(); ++m)
       {
         bound.cones.push_back({flow_cones[m].a,
@@ -351,6 +401,11 @@ namespace geocone::GEOCONE_DIM
                                flow_cones[m].cut_off / units.stress});
         bound.growth.push_back(
           {growth[m].slope / units.stress, growth[m].level});
+      }
+    for (SpatialStrength one : strengths)
+      {
+        one.scale(units.stress);
+        bound.strengths.push_back(one);
       }
     return bound;
   }
@@ -361,6 +416,9 @@ namespace geocone::GEOCONE_DIM
                        const double     F) const
   {
     BoundScene bound = on(scene, triangles);
+    for (unsigned int m = 0; m < bound.strengths.size(); ++m)
+      if (scene.materials[m].is_reduced())
+        bound.strengths[m].reduce(F);
     for (unsigned int m = 0; m < flow_cones.size(); ++m)
       if (scene.materials[m].is_reduced())
         {

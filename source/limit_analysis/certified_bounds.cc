@@ -1,6 +1,7 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <geocone/limit_analysis/axisymmetric_certificate.h>
 #include <geocone/limit_analysis/certified_bounds.h>
 
 #include <algorithm>
@@ -57,12 +58,16 @@ namespace geocone::GEOCONE_DIM
   CertifiedBounds::Side
   certified_upper(const BoundScene &bound, const double tolerance)
   {
+    if (AxisymmetricPower power; bound.is_axisymmetric())
+      return certified_upper(AxisymmetricScene(bound), tolerance, power);
     return certified_upper(bound, upper_problem(bound), tolerance, no_question);
   }
 
   CertifiedBounds::Side
   certified_lower(const BoundScene &bound, const double tolerance)
   {
+    if (bound.is_axisymmetric())
+      return certified_lower(AxisymmetricScene(bound), tolerance);
     return certified_lower(bound, lower_problem(bound), tolerance, no_question);
   }
 
@@ -123,15 +128,28 @@ namespace geocone::GEOCONE_DIM
   CertifiedBounds
   certified_bounds(const BoundScene &bound, const double tolerance)
   {
-    CertifiedBounds    bounds;
-    const BoundProblem above = upper_problem(bound);
-    bounds.upper             = certified_upper(bound, above, tolerance, no_question);
-    bounds.lower             = certified_lower(bound, tolerance);
-
-    bounds.gap = gap_of_cells(above, bounds.upper.bound, bounds.lower.bound);
+    CertifiedBounds bounds;
+    double          work;
+    if (bound.is_axisymmetric())
+      {
+        const AxisymmetricScene body(bound);
+        AxisymmetricPower       power;
+        bounds.upper = certified_upper(body, tolerance, power);
+        bounds.lower = certified_lower(body, tolerance);
+        bounds.gap =
+          gap_of_cells(body, bounds.upper.bound, power, bounds.lower.bound);
+        work = power.work;
+      }
+    else
+      {
+        const BoundProblem above = upper_problem(bound);
+        bounds.upper = certified_upper(bound, above, tolerance, no_question);
+        bounds.lower = certified_lower(bound, tolerance);
+        bounds.gap =
+          gap_of_cells(above, bounds.upper.bound, bounds.lower.bound);
+        work = above.has_factor() ? above.live.dot(bounds.upper.bound.q) : 1.;
+      }
     bounds.refinement_indicator = uneven_gap(bound, bounds.gap, bounds.lower);
-    const double work =
-      above.has_factor() ? above.live.dot(bounds.upper.bound.q) : 1.;
     bounds.gap_share =
       std::accumulate(bounds.gap.begin(), bounds.gap.end(), 0.) /
       ((bounds.upper.bound.load - bounds.lower.bound.load) * work);

@@ -34,11 +34,18 @@ namespace geocone::GEOCONE_DIM
       "certified by the bounds.");
     declare_parameters(bounded_load);
     limit_output.declare_certificates();
+    for (const std::string &name : scene.materials.names())
+      tensile_strengths.push_back(
+        file.peek("Materials/" + name + "/Tensile strength", "none"));
   }
 
   void
   LimitAnalysis::prepare_water(const RunOptions &options)
   {
+    if (scene.geometry.is_axisymmetric())
+      scene.water.refuse(where() + " around an axis",
+                         "bounds with water are those of plane and "
+                         "three-dimensional scenes");
     const Seepage &seepage = scene.water.seepage;
     if (!seepage.acts())
       return;
@@ -51,6 +58,28 @@ namespace geocone::GEOCONE_DIM
                               scene.loading.duration()),
                        "0: the initial pressures");
     let_water_flow(scene, comm, log, options.dry_run, seepage.time);
+  }
+
+  void
+  LimitAnalysis::check_axis() const
+  {
+    if (!scene.geometry.is_axisymmetric())
+      return;
+    for (unsigned int m = 0; m < tensile_strengths.size(); ++m)
+      if (tensile_strengths[m] != "none")
+        throw InputError("Materials/" + scene.materials.name(m) +
+                           "/Tensile strength",
+                         tensile_strengths[m],
+                         "none with " + where() + " around an axis",
+                         "tension is limited by the cone alone there: set it "
+                         "to none, or take a plane or three-dimensional scene");
+    if (limit_output.writes_certificates())
+      throw InputError("Output/Certificates",
+                       true,
+                       "false where Geometry/Symmetry = axisymmetric",
+                       "files of certificates are those of plane and "
+                       "three-dimensional scenes; the bounds are checked all "
+                       "the same");
   }
 
   std::vector<std::string>
@@ -90,6 +119,7 @@ namespace geocone::GEOCONE_DIM
                        "quadrilaterals",
                        "triangles with 'Analysis/Kind' = limit load",
                        "set Mesh/Cells = triangles");
+    check_axis();
     triangles.emplace(fitted_mesh(mesh_parameters, scene, comm));
     if (scene.geometry.shape == Geometry::Shape::file)
       file_domain.emplace(domain_of_file(*triangles, scene));
@@ -243,7 +273,8 @@ namespace geocone::GEOCONE_DIM
     std::vector<Fan> fans;
     if (sizes)
       fans = std::move(sizes->fans);
-    else if (file_domain || mesh_parameters.is_unstructured())
+    else if (!scene.geometry.is_axisymmetric() &&
+             (file_domain || mesh_parameters.is_unstructured()))
       {
         const BoundScene bound =
           reduces_strength()
@@ -340,12 +371,12 @@ namespace geocone::GEOCONE_DIM
   {
     // A run that was stopped between two meshes has no fields.
     if (bounds.gap.size() == triangles->cells.size())
-      limit_output.write_fields(t,
-                                table_of_bounds(*triangles,
-                                                bounded_load.units,
-                                                bounds.upper.bound,
-                                                bounds.lower.bound,
-                                                bounds.gap));
+      limit_output.write_fields(
+        t,
+        table_of_bounds(bounded_load.on(scene, *triangles),
+                        bounds.upper.bound,
+                        bounds.lower.bound,
+                        bounds.gap));
   }
 
   Json
@@ -369,6 +400,8 @@ namespace geocone::GEOCONE_DIM
   std::vector<Gradient>
   LimitAnalysis::gradients_of_last() const
   {
+    if (scene.geometry.is_axisymmetric())
+      return {};
     const BoundScene given = bounded_load.on(scene, *triangles);
     if (!reduces_strength())
       return gradients_of_load(given,
@@ -411,7 +444,8 @@ namespace geocone::GEOCONE_DIM
   void
   LimitAnalysis::finish(const double)
   {
-    if (bounded_load.non_associated())
+    const bool is_plane = !scene.geometry.is_axisymmetric();
+    if (bounded_load.non_associated() && is_plane)
       davis = estimates_by_davis();
     const LoadBracket best = bracket();
     conclude(best, bounds.upper.bound.rejection, bounds.lower.bound.rejection);
@@ -421,7 +455,7 @@ namespace geocone::GEOCONE_DIM
     if (const std::string text = text_of(gradients, bounded());
         !text.empty() && limit_output.verbosity >= 1)
       log.print(text);
-    if (!best.is_associated)
+    if (!best.is_associated && is_plane)
       log.print("for the incremental load beside both: 'Analysis/Kind' = steps "
                 "with 'Mesh/Type' = from the bounds");
   }

@@ -108,6 +108,6 @@ namespace geocone::GEOCONE_DIM
   std::string
   LoadChoice::unit() const
   {
-    return !is_reaction() ? "-" : dim == 2 ? "N/m" : "N";
+    return is_reaction() ? unit_of_reaction : "-";
   }
 } // namespace geocone::GEOCONE_DIM

@@ -148,6 +148,13 @@ namespace geocone::GEOCONE_DIM
     /** Returns true if finer meshes than the first mesh can be generated. */
     virtual bool
     refines() const = 0;
+    /** Returns true if the analysis can compute the bounds of axisymmetric
+     *  bodies. */
+    virtual bool
+    is_possible_around_axis() const
+    {
+      return false;
+    }
     /** Returns true if the analysis can run on several MPI ranks. */
     virtual bool
     runs_on_ranks() const

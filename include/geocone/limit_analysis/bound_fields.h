@@ -15,8 +15,7 @@ namespace geocone::GEOCONE_DIM
    *  contribution of each triangle to the gap between the bounds. The arguments
    *  must outlive the table. */
   SimplexTable<Triangles>
-  table_of_bounds(const Triangles           &triangles,
-                  const BoundUnits          &units,
+  table_of_bounds(const BoundScene          &bound,
                   const Bound               &upper,
                   const Bound               &lower,
                   const std::vector<double> &gap);

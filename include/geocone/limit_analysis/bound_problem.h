@@ -8,6 +8,7 @@
 #include <geocone/limit_analysis/interfaces.h>
 #include <geocone/limit_analysis/load_factor.h>
 #include <geocone/limit_analysis/point_strains.h>
+#include <geocone/limit_analysis/spatial_strength.h>
 #include <geocone/mesh/triangles.h>
 #include <geocone/scene/scene.h>
 
@@ -143,8 +144,8 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Input of a plane limit analysis on a mesh: scene, triangles, load factor and strength
-   * of the materials.
+   * Input of a plane or axisymmetric limit analysis on a mesh: scene, triangles, load
+   * factor and strength of the materials.
    */
   struct BoundScene
   {
@@ -152,12 +153,21 @@ namespace geocone::GEOCONE_DIM
     const Triangles       &triangles;
     LoadFactor             factor;
     BoundUnits             units;
-    std::vector<PointCone> cones; ///< by material, in scaled units
+    std::vector<PointCone> cones; ///< by material, in scaled units; plane only
     std::vector<Interface> interfaces;
 
     /** Increase of the strength k with depth, for each material (scaled units of stress,
      *  per m). */
     std::vector<Material::StrengthGradient> growth;
+
+    /** Strength of each material of an axisymmetric body, in scaled units. */
+    std::vector<SpatialStrength> strengths;
+
+    bool
+    is_axisymmetric() const
+    {
+      return scene.geometry.is_axisymmetric();
+    }
 
     PointCone
     cone_at(const unsigned int material, const dealii::Point<dim> &x) const

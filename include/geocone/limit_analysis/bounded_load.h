@@ -27,8 +27,8 @@ namespace geocone::GEOCONE_DIM
     C
   };
 
-  /** Load bounded by a plane limit analysis, with the strength of the materials and
-   *  scaled units. In scaled units, loads and strengths are of order one. */
+  /** Load bounded by a plane or axisymmetric limit analysis, with the strength of the
+   *  materials and scaled units. In scaled units, loads and strengths are of order one. */
   class BoundedLoad : public LoadChoice
   {
   public:
@@ -91,6 +91,15 @@ namespace geocone::GEOCONE_DIM
     prescribed_velocity(const Scene &scene, const Triangles &triangles) const;
     void
     choose_units(const Scene &scene, const Triangles &triangles);
+
+    /** Selects the strengths of the materials, flow_cones or strengths. */
+    void
+    take_strengths(const Scene &scene);
+    /** Checks the loads of an axisymmetric body and selects the scaled units. */
+    void
+    check_axisymmetric_loads(const Scene &scene, const Triangles &triangles);
+
+    std::vector<SpatialStrength> strengths; ///< of axisymmetric bodies (Pa)
 
     std::vector<FlowCone> flow_cones;
     /** Increase of the strength k with depth, for each material (Pa/m). */

@@ -45,6 +45,10 @@ namespace geocone::GEOCONE_DIM
      *  show the failure mechanism but are not certified. */
     std::vector<Eigen::Vector3d> s;
     Eigen::VectorXd              q;
+
+    /** Coefficients of the certified stresses of an axisymmetric body times r
+     *  (axisymmetric_stress), instead of `s`. */
+    std::vector<SpatialMandel> stress;
   };
 
   /**

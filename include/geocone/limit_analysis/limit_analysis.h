@@ -31,7 +31,7 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Plane limit analysis of a rigid-plastic scene with associated flow. Strict
+   * Plane or axisymmetric limit analysis of a rigid-plastic scene with associated flow. Strict
    * bounds on the limit load or the factor of safety are computed on meshes
    * that are adaptively refined where the bounds differ. Each level is a step
    * of the run.
@@ -62,6 +62,12 @@ namespace geocone::GEOCONE_DIM
     reduces_strength() const override
     {
       return analysis == AnalysisKind::strength_reduction;
+    }
+
+    bool
+    is_possible_around_axis() const override
+    {
+      return true;
     }
 
     static Side
@@ -140,6 +146,9 @@ namespace geocone::GEOCONE_DIM
     }
     void
     prepare_water(const RunOptions &options) override;
+    /** @throws InputError for what bounds around an axis do not know */
+    void
+    check_axis() const;
     Json
     results() const override;
 
@@ -167,6 +176,10 @@ namespace geocone::GEOCONE_DIM
        {"strength reduction", AnalysisKind::strength_reduction},
        {"reliability", AnalysisKind::reliability},
        {"seepage", AnalysisKind::seepage}}};
+
+    /** Tensile strength of each material as text, which laws around an axis do not
+     *  declare. */
+    std::vector<std::string> tensile_strengths;
 
     std::optional<CellSizes> sizes; ///< cell sizes and fans of the next mesh
 

@@ -44,7 +44,7 @@ namespace geocone::GEOCONE_DIM
     word() const;
 
     /** Returns the unit of the bounded load as text. It is the unit of a force (per metre
-     *  of thickness in the plane) for a reaction, otherwise "-". */
+     *  of thickness in plane strain) for a reaction, otherwise "-". */
     std::string
     unit() const;
 
@@ -95,6 +95,9 @@ namespace geocone::GEOCONE_DIM
      *  @throws InputError */
     [[noreturn]] void
     refuse_zero_load() const;
+
+    /** Unit of a reaction force, see unit(). */
+    std::string unit_of_reaction = dim == 2 ? "N/m" : "N";
 
     double load_unit     = 1.;
     bool   less_dilatant = false;

@@ -1,0 +1,58 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_limit_analysis_axisymmetric_strength_h
+#define geocone_limit_analysis_axisymmetric_strength_h
+
+#include <geocone/limit_analysis/strength_law.h>
+
+/** Strength laws of points of axisymmetric bodies. Stresses are the vectors (s_rr, s_zz,
+ *  sqrt2 s_rz, s_tt), tension positive; the hoop stress s_tt is a principal stress. */
+namespace geocone
+{
+  /** Cone of positive semidefinite 3 x 3 matrices with two blocks, in the plane and
+   *  around the axis. The block in the plane is the vector of its mean normal component,
+   *  half of the difference of the normal components, and the shear component. */
+  using HoopCone = ProductCone<SecondOrderCone<3>, SecondOrderCone<1>>;
+
+  /** Mohr-Coulomb strength (1 + S) s_1 - (1 - S) s_3 <= k of an axisymmetric stress,
+   *  expressed by two matrices like MohrCoulombCones. */
+  using AxisymmetricMohrCoulomb =
+    StrengthLaw<ProductCone<HoopCone, HoopCone>, 4, 1>;
+
+  inline AxisymmetricMohrCoulomb
+  axisymmetric_mohr_coulomb(const double sine)
+  {
+    // Maps stresses to the vectors of the cone.
+    Eigen::Matrix4d M = Eigen::Matrix4d::Zero();
+    M(0, 0) = M(0, 1) = M(1, 0) = 0.5;
+    M(1, 1)                     = -0.5;
+    M(2, 2)                     = M_SQRT1_2;
+    M(3, 3)                     = 1.;
+    const Eigen::Vector4d   one(1., 1., 0., 1.), unit = M * one;
+    const double            K = start_of_friction(sine);
+    AxisymmetricMohrCoulomb law;
+    law.A.topLeftCorner<4, 4>()     = (1. + sine) * M;
+    law.A.bottomLeftCorner<4, 4>()  = -(1. - sine) * M;
+    law.A.topRightCorner<4, 1>()    = -unit;
+    law.A.bottomRightCorner<4, 1>() = unit;
+    law.o.head<4>()                 = unit;
+    if (sine > 0.)
+      {
+        const double p      = (K - 1.) / (2. * sine);
+        law.start.head<4>() = -p * one;
+        law.start[4]        = -(1. - sine) * p - K / 2.;
+        law.inside          = one / std::sqrt(3.);
+      }
+    else
+      {
+        law.null_vector.head<4>() = one / 2.;
+        law.null_vector[4]        = 1. / 2.;
+        law.start[4]              = -1. / 2.;
+      }
+    law.finish();
+    return law;
+  }
+} // namespace geocone
+
+#endif
