@@ -82,8 +82,10 @@ namespace geocone::GEOCONE_DIM
                k_here;
       }
     const Eigen::Vector3d l = eigenvalues_of(s);
-    return std::max(((1. + a) * l[2] - (1. - a) * l[0] + 4. * guard) / k_here,
-                    (l[2] + guard) / tension);
+    const double          of_pyramid =
+      ((1. + a) * l[2] - (1. - a) * l[0] + 4. * guard) / k_here;
+    return is_cut() ? std::max(of_pyramid, (l[2] + guard) / tension)
+                    : of_pyramid;
   }
 
   SpatialStrength::Flow
@@ -176,14 +178,13 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    /** Takes the tensile strength of a material, unless it is beyond the apex of the
-     *  pyramid. */
+    /** Takes the tensile strength of a material. */
     void
     take_tension(SpatialStrength          &one,
                  const FrictionalStrength &given,
                  const std::string        &section)
     {
-      if (!(given.tension * 2. * one.a < one.k))
+      if (!std::isfinite(given.tension))
         return;
       const std::string parameter = section + "/Tensile strength";
       if (given.tension == 0.)

@@ -38,11 +38,12 @@ namespace geocone::GEOCONE_DIM
       return k + growth.at(x[1]);
     }
 
-    /** Returns true if a tension cut-off is part of the strength. */
+    /** Returns true if the tension cut-off is part of the strength: if it is below the
+     *  apex of the pyramid. Reduced strengths have the same apex but a smaller T. */
     bool
     is_cut() const
     {
-      return std::isfinite(tension);
+      return std::isfinite(tension) && 2. * a * tension < k;
     }
 
     /** Forms of the strength. */
