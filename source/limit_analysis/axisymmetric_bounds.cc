@@ -197,17 +197,6 @@ namespace geocone::GEOCONE_DIM
       }
     };
 
-    ConicProblem
-    empty_problem(const unsigned int n_dofs)
-    {
-      ConicProblem problem;
-      problem.is_prescribed.assign(n_dofs, false);
-      problem.prescribed.setZero(n_dofs);
-      problem.dead.setZero(n_dofs);
-      problem.live.setZero(n_dofs);
-      return problem;
-    }
-
     /** Columns of a matrix of rates by dofs, each of which occurs once. */
     template <int n_rows, int n_columns>
     class Columns
@@ -452,7 +441,7 @@ namespace geocone::GEOCONE_DIM
     const unsigned int n_cells    = scene.cells.size();
     const unsigned int first_body = (space::n_v + space::n_w) * n_cells;
     const HeldBodies   bodies(scene, first_body);
-    ConicProblem       problem = empty_problem(first_body + bodies.n_dofs());
+    ConicProblem problem = ConicProblem::of_dofs(first_body + bodies.n_dofs());
     const Forces       forces  = {problem};
     bodies.prescribe(problem);
 
@@ -596,7 +585,7 @@ namespace geocone::GEOCONE_DIM
     const unsigned int n_cells   = scene.cells.size();
     const unsigned int first_w   = n_u * n_cells;
     ConicProblem       problem =
-      empty_problem(first_w + dim * n_w * scene.edges.size());
+      ConicProblem::of_dofs(first_w + dim * n_w * scene.edges.size());
     const Forces forces = {problem};
     const auto   w_of   = [&](const unsigned int edge, const unsigned int k) {
       return first_w + dim * (n_w * edge + k);

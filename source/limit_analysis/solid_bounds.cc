@@ -170,17 +170,6 @@ namespace geocone::GEOCONE_DIM
       return e;
     }
 
-    ConicProblem
-    begin_problem(const unsigned int n_dofs)
-    {
-      ConicProblem problem;
-      problem.is_prescribed.assign(n_dofs, false);
-      problem.prescribed.setZero(n_dofs);
-      problem.dead.setZero(n_dofs);
-      problem.live.setZero(n_dofs);
-      return problem;
-    }
-
     /** Adds a force to a node. @param dof of its x component */
     void
     add_load(ConicProblem           &problem,
@@ -235,7 +224,8 @@ namespace geocone::GEOCONE_DIM
                        n_cells    = tetrahedra.cells.size();
     const auto         bodies     = bodies_of(bound);
     const unsigned int first_body = dim * n_nodes * n_cells;
-    ConicProblem problem = begin_problem(first_body + dim * bodies.size());
+    ConicProblem       problem =
+      ConicProblem::of_dofs(first_body + dim * bodies.size());
     for (const auto &[velocity, number] : bodies)
       for (unsigned int d = 0; d < dim; ++d)
         {
@@ -402,7 +392,7 @@ namespace geocone::GEOCONE_DIM
                        n_facet    = simplex_nodes::n_on_facet(order);
     const unsigned int first_w    = dim * n_u * n_cells;
     ConicProblem       problem =
-      begin_problem(first_w + dim * n_facet * tetrahedra.facets.size());
+      ConicProblem::of_dofs(first_w + dim * n_facet * tetrahedra.facets.size());
     const auto u_of = [&](const unsigned int cell, const unsigned int i) {
       return dim * (n_u * cell + (order == 1 ? 0 : i));
     };

@@ -28,6 +28,18 @@ namespace geocone
     Eigen::VectorXd   prescribed;    ///< prescribed velocities; 0 elsewhere
     Eigen::VectorXd   dead, live;    ///< F0 and f by dof
 
+    /** Returns a problem without points, loads and prescribed velocities. */
+    static ConicProblem
+    of_dofs(const unsigned int n_dofs)
+    {
+      ConicProblem problem;
+      problem.is_prescribed.assign(n_dofs, false);
+      problem.prescribed.setZero(n_dofs);
+      problem.dead.setZero(n_dofs);
+      problem.live.setZero(n_dofs);
+      return problem;
+    }
+
     unsigned int
     n_dofs() const
     {
