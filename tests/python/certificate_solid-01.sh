@@ -54,6 +54,8 @@ CHANGES = (
     ("factor", "lower", "load factor", ("strength_factor",), 1.1),
     ("factor", "lower", "div s + b", ("body_force", "live", 5, 1), 0.5),
     ("factor", "upper", "flow rule", ("strength_factor",), 0.9),
+    ("weight", "lower", "tensile_strength is negative", ("materials", 0, "tensile_strength"), -1.),
+    ("weight", "upper", "90 degrees", ("materials", 0, "friction_angle"), 4.5),
     ("circular", "lower", "only", ("materials", 0, "strength"), 0.9),
     ("circular", "upper", "only", ("materials", 0, "strength"), 1.1),
 )
