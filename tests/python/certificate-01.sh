@@ -1,7 +1,7 @@
 # Bounds are verified from the files of their fields by a script that does not use the program:
 # a reaction, live weight with a cut-off, a factor of safety with water, obstacles on sand with a
 # dead load, a block that slides without strain. Fields, loads and strengths that were changed are
-# found, as are meshes and numbers that prove nothing.
+# found, as are forgeries, and meshes and numbers that prove nothing.
 program=$1 root=$2 folder=$3
 rm -rf "$folder" && mkdir -p "$folder" && cd "$folder"
 run() {

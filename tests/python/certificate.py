@@ -1,4 +1,4 @@
-"""The checker proves the bounds of five runs, and finds changes of their files."""
+"""The checker proves the bounds of five runs, and finds changes of their files and forgeries."""
 
 import contextlib
 import io
@@ -6,6 +6,8 @@ import json
 import runpy
 import sys
 from pathlib import Path
+
+import numpy as np
 
 CHECKER = runpy.run_path(sys.argv[1])
 
@@ -74,6 +76,8 @@ CHANGES = (
     ("weight", "lower", "tensile_strength is negative",
      (("materials", 0, "tensile_strength"), to(-1.))),
     ("weight", "upper", "90 degrees", (("materials", 0, "friction_angle"), to(90.))),
+    ("reaction", "lower", "beside live loads", (("load_factor",), to(5.))),
+    ("reaction", "upper", "beside live loads", (("body_force", "live", 0, 1), to(-1.))),
     ("factor", "lower", "load factor", (("strength_factor",), times(1.1))),
     ("factor", "upper", "flow rule", (("strength_factor",), times(0.9))),
     ("factor", "lower", "only", (("value",), to(5.))),
@@ -131,6 +135,25 @@ SMALL = ("obstacles", 0, "adhesion")
 refused(changed("obstacles", "lower"), changed("obstacles", "upper", (SMALL, to(1e-7))), DIFFERENT)
 lower = changed("reaction", "lower")
 refused(lower, lower, "not a lower and an upper bound")
+
+
+def forged(data, value, reason):
+    """Looks for the reason for which a forged file proves nothing."""
+    data["value"] = value
+    name = Path("forged.json")
+    name.write_text(json.dumps(data))
+    body, text = verdict("check", name)
+    assert body is None and reason in text.partition("NOT PROVED")[2], text
+
+
+# Twice the loads are dead, so that a load factor near two leaves hardly any.
+lifted = changed("factor", "lower", (("load_factor",), lambda factor: 2. - 1e-4 * factor))
+lifted["stress"] = (1e-4 * np.array(lifted["stress"])).tolist()
+for loads in lifted["body_force"], lifted["boundary"]:
+    live = np.array(loads["live"])
+    loads["dead"], loads["live"] = (2. * live).tolist(), (-live).tolist()
+lifted["strength_factor"] = 300.
+forged(lifted, 300., "beside dead loads")
 
 # Bounds that contradict each other, from a wrong formula.
 CHECKER["check_folder"].__globals__["upper_bound"] = lambda body: 1.

@@ -1,6 +1,6 @@
 # Bounds on tetrahedra are verified by a script that does not use the program: a reaction of clay, a
 # live weight with friction and a cut-off, a factor of safety under water, a circular cone.
-# Fields, loads and strengths that were changed are found.
+# Fields, loads and strengths that were changed are found, and so are forgeries.
 program=$1 root=$2 folder=$3
 rm -rf "$folder" && mkdir -p "$folder" && cd "$folder"
 run() {
@@ -85,4 +85,43 @@ for side, folder in ("lower", "weight"), ("upper", "factor"):
         Path(folder, f"certificate_{side}.json").read_text())
 good, text = verdict("check_folder", "two")
 assert not good and "different problems" in text
+
+
+def forged(folder, side, value, reason, forge):
+    """Looks for the reason for which a forged file proves nothing."""
+    data = json.loads(Path(folder, f"certificate_{side}.json").read_text())
+    data["value"] = value
+    forge(data)
+    path = Path("forged.json")
+    path.write_text(json.dumps(data))
+    body, text = verdict("check", path)
+    assert body is None and reason in text, (folder, side, text)
+
+
+def lift(data):
+    """Twice the loads are dead, so that a load factor near two leaves hardly any."""
+    data["load_factor"] = 2. - 1e-4 * data["load_factor"]
+    data["strength_factor"] = data["value"]
+    data["stress"] = [[[1e-4 * s for s in at] for at in cell] for cell in data["stress"]]
+    for of, depth in (data["body_force"], 1), (data["boundary"], 2):
+        of["dead"] = scaled(of["live"], 2., depth)
+        of["live"] = scaled(of["live"], -1., depth)
+
+
+def scaled(values, factor, depth):
+    """A factor times the numbers of nested lists."""
+    return [scaled(one, factor, depth - 1) if depth else factor * one for one in values]
+
+
+def factor_of_reaction(data):
+    data["load_factor"] = 5.
+
+
+def weight_of_reaction(data):
+    data["body_force"]["live"][0][1] = -1.
+
+
+forged("factor", "lower", 300., "beside dead loads", lift)
+forged("reaction", "lower", 1800., "beside live loads", factor_of_reaction)
+forged("reaction", "upper", 2300., "beside live loads", weight_of_reaction)
 PYTHON
