@@ -5,6 +5,7 @@ import io
 import json
 import runpy
 import sys
+import types
 from pathlib import Path
 
 import numpy as np
@@ -154,6 +155,12 @@ for loads in lifted["body_force"], lifted["boundary"]:
     loads["dead"], loads["live"] = (2. * live).tolist(), (-live).tolist()
 lifted["strength_factor"] = 300.
 forged(lifted, 300., "beside dead loads")
+
+# The largest of several residuals is printed.
+found = types.SimpleNamespace(residuals={})
+for residual in 1e-12, 1e-13:
+    CHECKER["Body"].vanishes(found, "flow", np.array([residual]), 1.)
+assert found.residuals["flow"] == 1e-12
 
 # Bounds that contradict each other, from a wrong formula.
 CHECKER["check_folder"].__globals__["upper_bound"] = lambda body: 1.
