@@ -147,6 +147,33 @@ def forged(data, value, reason):
     assert body is None and reason in text.partition("NOT PROVED")[2], text
 
 
+def detached(folder, side, is_held):
+    """The file of a bound with a small triangle beside the body, without loads."""
+    data = changed(folder, side)
+    n, m = len(data["vertices"]), len(data["edges"])
+    data["vertices"] += [[99., 99.], [99. + 1e-6, 99.], [99., 99. + 1e-6]]
+    data["triangles"].append([n, n + 1, n + 2])
+    data["edges"] += [[n, n + 1], [n, n + 2], [n + 1, n + 2]]
+    data["material"].append(0)
+    rim = data["boundary"]
+    rim["edge"] += [m, m + 1, m + 2]
+    rim["held"] += [[is_held] * 2] * 3
+    rim["velocity"] += [[0., 0.]] * 3
+    for kind in "dead", "live":
+        data["body_force"][kind].append([0., 0.])
+        rim[kind] += [[[0., 0.]] * 2] * 3
+    return data
+
+
+# No stress in the body, and a large one beside it.
+pressed = detached("weight", "lower", True)
+pressed["stress"] = [[[0.] * 3] * 3 for _ in pressed["stress"]] + [[[-1e20, -1e20, 0.]] * 3]
+pressed["load_factor"] = 1000.
+# The body falls through its supports, and something fast is beside it.
+fallen = detached("factor", "upper", False)
+for part in "vertices", "middles":
+    fallen["velocity"][part] = [[0., -1.] for _ in fallen["velocity"][part]] + [[1e20, 0.]] * 3
+fallen["strength_factor"] = 0.1
 # Twice the loads are dead, so that a load factor near two leaves hardly any.
 lifted = changed("factor", "lower", (("load_factor",), lambda factor: 2. - 1e-4 * factor))
 lifted["stress"] = (1e-4 * np.array(lifted["stress"])).tolist()
@@ -155,6 +182,13 @@ for loads in lifted["body_force"], lifted["boundary"]:
     loads["dead"], loads["live"] = (2. * live).tolist(), (-live).tolist()
 lifted["strength_factor"] = 300.
 forged(lifted, 300., "beside dead loads")
+forged(pressed, 1000., "not connected")
+forged(fallen, 0.1, "not connected")
+# Large values do not hide residuals, even if such a part were accepted.
+GLOBALS = CHECKER["check"].__globals__
+GLOBALS["is_connected"] = lambda *_: True
+forged(pressed, 1000., "div s + b")
+forged(fallen, 0.1, "prescribed velocities")
 
 # The largest of several residuals is printed.
 found = types.SimpleNamespace(residuals={})
@@ -163,6 +197,6 @@ for residual in 1e-12, 1e-13:
 assert found.residuals["flow"] == 1e-12
 
 # Bounds that contradict each other, from a wrong formula.
-CHECKER["check_folder"].__globals__["upper_bound"] = lambda body: 1.
+GLOBALS["upper_bound"] = lambda body: 1.
 good, text = verdict("check_folder", "reaction")
 assert not good and "the lower bound is above the upper one" in text

@@ -98,6 +98,38 @@ def forged(folder, side, value, reason, forge):
     assert body is None and reason in text, (folder, side, text)
 
 
+def detach(data, is_held):
+    """Adds a small tetrahedron beside the body, without loads."""
+    n = len(data["vertices"])
+    data["vertices"] += [[9. + 1e-6 * (i == a) for a in range(3)] for i in range(-1, 3)]
+    data["tetrahedra"].append(list(range(n, n + 4)))
+    data["material"].append(0)
+    rim = data["boundary"]
+    for i in range(4):
+        rim["face"].append([n + j for j in range(4) if j != i])
+        rim["held"].append([is_held] * 3)
+        rim["velocity"].append([0.] * 3)
+    for kind in "dead", "live":
+        data["body_force"][kind].append([0.] * 3)
+        rim[kind] += [[[0.] * 3] * 3] * 4
+
+
+def press(data):
+    """No stress in the body, and a large one beside it."""
+    count, nodes = len(data["tetrahedra"]), len(data["nodes"])
+    detach(data, True)
+    data["load_factor"] = data["value"]
+    data["stress"] = [[[0.] * 6] * nodes] * count + [[[-1e20] * 3 + [0.] * 3] * nodes]
+
+
+def fall(data):
+    """The body falls through its supports, and something fast is beside it."""
+    count, nodes = len(data["tetrahedra"]), len(data["nodes"])
+    detach(data, False)
+    data["strength_factor"] = data["value"]
+    data["velocity"] = [[[0., -1., 0.]] * nodes] * count + [[[1e20, 0., 0.]] * nodes]
+
+
 def lift(data):
     """Twice the loads are dead, so that a load factor near two leaves hardly any."""
     data["load_factor"] = 2. - 1e-4 * data["load_factor"]
@@ -124,4 +156,10 @@ def weight_of_reaction(data):
 forged("factor", "lower", 300., "beside dead loads", lift)
 forged("reaction", "lower", 1800., "beside live loads", factor_of_reaction)
 forged("reaction", "upper", 2300., "beside live loads", weight_of_reaction)
+forged("weight", "lower", 1000., "not connected", press)
+forged("factor", "upper", 0.1, "not connected", fall)
+# Large values do not hide residuals, even if such a part were accepted.
+CHECKER["check"].__globals__["is_connected"] = lambda *_: True
+forged("weight", "lower", 1000., "div s + b", press)
+forged("factor", "upper", 0.1, "flow at supports", fall)
 PYTHON
