@@ -134,7 +134,7 @@ magnitude() {
   "$program" "$root/prm/safety/slope_water.prm" --dry-run --set "$1" >log 2>&1
 }
 magnitude 'Water/Unit weight = 9.81'
-grep -q 'water weighs 9.81 N/m^3 .* about 9[0-9]* N/m^3' log
+grep -q 'water weighs 9.81 N/m^3 .* about 10000 N/m^3' log
 magnitude 'Gravity/Acceleration = 0, -9810'
 grep -q 'gravity is 9810 m/s^2' log
 magnitude 'Output/Pictures = false'
