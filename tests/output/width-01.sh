@@ -42,7 +42,7 @@ layer() { # DEPTH
     --set 'Materials/weak/Young modulus = 1e8' --set 'Materials/weak/Cohesion = 1e3' \
     --set "Materials/weak/Region polygon = -2, -$1; 2, -$1; 2, 1; -2, 1"
 }
-layer 0.24
+layer 0.22
 grep -q "material 'weak' takes cells by their centres, of 0.2 m^2 in all, where about 0.2[2-6]" err
 layer 0.3
 fails grep -q 'by their centres' err
