@@ -118,7 +118,7 @@ namespace geocone::GEOCONE_DIM
     refuse_tension(const Materials &materials)
     {
       for (unsigned int m = 0; m < materials.size(); ++m)
-        if (const auto given = materials[m].plane_strain_strength();
+        if (const auto given = materials.law(m).plane_strain_strength();
             given && std::isfinite(given->tension))
           throw InputError(
             "Materials/" + materials.name(m) + "/Tensile strength",
