@@ -23,9 +23,6 @@ namespace geocone::GEOCONE_DIM
   {
     namespace space = axisymmetric_velocity;
 
-    /** Tolerated rounding error of equilibrium and of incompressibility. */
-    constexpr double tolerated = 1e-8;
-
     Eigen::Matrix3d
     tensor_of(const SpatialMandel &s)
     {
@@ -105,9 +102,8 @@ namespace geocone::GEOCONE_DIM
             return sum;
           };
           const auto add_error = [&](const double left) {
-            result.error =
-              std::max(result.error,
-                       std::abs(left) / mean_radius * std::sqrt(cell.area));
+            take_larger(result.error,
+                        std::abs(left) / mean_radius * std::sqrt(cell.area));
           };
           for (unsigned int i = 0; i < 3; ++i)
             {
@@ -149,7 +145,7 @@ namespace geocone::GEOCONE_DIM
                   result.power += edge.length / (order + 1) * left[k][d] *
                                   edge.condition.velocity[d];
                 else
-                  result.error = std::max(result.error, std::abs(left[k][d]));
+                  take_larger(result.error, std::abs(left[k][d]));
             }
         }
       return result;
@@ -162,13 +158,13 @@ namespace geocone::GEOCONE_DIM
                 const double                      lambda)
   {
     Bound         result;
-    StrengthCheck check;
-    result.stress = stress;
-    bool is_dead  = false;
+    StressCheck   check;
     for (unsigned int c = 0; c < scene.cells.size(); ++c)
       {
-        const auto &cell = scene.cells[c];
-        is_dead          = is_dead || cell.body_force.dead.norm() > 0.;
+        const auto            &cell = scene.cells[c];
+        const SpatialStrength &one =
+          scene.bound.strengths[scene.bound.triangles.material[c]];
+        check.is_dead = check.is_dead || cell.body_force.dead.norm() > 0.;
         for (const auto &a :
              bernstein::functions_of_triangle(axisymmetric_stress::order))
           {
@@ -178,40 +174,21 @@ namespace geocone::GEOCONE_DIM
               bernstein::coefficient(a, cell.radius, cell.strength);
             if (k == 0. && s.isZero(0.))
               continue; // on the axis
-            check.add(scene.bound.strengths[scene.bound.triangles.material[c]],
-                      k,
-                      tensor_of(s));
+            const Eigen::Matrix3d m = tensor_of(s);
+            check.add(one.utilisation(k, m), k, m.norm());
           }
       }
     for (const auto &edge : scene.edges)
-      is_dead = is_dead || edge.traction[0].dead.norm() > 0. ||
-                edge.traction[1].dead.norm() > 0.;
+      check.is_dead = check.is_dead || edge.traction[0].dead.norm() > 0. ||
+                      edge.traction[1].dead.norm() > 0.;
     const StaticsOfBody found = statics_of_body(scene, stress, lambda);
-    result.violation     = check.violation / check.largest;
-    result.error         = found.error / check.largest;
-    double     theta     = check.theta;
-    const bool is_scaled = !is_dead && theta > 0.;
-    if (!is_scaled)
-      {
-        if (theta < 1.)
-          result.rejection = format(
-            "its stresses exceed the strength by %.1e of the largest one, and "
-            "a dead load leaves nothing to scale",
-            result.violation);
-        theta = 1.;
-      }
+    check.add_error(found.error);
+    const double theta = check.judge(
+      result,
+      scene.bound.factor == LoadFactor::velocity ? found.power : lambda);
+    result.stress = stress;
     for (SpatialMandel &s : result.stress)
       s *= theta;
-    result.load =
-      theta *
-      (scene.bound.factor == LoadFactor::velocity ? found.power : lambda);
-    if (!std::isfinite(result.load + result.error + check.largest))
-      result.rejection = "it is not a number";
-    else if (!(result.error < tolerated))
-      result.rejection =
-        format("its stresses miss equilibrium by %.1e of the largest one",
-               result.error);
-    result.certified = result.rejection.empty();
     return result;
   }
 
@@ -366,9 +343,8 @@ namespace geocone::GEOCONE_DIM
     result.q = q;
     power.of_cell.assign(scene.cells.size(), 0.);
     power.of_edge.assign(scene.edges.size(), 0.);
-    double largest_rate = std::numeric_limits<double>::min(),
-           fastest = largest_rate, rate_missed = 0., jump_missed = 0.,
-           volume_change = 0., normal_jump = 0., sum = 0.;
+    VelocityCheck check;
+    double        sum       = 0.;
     const auto functions = bernstein::functions_of_triangle(space::order);
     for (unsigned int c = 0; c < scene.cells.size(); ++c)
       {
@@ -382,9 +358,7 @@ namespace geocone::GEOCONE_DIM
             const auto   flow = one.flow(
               mean(functions[i], cell.radius, cell.strength) / part, rates[i]);
             power.of_cell[c] += cell.area * part * flow.dissipation;
-            largest_rate  = std::max(largest_rate, rates[i].norm());
-            rate_missed   = std::max(rate_missed, flow.miss);
-            volume_change = std::max(volume_change, flow.constrained);
+            check.add_rate(flow, rates[i].norm());
           }
         sum += power.of_cell[c];
       }
@@ -393,7 +367,7 @@ namespace geocone::GEOCONE_DIM
         const auto &edge = scene.edges[e];
         for (const Tensor<1, dim> &u :
              velocity_on_edge(scene, q, e, edge.cells[0]))
-          fastest = std::max(fastest, u.norm());
+          take_larger(check.fastest, u.norm());
         if (!resists_jump(edge))
           continue;
         Linear<2>              cohesion;
@@ -409,8 +383,7 @@ namespace geocone::GEOCONE_DIM
                                u[k] * edge.normal,
                                std::abs(u[k] * edge.tangent()));
             power.of_edge[e] += edge.length * part * flow.dissipation;
-            jump_missed = std::max(jump_missed, flow.miss);
-            normal_jump = std::max(normal_jump, flow.constrained);
+            check.add_jump(flow);
           }
         sum += power.of_edge[e];
       }
@@ -418,23 +391,8 @@ namespace geocone::GEOCONE_DIM
     sum -= of_loads.dead;
     power.work = bound.factor == LoadFactor::velocity ? 1. : of_loads.live;
     // Parts of a body that slide as rigid ones have no other measure of their rates.
-    largest_rate = std::max(largest_rate, fastest);
-    result.violation =
-      std::max(rate_missed / largest_rate, jump_missed / fastest);
-    result.error =
-      std::max(volume_change / largest_rate, normal_jump / fastest);
-    result.load = sum / power.work;
-    if (!std::isfinite(result.load + result.error) || !(power.work > 0.))
-      result.rejection = "its velocities do no work";
-    else if (!(result.error < tolerated))
-      result.rejection = format(
-        "its volume and its normal jumps change by %.1e of the largest rate "
-        "where phi = 0",
-        result.error);
-    else if (rate_missed > 0. || jump_missed > 0.)
-      result.rejection = format(
-        "its rates miss the cone by %.1e of the largest one", result.violation);
-    result.certified = result.rejection.empty();
+    take_larger(check.largest_rate, check.fastest);
+    check.judge(result, sum, power.work);
     return result;
   }
 
@@ -443,24 +401,12 @@ namespace geocone::GEOCONE_DIM
                   const double             tolerance,
                   AxisymmetricPower       &power)
   {
-    ConicProblem problem = upper_problem(scene);
-    ConicOptions options;
-    options.tolerance             = tolerance;
-    options.equilibrium_tolerance = std::max(tolerance, 1e-7);
-    const bool is_constrained     = problem.has_free_direction();
-    options.flow_tolerance        = is_constrained ? 1e-6 : 1e-8;
-    // The margin of flow where phi > 0, which no projection repairs.
-    options.flow_margin = 10. * options.flow_tolerance;
+    ConicProblem          problem = upper_problem(scene);
     CertifiedBounds::Side side;
-    static_cast<ConicSolution &>(side.solution) = solve(problem, options);
-    side.n_unknowns                             = problem.n_unknowns();
-    Eigen::VectorXd &q                          = side.solution.q;
-    if (is_constrained && q.allFinite())
-      {
-        constrain_rates(problem, q);
-        ++side.solution.factorisations;
-      }
-    side.bound = certify_upper(scene, q, power);
+    static_cast<ConicSolution &>(side.solution) =
+      solve_for_velocities(problem, tolerance);
+    side.n_unknowns = problem.n_unknowns();
+    side.bound      = certify_upper(scene, side.solution.q, power);
     return side;
   }
 

@@ -625,4 +625,22 @@ namespace geocone
   {
     return ConicSolver(problem, options).solve();
   }
+
+  ConicSolution
+  solve_for_velocities(ConicProblem &problem, const double tolerance)
+  {
+    const bool   is_constrained = problem.has_free_direction();
+    ConicOptions options;
+    options.tolerance             = tolerance;
+    options.equilibrium_tolerance = std::max(tolerance, 1e-7);
+    options.flow_tolerance        = is_constrained ? 1e-6 : 1e-8;
+    options.flow_margin           = 10. * options.flow_tolerance;
+    ConicSolution solution        = solve(problem, options);
+    if (is_constrained && solution.q.allFinite())
+      {
+        constrain_rates(problem, solution.q);
+        ++solution.factorisations;
+      }
+    return solution;
+  }
 } // namespace geocone

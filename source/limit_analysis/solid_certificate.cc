@@ -14,8 +14,6 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    /** Tolerated rounding error of equilibrium and of incompressibility. */
-    constexpr double rounding = 1e-8;
 
     Tensor<1, dim>
     traction_of(const Mandel &s, const Tensor<1, dim> &n)
@@ -40,11 +38,10 @@ namespace geocone::GEOCONE_DIM
     const unsigned int n_nodes    = simplex_nodes::n_in_cell(order),
                        n_facet    = simplex_nodes::n_on_facet(order);
     SolidBound result;
-    result.stress      = stress;
-    StrengthCheck check;
-    bool       is_dead = false;
-    const auto total   = [&](const SolidScene::Load &load) {
-      is_dead = is_dead || load.dead.norm() > 0.;
+    result.stress = stress;
+    StressCheck check;
+    const auto  total = [&](const SolidScene::Load &load) {
+      check.is_dead = check.is_dead || load.dead.norm() > 0.;
       return load.dead + lambda * load.live;
     };
     for (unsigned int c = 0; c < tetrahedra.cells.size(); ++c)
@@ -58,7 +55,8 @@ namespace geocone::GEOCONE_DIM
                                       : (k[simplex_nodes::edges[i - 4][0]] +
                                         k[simplex_nodes::edges[i - 4][1]]) /
                                          2.;
-            check.add(one, k_i, SemidefiniteCone::matrix(s[i]));
+            const Eigen::Matrix3d m    = SemidefiniteCone::matrix(s[i]);
+            check.add(one.utilisation(k_i, m), k_i, m.norm());
           }
         const auto           g = tetrahedra.gradients(c);
         const Tensor<1, dim> b = total(bound.body_force(c));
@@ -70,9 +68,8 @@ namespace geocone::GEOCONE_DIM
                 order *
                 traction_of(s[order == 1 ? j : simplex_nodes::node(i, j)],
                             L * g[j]);
-            result.error = std::max(result.error,
-                                    (divergence + b).norm() *
-                                      std::cbrt(tetrahedra.volume(c)) / L);
+            check.add_error((divergence + b).norm() *
+                            std::cbrt(tetrahedra.volume(c)) / L);
           }
       }
     double power = 0.; // of the reactions to prescribed velocities
@@ -103,26 +100,11 @@ namespace geocone::GEOCONE_DIM
               if (held.holds(d))
                 power += A / n_facet * left[d] * held.velocity[d];
               else
-                result.error = std::max(result.error, std::abs(left[d]));
+                check.add_error(std::abs(left[d]));
           }
       }
-    result.violation = check.violation / check.largest;
-    result.error /= check.largest;
-    const bool is_scaled = !is_dead && check.theta > 0.;
-    if (!is_scaled && check.theta < 1.)
-      result.rejection = format(
-        "its stresses exceed the strength by %.1e of the largest one, and a "
-        "dead load leaves nothing to scale",
-        result.violation);
     result.lambda = bound.factor == LoadFactor::velocity ? power : lambda;
-    result.load   = (is_scaled ? check.theta : 1.) * result.lambda;
-    if (!std::isfinite(result.load + result.error + check.largest))
-      result.rejection = "it is not a number";
-    else if (!(result.error < rounding))
-      result.rejection =
-        format("its stresses miss equilibrium by %.1e of the largest one",
-               result.error);
-    result.certified = result.rejection.empty();
+    check.judge(result, result.lambda);
     return result;
   }
 
@@ -140,8 +122,7 @@ namespace geocone::GEOCONE_DIM
     result.dissipation_of_cell.assign(tetrahedra.cells.size(), 0.);
     result.dissipation_of_facet.assign(tetrahedra.facets.size(), 0.);
     double power = 0., work = 0.;
-    double largest_rate = std::numeric_limits<double>::min(), rate_missed = 0.,
-           jump_missed = 0., volume_change = 0., normal_jump = 0.;
+    VelocityCheck check;
     for (unsigned int c = 0; c < tetrahedra.cells.size(); ++c)
       {
         const auto                  g = tetrahedra.gradients(c);
@@ -163,9 +144,7 @@ namespace geocone::GEOCONE_DIM
             const SpatialStrength::Flow flow =
               bound.strengths[tetrahedra.material[c]].flow(k[i], e);
             result.dissipation_of_cell[c] += V / k.size() * flow.dissipation;
-            largest_rate  = std::max(largest_rate, e.norm());
-            rate_missed   = std::max(rate_missed, flow.miss);
-            volume_change = std::max(volume_change, flow.constrained);
+            check.add_rate(flow, e.norm());
           }
         power += result.dissipation_of_cell[c];
         const SolidScene::Load load = bound.body_force(c);
@@ -223,34 +202,17 @@ namespace geocone::GEOCONE_DIM
             const SpatialStrength::Flow flow =
               one.flow_of_jump(k[i], u * axes[0], slip);
             result.dissipation_of_facet[f] += A / n_facet * flow.dissipation;
-            jump_missed = std::max(jump_missed, flow.miss);
-            normal_jump = std::max(normal_jump, flow.constrained);
+            check.add_jump(flow);
           }
         power += result.dissipation_of_facet[f];
       }
     // A body that moves by prescribed velocities has no other measure of its jumps.
-    double fastest = std::numeric_limits<double>::min();
     for (const Tensor<1, dim> &v : velocity)
-      fastest = std::max(fastest, v.norm());
-    result.violation =
-      std::max(rate_missed / largest_rate, jump_missed / fastest);
-    result.error =
-      std::max(volume_change / largest_rate, normal_jump / fastest);
+      take_larger(check.fastest, v.norm());
     if (bound.factor == LoadFactor::velocity)
       work = 1.;
     result.work = work;
-    result.load = power / work;
-    if (!std::isfinite(power + work + result.error + fastest) || !(work > 0.))
-      result.rejection = "its velocities do no work";
-    else if (!(result.error < rounding))
-      result.rejection = format(
-        "its volume and its normal jumps change by %.1e of the largest rate "
-        "where phi = 0",
-        result.error);
-    else if (rate_missed > 0. || jump_missed > 0.)
-      result.rejection = format(
-        "its rates miss the cone by %.1e of the largest one", result.violation);
-    result.certified = result.rejection.empty();
+    check.judge(result, power, work);
     return result;
   }
 
@@ -275,19 +237,7 @@ namespace geocone::GEOCONE_DIM
                   const double       tolerance)
   {
     ConicProblem problem = upper_problem(bound, order);
-    ConicOptions options;
-    options.tolerance             = tolerance;
-    options.equilibrium_tolerance = std::max(tolerance, 1e-7);
-    const bool is_constrained     = problem.has_free_direction();
-    options.flow_tolerance        = is_constrained ? 1e-6 : 1e-8;
-    // The margin of flow where phi > 0, which no projection repairs.
-    options.flow_margin    = 10. * options.flow_tolerance;
-    ConicSolution solution = solve(problem, options);
-    if (is_constrained && solution.q.allFinite())
-      {
-        constrain_rates(problem, solution.q);
-        ++solution.factorisations;
-      }
+    const ConicSolution solution = solve_for_velocities(problem, tolerance);
     std::vector<Tensor<1, dim>> velocity(simplex_nodes::n_in_cell(order) *
                                          bound.tetrahedra->cells.size());
     for (unsigned int i = 0; i < velocity.size(); ++i)

@@ -161,21 +161,6 @@ namespace geocone::GEOCONE_DIM
     return flow;
   }
 
-  void
-  StrengthCheck::add(const SpatialStrength &one,
-                     const double           k,
-                     const Eigen::Matrix3d &stress)
-  {
-    largest           = std::max(largest, stress.norm());
-    const double part = one.utilisation(k, stress);
-    if (!(part <= 1.))
-      {
-        violation = std::max(violation, (part - 1.) * k);
-        // Scaled stresses have the rounding of eigenvalues again.
-        theta = std::min(theta, (1. - 1e-13) / part);
-      }
-  }
-
   namespace
   {
     /** Takes the tensile strength of a material. */

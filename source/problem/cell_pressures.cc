@@ -1,6 +1,7 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <geocone/base/take_larger.h>
 #include <geocone/points/point_elasticity.h>
 #include <geocone/problem/cell_pressures.h>
 
@@ -37,14 +38,6 @@ namespace geocone::GEOCONE_DIM
 
     /** Minimum fraction of a step left by one shortening. */
     constexpr double shortest = 0.1;
-
-    /** Maximum that retains NaN. */
-    void
-    take_larger(double &largest, const double x)
-    {
-      if (!(x <= largest) && !std::isnan(largest))
-        largest = x;
-    }
 
     const Mandel &
     mean_direction()

@@ -5,6 +5,7 @@
 #define geocone_limit_analysis_certificate_h
 
 #include <geocone/limit_analysis/bound_solution.h>
+#include <geocone/limit_analysis/bound_verdict.h>
 
 #include <string>
 #include <vector>
@@ -18,27 +19,8 @@ namespace geocone::GEOCONE_DIM
 
   /** Upper or lower bound on the load with its certificate, in scaled units. All values
    *  are recomputed from the stress or velocity field, independently of the solver. */
-  struct Bound
+  struct Bound : BoundVerdict
   {
-    double      load      = 0.;
-    bool        certified = false;
-    std::string rejection; ///< reason for rejection, if not certified
-
-    /** Largest violation of the yield condition (lower bound) or the flow rule
-     *  (upper bound) before the stresses or velocities are repaired. For a
-     *  lower bound it is the violation of the yield cones, relative to the
-     *  largest stress; for an upper bound it is the violation of the flow rule,
-     *  relative to the largest strain rate. */
-    double violation = 0.;
-
-    /** Largest residual of equilibrium (lower bound) or of incompressibility
-     *  (upper bound). Lower bound: largest residual of equilibrium, i.e. of div
-     *  s + body force and of tractions across edges and on the boundary,
-     *  relative to the largest stress (divided by the cell size). Upper bound:
-     *  largest volumetric strain rate of cylinders, relative to the largest
-     *  rate. */
-    double error = 0.;
-
     /** Certified stresses (lower bound) or velocities (upper bound). For a lower bound:
      *  scaled stresses at the points in cone axes. For an upper bound: repaired
      *  velocities of all dofs. The velocities of a lower bound are dual variables, which

@@ -107,6 +107,13 @@ namespace geocone
   ConicSolution
   solve(ConicProblem &problem, const ConicOptions &options);
 
+  /** Solves a conic problem for velocities that an upper bound can certify:
+   *  rates lie inside their cones by a margin, which no projection repairs where phi >
+   *  0, and constrained rates vanish.
+   *  @param tolerance duality gap, relative to the load */
+  ConicSolution
+  solve_for_velocities(ConicProblem &problem, const double tolerance);
+
   /** Projects velocities onto the subspace in which all constrained strain rates vanish.
    *  The projection is orthogonal in the metric of B'B. For phi = 0 the constrained rates
    *  are volumetric strain rates and normal jumps.

@@ -4,6 +4,7 @@
 #ifndef geocone_limit_analysis_solid_certificate_h
 #define geocone_limit_analysis_solid_certificate_h
 
+#include <geocone/limit_analysis/bound_verdict.h>
 #include <geocone/limit_analysis/solid_bounds.h>
 
 #include <string>
@@ -14,24 +15,8 @@ namespace geocone::GEOCONE_DIM
   /** Upper or lower bound in three dimensions with its certificate, in scaled units. All
    *  values are recomputed from the fields and the geometry, without the matrices of the
    *  solver. */
-  struct SolidBound
+  struct SolidBound : BoundVerdict
   {
-    double      load      = 0.;
-    bool        certified = false;
-    std::string rejection; ///< reason for rejection, if not certified
-
-    /** Largest violation of the yield condition or the flow rule. For a lower bound it is
-     *  the violation of the strength, relative to the largest stress; for an upper bound,
-     *  of admissible flow, relative to the largest strain rate or jump. */
-    double violation = 0.;
-
-    /** Largest residual of equilibrium (lower bound), or of incompressibility
-     *  where phi = 0 (upper bound). Lower bound: div s + body force (times the
-     *  cell size) and the imbalance of tractions across faces and on the
-     *  boundary, relative to the largest stress. Upper bound: volumetric strain
-     *  rate and normal jump, relative to the largest rate and jump. */
-    double error = 0.;
-
     unsigned int factorisations = 0, n_unknowns = 0;
     bool         converged = false;
     std::string  reason; ///< cause of non-convergence

@@ -109,20 +109,6 @@ namespace geocone::GEOCONE_DIM
     flow_of_jump(const double c, const double u_n, const double u_t) const;
   };
 
-  /** Comparison of the stresses of a lower bound with the strength. */
-  struct StrengthCheck
-  {
-    double largest   = std::numeric_limits<double>::min(); ///< norm of a stress
-    double violation = 0.; ///< largest excess over a strength k
-    double theta     = 1.; ///< factor that makes all stresses admissible
-
-    /** Adds a stress at a point with the strength k. */
-    void
-    add(const SpatialStrength &one,
-        const double           k,
-        const Eigen::Matrix3d &stress);
-  };
-
   /** Returns the strength of each material (Pa).
    *  @throws InputError for a material whose loads cannot be bounded */
   std::vector<SpatialStrength>
