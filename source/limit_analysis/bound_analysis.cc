@@ -245,6 +245,29 @@ namespace geocone::GEOCONE_DIM
     level.iterations_upper = found.iterations[SafetySearch::upper];
   }
 
+  void
+  BoundAnalysis::for_each_claim(
+    const BoundLevel                                    &level,
+    const LoadBracket                                   &best,
+    const std::function<void(const CertificateClaim &)> &write) const
+  {
+    if (!limit_output.writes_certificates())
+      return;
+    const double multiple =
+      load_choice().is_reaction() ? std::abs(scene.observation.factor) : 1.;
+    const auto claim = [&](const bool is_lower, const double value) {
+      write({kind_word(),
+             is_lower,
+             value,
+             reduces_strength() ? value : 1.,
+             multiple});
+    };
+    if (level.lower_certified && best.lower == level.lower)
+      claim(true, level.lower);
+    if (level.upper_certified && best.upper == level.upper)
+      claim(false, level.upper);
+  }
+
   LoadBracket
   BoundAnalysis::described(LoadBracket bracket) const
   {

@@ -2,10 +2,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/constants.h>
-#include <geocone/base/files.h>
 #include <geocone/cone/second_order_cone.h>
 #include <geocone/limit_analysis/certificate_files.h>
-#include <geocone/output/json.h>
 
 #include <cmath>
 #include <limits>
@@ -248,25 +246,18 @@ namespace geocone::GEOCONE_DIM
   } // namespace
 
   void
-  CertificateFiles::write(const std::string &folder,
-                          const std::string &kind,
-                          const BoundScene  &given,
-                          const Claim       &claim)
+  write_certificate(const std::string      &folder,
+                    const BoundScene       &given,
+                    const Bound            &bound,
+                    const CertificateClaim &claim)
   {
-    const bool         is_lower    = claim.side == BoundSide::lower;
-    const char        *side        = is_lower ? "lower" : "upper";
     const bool         is_reaction = given.factor == LoadFactor::velocity;
     const BoundProblem problem     = lower_problem(given);
-    Json json     = {{"format", "certificate of a plane limit analysis, 1"},
-                     {"bound", side},
-                     {"of", kind},
-                     {"value", claim.value},
-                     {"strength_factor", claim.strength_factor},
-                     {"load_factor", is_reaction ? 0. : claim.bound.load},
-                     {"multiple", claim.multiple},
-                     {"speed", is_reaction ? given.units.velocity : 0.},
-                     {"materials", materials_of(given)},
-                     {"obstacles", obstacles_with_loads(given, problem)}};
+    Json               json        = claim.entries("plane limit analysis",
+                              is_reaction ? 0. : bound.load,
+                              is_reaction ? given.units.velocity : 0.);
+    json["materials"]              = materials_of(given);
+    json["obstacles"]              = obstacles_with_loads(given, problem);
     Json vertices = Json::array(), edges = Json::array();
     for (const auto &x : given.triangles.vertices)
       vertices.push_back(pair(x[0], x[1]));
@@ -278,11 +269,10 @@ namespace geocone::GEOCONE_DIM
     json["material"]   = given.triangles.material;
     json["interfaces"] = interfaces_of(given);
     add_loads_and_supports(given, problem, json);
-    if (is_lower)
-      add_stresses(given, claim.bound, json);
+    if (claim.is_lower)
+      add_stresses(given, bound, json);
     else
-      add_velocities(given, claim.bound, json);
-    write_file(folder + "/certificate_" + side + ".json",
-               [&](std::ostream &out) { out << json.dump() << "\n"; });
+      add_velocities(given, bound, json);
+    claim.write(folder, json);
   }
 } // namespace geocone::GEOCONE_DIM

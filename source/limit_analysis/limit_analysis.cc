@@ -326,44 +326,24 @@ namespace geocone::GEOCONE_DIM
     level.cpu_seconds  = time.cpu_time();
     level.mesh_seconds = in_mesh;
     add_level(level, now);
-    if (limit_output.writes_certificates())
-      write_certificates(level);
+    for_each_claim(level,
+                   certified_by(limit_output.all_records()),
+                   [&](const CertificateClaim &claim) {
+                     const auto &side =
+                       !reduces_strength()
+                         ? (claim.is_lower ? bounds.lower : bounds.upper)
+                         : (claim.is_lower ? reduced.lower_proof
+                                           : reduced.upper_proof);
+                     write_certificate(limit_output.folder(),
+                                       bounded_load.on(scene, *triangles),
+                                       side.bound,
+                                       claim);
+                   });
     const bool is_last =
       is_complete(certified_by(limit_output.all_records()).gap());
     if (!is_last)
       refine(level);
     return is_last ? StepOutcome::stage : StepOutcome::well;
-  }
-
-  void
-  LimitAnalysis::write_certificates(const BoundLevel &level) const
-  {
-    const LoadBracket best  = certified_by(limit_output.all_records());
-    const BoundScene  given = bounded_load.on(scene, *triangles);
-    const double      multiple =
-      bounded_load.is_reaction() ? std::abs(scene.observation.factor) : 1.;
-    const auto write = [&](const BoundSide             side,
-                           const bool                  is_certified,
-                           const double                value,
-                           const std::optional<double> best_value,
-                           const Bound                &bound) {
-      if (is_certified && best_value == value)
-        CertificateFiles::write(
-          limit_output.folder(),
-          kind_word(),
-          given,
-          {side, bound, value, reduces_strength() ? value : 1., multiple});
-    };
-    write(BoundSide::lower,
-          level.lower_certified,
-          level.lower,
-          best.lower,
-          (reduces_strength() ? reduced.lower_proof : bounds.lower).bound);
-    write(BoundSide::upper,
-          level.upper_certified,
-          level.upper,
-          best.upper,
-          (reduces_strength() ? reduced.upper_proof : bounds.upper).bound);
   }
 
   void

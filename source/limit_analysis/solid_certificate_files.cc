@@ -2,10 +2,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/constants.h>
-#include <geocone/base/files.h>
 #include <geocone/limit_analysis/solid_bounds.h>
 #include <geocone/limit_analysis/solid_certificate_files.h>
-#include <geocone/output/json.h>
 
 #include <cmath>
 
@@ -116,30 +114,23 @@ namespace geocone::GEOCONE_DIM
   } // namespace
 
   void
-  write_certificate(const std::string &folder,
-                    const std::string &kind,
-                    const SolidScene  &given,
-                    const SolidClaim  &claim)
+  write_certificate(const std::string      &folder,
+                    const SolidScene       &given,
+                    const SolidBound       &bound,
+                    const CertificateClaim &claim)
   {
     const Tetrahedra &tetrahedra  = *given.tetrahedra;
-    const char       *side        = claim.is_lower ? "lower" : "upper";
     const bool        is_reaction = given.factor == LoadFactor::velocity;
     const std::size_t n_of_cell =
-      (claim.is_lower ? claim.bound.stress.size()
-                      : claim.bound.velocity.size()) /
+      (claim.is_lower ? bound.stress.size() : bound.velocity.size()) /
       tetrahedra.cells.size();
-    Json json     = {{"format", "certificate of a limit analysis in space, 1"},
-                     {"bound", side},
-                     {"of", kind},
-                     {"value", claim.value},
-                     {"strength_factor", claim.strength_factor},
-                     {"load_factor", is_reaction ? 0. : claim.bound.lambda},
-                     {"multiple", claim.multiple},
-                     {"speed", is_reaction ? given.units.velocity : 0.},
-                     {"materials", materials_with_strengths(given)},
-                     {"tetrahedra", tetrahedra.cells},
-                     {"material", tetrahedra.material},
-                     {"nodes", pairs_of_nodes(n_of_cell)}};
+    Json json          = claim.entries("limit analysis in space",
+                              is_reaction ? 0. : bound.lambda,
+                              is_reaction ? given.units.velocity : 0.);
+    json["materials"]  = materials_with_strengths(given);
+    json["tetrahedra"] = tetrahedra.cells;
+    json["material"]   = tetrahedra.material;
+    json["nodes"]      = pairs_of_nodes(n_of_cell);
     Json vertices = Json::array();
     for (const auto &x : tetrahedra.vertices)
       vertices.push_back(triple(x));
@@ -157,16 +148,14 @@ namespace geocone::GEOCONE_DIM
               for (const auto &[a, b] :
                    {std::pair(0, 0), {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}})
                 s.push_back(given.units.stress / (a == b ? 1. : sqrt2) *
-                            claim.bound.stress[i][index_of_component[a][b]]);
+                            bound.stress[i][index_of_component[a][b]]);
               of_cell.push_back(s);
             }
           else
-            of_cell.push_back(
-              triple(claim.bound.velocity[i], given.units.velocity));
+            of_cell.push_back(triple(bound.velocity[i], given.units.velocity));
         fields.push_back(of_cell);
       }
     json[claim.is_lower ? "stress" : "velocity"] = fields;
-    write_file(folder + "/certificate_" + side + ".json",
-               [&](std::ostream &out) { out << json.dump() << "\n"; });
+    claim.write(folder, json);
   }
 } // namespace geocone::GEOCONE_DIM

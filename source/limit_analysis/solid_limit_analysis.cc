@@ -236,36 +236,17 @@ namespace geocone::GEOCONE_DIM
     level.cpu_seconds   = time.cpu_time();
     check_finite(level.upper + level.lower + level.gap);
     add_level(level, now);
-    if (limit_output.writes_certificates())
-      write_certificates(level);
+    for_each_claim(level,
+                   best_of(limit_output.all_records()),
+                   [&](const CertificateClaim &claim) {
+                     write_certificate(limit_output.folder(),
+                                       load.on(scene, *tetrahedra),
+                                       claim.is_lower ? lower : upper,
+                                       claim);
+                   });
     error = gap;
     return is_complete(bracket().gap()) ? StepOutcome::stage
                                         : StepOutcome::well;
-  }
-
-  void
-  SolidLimitAnalysis::write_certificates(const BoundLevel &level) const
-  {
-    const LoadBracket best  = best_of(limit_output.all_records());
-    const SolidScene  given = load.on(scene, *tetrahedra);
-    const auto        write = [&](const bool                  is_lower,
-                           const bool                  is_certified,
-                           const double                value,
-                           const std::optional<double> best_value,
-                           const SolidBound           &bound) {
-      if (is_certified && best_value == value)
-        write_certificate(
-          limit_output.folder(),
-          kind_word(),
-          given,
-          {is_lower,
-           bound,
-           value,
-           reduces_strength() ? value : 1.,
-           load.is_reaction() ? std::abs(scene.observation.factor) : 1.});
-    };
-    write(true, level.lower_certified, level.lower, best.lower, lower);
-    write(false, level.upper_certified, level.upper, best.upper, upper);
   }
 
   void

@@ -4,6 +4,7 @@
 #ifndef geocone_limit_analysis_bound_analysis_h
 #define geocone_limit_analysis_bound_analysis_h
 
+#include <geocone/limit_analysis/certificate_claim.h>
 #include <geocone/limit_analysis/limit_output.h>
 #include <geocone/limit_analysis/load_choice.h>
 #include <geocone/limit_analysis/safety_search.h>
@@ -13,6 +14,7 @@
 #include <deal.II/base/parameter_acceptor.h>
 
 #include <algorithm>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -122,6 +124,14 @@ namespace geocone::GEOCONE_DIM
      *  @param[in,out] now the time is set to the number of meshes */
     void
     add_level(BoundLevel level, TimePoint &now);
+
+    /** Calls a function for each bound of a level that is the best one so far, if
+     *  certificates are to be written. @param best of all levels */
+    void
+    for_each_claim(
+      const BoundLevel                                    &level,
+      const LoadBracket                                   &best,
+      const std::function<void(const CertificateClaim &)> &write) const;
 
     /** Returns true if no further mesh is required. @param gap certified so far */
     bool

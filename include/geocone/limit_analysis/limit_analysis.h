@@ -121,10 +121,6 @@ namespace geocone::GEOCONE_DIM
     LoadBracket
     certified_by(const std::vector<BoundLevel> &levels) const;
 
-    /** Writes the certificates of the bounds of a level that are the best so far. */
-    void
-    write_certificates(const BoundLevel &level) const;
-
     /** Computes, on the current mesh, the gradients of both bounds. */
     std::vector<Gradient>
     gradients_of_last() const;

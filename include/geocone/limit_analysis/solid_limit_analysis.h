@@ -52,10 +52,6 @@ namespace geocone::GEOCONE_DIM
     double
     share_of_gap() const;
 
-    /** Writes the certificates of the bounds of a level that are the best so far. */
-    void
-    write_certificates(const BoundLevel &level) const;
-
     bool
     reduces_strength() const override
     {
