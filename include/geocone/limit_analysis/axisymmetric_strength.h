@@ -29,29 +29,8 @@ namespace geocone
     M(1, 1)                     = -0.5;
     M(2, 2)                     = M_SQRT1_2;
     M(3, 3)                     = 1.;
-    const Eigen::Vector4d   one(1., 1., 0., 1.), unit = M * one;
-    const double            K = start_of_friction(sine);
-    AxisymmetricMohrCoulomb law;
-    law.A.topLeftCorner<4, 4>()     = (1. + sine) * M;
-    law.A.bottomLeftCorner<4, 4>()  = -(1. - sine) * M;
-    law.A.topRightCorner<4, 1>()    = -unit;
-    law.A.bottomRightCorner<4, 1>() = unit;
-    law.o.head<4>()                 = unit;
-    if (sine > 0.)
-      {
-        const double p      = (K - 1.) / (2. * sine);
-        law.start.head<4>() = -p * one;
-        law.start[4]        = -(1. - sine) * p - K / 2.;
-        law.inside          = one / std::sqrt(3.);
-      }
-    else
-      {
-        law.null_vector.head<4>() = one / 2.;
-        law.null_vector[4]        = 1. / 2.;
-        law.start[4]              = -1. / 2.;
-      }
-    law.finish();
-    return law;
+    return two_matrices<AxisymmetricMohrCoulomb, 4>(
+      sine, M, Eigen::Vector4d(1., 1., 0., 1.));
   }
 } // namespace geocone
 

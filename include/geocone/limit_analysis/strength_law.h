@@ -122,40 +122,51 @@ namespace geocone
     return std::pow((1. + a) / (1. - a), 2);
   }
 
-  /** Mohr-Coulomb strength (1 + S) s_1 - (1 - S) s_3 <= k, expressed by two semidefinite
-   *  matrices. The matrices are (k + t) I - (1 + S) s and (1 - S) s - t I, with k = 2 c
-   *  cos(phi) and S = sin(phi); for S = 0 the strength is Tresca's. Stresses are Mandel
-   *  vectors, tension positive. */
+  /** Returns Mohr-Coulomb's strength (1 + S) s_1 - (1 - S) s_3 <= k, expressed by two
+   *  semidefinite matrices (k + t) I - (1 + S) s and (1 - S) s - t I, with k = 2 c
+   *  cos(phi) and S = sin(phi); for S = 0 the strength is Tresca's.
+   *  @param M maps stresses to the vectors of the cone @param one unit tensor as a stress */
+  template <typename Law, int n>
+  Law
+  two_matrices(const double                       sine,
+               const Eigen::Matrix<double, n, n> &M,
+               const Eigen::Matrix<double, n, 1> &one)
+  {
+    const Eigen::Matrix<double, n, 1> unit = M * one;
+    const double                      K    = start_of_friction(sine);
+    Law                               law;
+    law.A.template topLeftCorner<n, n>()     = (1. + sine) * M;
+    law.A.template bottomLeftCorner<n, n>()  = -(1. - sine) * M;
+    law.A.template topRightCorner<n, 1>()    = -unit;
+    law.A.template bottomRightCorner<n, 1>() = unit;
+    law.o.template head<n>()                 = unit;
+    if (sine > 0.)
+      {
+        const double p               = (K - 1.) / (2. * sine);
+        law.start.template head<n>() = -p * one;
+        law.start[n]                 = -(1. - sine) * p - K / 2.;
+        law.inside                   = one / std::sqrt(3.);
+      }
+    else
+      {
+        law.null_vector.template head<n>() = one / 2.;
+        law.null_vector[n]                 = 1. / 2.;
+        law.start[n]                       = -1. / 2.;
+      }
+    law.finish();
+    return law;
+  }
+
+  /** Mohr-Coulomb strength of all stress components, which are Mandel vectors, tension
+   *  positive. */
   using MohrCoulombCones =
     StrengthLaw<ProductCone<SemidefiniteCone, SemidefiniteCone>, 6, 1>;
 
   inline MohrCoulombCones
   mohr_coulomb_cones(const double sine)
   {
-    const Eigen::Matrix<double, 6, 1> m = SemidefiniteCone::unit();
-    const double                      K = start_of_friction(sine);
-    MohrCoulombCones                  law;
-    law.A.setZero();
-    law.A.topLeftCorner<6, 6>().diagonal().setConstant(1. + sine);
-    law.A.bottomLeftCorner<6, 6>().diagonal().setConstant(-(1. - sine));
-    law.A.topRightCorner<6, 1>()    = -m;
-    law.A.bottomRightCorner<6, 1>() = m;
-    law.o.head<6>()                 = m;
-    if (sine > 0.)
-      {
-        const double p      = (K - 1.) / (2. * sine);
-        law.start.head<6>() = -p * m;
-        law.start[6]        = -(1. - sine) * p - K / 2.;
-        law.inside          = m / std::sqrt(3.);
-      }
-    else
-      {
-        law.null_vector.head<6>() = m / 2.;
-        law.null_vector[6]        = 1. / 2.;
-        law.start[6]              = -1. / 2.;
-      }
-    law.finish();
-    return law;
+    return two_matrices<MohrCoulombCones, 6>(
+      sine, Eigen::Matrix<double, 6, 6>::Identity(), SemidefiniteCone::unit());
   }
 
   /** Mohr-Coulomb strength with the tension cut-off s_1 <= T, expressed by the third
