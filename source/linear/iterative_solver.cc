@@ -24,18 +24,17 @@ namespace geocone
     {
     public:
       IterativeSolver(const bool                      symmetric,
-                      const double                    tolerance,
-                      const double                    largest_tolerance,
-                      const unsigned int              max_iterations,
+                      const LinearSolverParameters   &parameters,
                       std::unique_ptr<Preconditioner> preconditioner,
                       std::unique_ptr<LinearSolver>   direct)
         : symmetric(symmetric)
-        , smallest_tolerance(tolerance)
-        , largest_tolerance(std::max(tolerance, largest_tolerance))
-        , max_iterations(max_iterations)
+        , smallest_tolerance(parameters.tolerance)
+        , largest_tolerance(
+            std::max(parameters.tolerance, parameters.largest_tolerance))
+        , max_iterations(parameters.max_iterations)
         , preconditioner(std::move(preconditioner))
         , direct(std::move(direct))
-        , tolerance(tolerance)
+        , tolerance(parameters.tolerance)
       {}
 
       bool
@@ -227,17 +226,11 @@ namespace geocone
 
   std::unique_ptr<LinearSolver>
   make_iterative(const bool                      symmetric,
-                 const double                    tolerance,
-                 const double                    largest_tolerance,
-                 const unsigned int              max_iterations,
+                 const LinearSolverParameters   &parameters,
                  std::unique_ptr<Preconditioner> preconditioner,
                  std::unique_ptr<LinearSolver>   direct)
   {
-    return std::make_unique<IterativeSolver>(symmetric,
-                                             tolerance,
-                                             largest_tolerance,
-                                             max_iterations,
-                                             std::move(preconditioner),
-                                             std::move(direct));
+    return std::make_unique<IterativeSolver>(
+      symmetric, parameters, std::move(preconditioner), std::move(direct));
   }
 } // namespace geocone

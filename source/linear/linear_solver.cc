@@ -100,12 +100,8 @@ namespace geocone
     auto preconditioner = make_aggregation(comm, symmetric);
     if (on_degrees)
       preconditioner = make_p_multigrid(direct(), std::move(preconditioner));
-    return make_iterative(symmetric,
-                          tolerance,
-                          largest_tolerance,
-                          max_iterations,
-                          std::move(preconditioner),
-                          direct());
+    return make_iterative(
+      symmetric, *this, std::move(preconditioner), direct());
   }
 
   bool

@@ -212,9 +212,7 @@ namespace geocone
    *  @param direct direct solver for systems that exceed max_iterations */
   std::unique_ptr<LinearSolver>
   make_iterative(const bool                      symmetric,
-                 const double                    tolerance,
-                 const double                    largest_tolerance,
-                 const unsigned int              max_iterations,
+                 const LinearSolverParameters   &parameters,
                  std::unique_ptr<Preconditioner> preconditioner,
                  std::unique_ptr<LinearSolver>   direct);
   /** @} */
