@@ -22,18 +22,6 @@ namespace geocone::GEOCONE_DIM
       displaced_by_mixture,
       displaced_by_water
     };
-
-    /** @throws InputError for a material whose pore water cannot flow */
-    void
-    require(const bool         holds,
-            const std::string &parameter,
-            const double       value,
-            const std::string &allowed,
-            const std::string &remedy)
-    {
-      if (!holds)
-        throw InputError(parameter, value, allowed, remedy);
-    }
   } // namespace
 
   class PoreWater::Exchanged

@@ -168,8 +168,7 @@ namespace geocone::GEOCONE_DIM
                            const std::string &allowed,
                            const char        *remedy) const
   {
-    if (!holds)
-      throw InputError(parameter(name), value, allowed, remedy);
+    geocone::require(holds, parameter(name), value, allowed, remedy);
   }
 
   ConstitutiveLaw::Stress

@@ -42,17 +42,6 @@ namespace geocone
     /** Suction head times alpha below which k_r of van Genuchten's curve is linear
      *  in psi: its derivative at psi = 0 is infinite for n < 2. */
     constexpr double linear_part = 0.01;
-
-    void
-    require(const bool         holds,
-            const std::string &parameter,
-            const double       value,
-            const std::string &allowed,
-            const std::string &remedy)
-    {
-      if (!holds)
-        throw InputError(parameter, value, allowed, remedy);
-    }
   } // namespace
 
   void

@@ -77,6 +77,20 @@ namespace geocone
     }
   };
 
+  /** Rejects the value of a parameter unless a condition holds. @throws
+   *  InputError */
+  template <typename Value>
+  void
+  require(const bool         holds,
+          const std::string &parameter,
+          const Value       &value,
+          const std::string &allowed,
+          const std::string &remedy)
+  {
+    if (!holds)
+      throw InputError(parameter, value, allowed, remedy);
+  }
+
   /**
    * Exception for a computation that cannot continue. Examples are a step that
    * fails at the smallest step size, a file that cannot be written, and a value
