@@ -114,8 +114,7 @@ namespace geocone::GEOCONE_DIM
     MandelMatrix   J;
     const Mode     mode    = project_on(cone, projected, &J);
     const Mandel   R       = x - projected;
-    error.largest_residual = std::max(error.largest_residual, R.norm());
-    error.stress_scale     = std::max(error.stress_scale, x.norm());
+    error.add(R, x);
     largest_k              = std::max(largest_k, cone.k);
     if (mode == Mode::elastic)
       return mode;
@@ -149,8 +148,7 @@ namespace geocone::GEOCONE_DIM
     if (!at)
       return Mode::elastic;
     const Mandel R         = s - at->stress;
-    error.largest_residual = std::max(error.largest_residual, R.norm());
-    error.stress_scale     = std::max(error.stress_scale, s.norm());
+    error.add(R, s);
     if (at->mode == Mode::elastic)
       return at->mode;
 

@@ -7,6 +7,7 @@
 #include <geocone/materials/material_library.h>
 #include <geocone/points/material_points.h>
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -46,6 +47,14 @@ namespace geocone::GEOCONE_DIM
     {
       double largest_residual = 0.;
       double stress_scale     = 0.; ///< max |s| + max k
+
+      /** Adds the residual and the stress of a point. */
+      void
+      add(const Mandel &R, const Mandel &s)
+      {
+        largest_residual = std::max(largest_residual, R.norm());
+        stress_scale     = std::max(stress_scale, s.norm());
+      }
     };
 
     /**
