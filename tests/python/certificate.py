@@ -1,26 +1,12 @@
 """The checker proves the bounds of five runs, and finds changes of their files and forgeries."""
 
-import contextlib
-import io
 import json
-import runpy
-import sys
 import types
 from pathlib import Path
 
 import numpy as np
 
-CHECKER = runpy.run_path(sys.argv[1])
-
-
-def verdict(function, path):
-    """Result of a function of the checker, and its words."""
-    words = io.StringIO()
-    with contextlib.redirect_stdout(words):
-        found = CHECKER[function](path)
-    print(words.getvalue(), end="")
-    return found, words.getvalue()
-
+from verdict import CHECKER, verdict
 
 for folder in "reaction", "weight", "factor", "obstacles", "rigid":
     good, text = verdict("check_folder", folder)

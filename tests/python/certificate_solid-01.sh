@@ -18,26 +18,12 @@ run weight bounds_solver 'Analysis/Velocities = quadratic' 'Analysis/Stresses = 
 run factor bounds_solver 'Analysis/Kind = strength reduction' 'Analysis/Solver tolerance = 1e-5' \
   'Water/Table = 0, 1' 'Materials/clay/Density = 1081'
 run circular bounds_block-04
-/usr/bin/python3 -B - "$root/scripts/check_certificate" <<'PYTHON'
-import contextlib
+PYTHONPATH="$root/tests/python" /usr/bin/python3 -B - "$root/scripts/check_certificate" <<'PYTHON'
 import copy
-import io
 import json
-import runpy
-import sys
 from pathlib import Path
 
-CHECKER = runpy.run_path(sys.argv[1])
-
-
-def verdict(function, path):
-    """Result of a function of the checker, and its words."""
-    words = io.StringIO()
-    with contextlib.redirect_stdout(words):
-        found = CHECKER[function](path)
-    print(words.getvalue(), end="")
-    return found, words.getvalue()
-
+from verdict import CHECKER, verdict
 
 for folder in "reaction", "weight", "factor", "circular":
     good, text = verdict("check_folder", folder)
