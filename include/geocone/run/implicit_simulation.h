@@ -10,30 +10,13 @@
 #include <geocone/output/run_output.h>
 #include <geocone/reduced/stress_methods.h>
 #include <geocone/run/scene_simulation.h>
+#include <geocone/run/step_control.h>
 
 #include <functional>
 #include <utility>
 
 namespace geocone::GEOCONE_DIM
 {
-  /**
-   * Control of the substep size in implicit runs. A step of the loading programme is
-   * subdivided into substeps: a failed substep is halved; after a substep with few
-   * iterations, the size increases by half, up to the full step.
-   */
-  class StepControl : public dealii::ParameterAcceptor
-  {
-  public:
-    StepControl();
-
-    void
-    prepare();
-
-    unsigned int max_halvings    = 9;
-    unsigned int easy_iterations = 12;
-    double       accepted_excess = 0.01; ///< see NonsmoothNewton::Hints
-  };
-
   /** Initial state of the material points from the results of another run. It is an
    *  alternative to InitialStress. */
   class StartOfRun : public dealii::ParameterAcceptor
@@ -108,37 +91,21 @@ namespace geocone::GEOCONE_DIM
     void
     load(const Archive &archive) override;
 
-    /** Largest permitted substep size (s) in a step of size h. Friction with
-     *  memory limits the substep to tau/2, for which the tangent is nearly
-     *  elliptic (doc/theory/friction_memory.md). */
-    double
-    largest_substep(const double h) const;
-
-    /** Smallest permitted substep size (s) in a step of size h. If a smaller
-     *  substep is necessary, the step fails. */
-    double
-    smallest_substep(const double h) const;
-
-    /** Solves a step of the loading programme from t to t + h in substeps. @throws
+    /** Solves the step of the loading programme that begins at t, in substeps. @throws
      *  StepFailure */
     void
-    solve_step(const unsigned int step, const double t, const double h);
+    solve_step(const unsigned int step, const double t);
 
     /** Halves the substep size after a substep of the given size has failed.
      *  @throws StepFailure if the substep has been halved too often */
     void
     cut(const unsigned int  step,
         const double        t,
-        const double        h,
         const double        size,
         const SolverReport &report);
 
     Json
     cost() const;
-
-    /** Maximum of halved_for_excess. If the exact law has no solution near the iterate,
-     *  smaller substeps do not help. */
-    static constexpr unsigned int most_halved_for_excess = 3;
 
     const SizesOfScene sizes_of_scene;
 
@@ -158,14 +125,6 @@ namespace geocone::GEOCONE_DIM
     /** @{ */
     Kinematics     kinematics;
     MaterialPoints points;
-    double         substep    = 0.; ///< size of the next substep (s)
-    double         last_size  = 0.; ///< size of the current or last step (s)
-    double         done       = 0.; ///< completed part of the current step (s)
-    bool           is_in_step = false; ///< whether a step has begun
-    /** Number of consecutive times that the substep was halved because the
-     *  solution with lagged friction differed too much from the exact law
-     *  (SolverReport::lag_error_too_large). */
-    unsigned int   halved_for_excess = 0;
     ImplicitRecord present;      ///< record of the current or last step
     double         reached = 0.; ///< time of the last converged substep (s)
     double         scaled  = 0.; ///< displacement path under load control (m)

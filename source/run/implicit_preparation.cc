@@ -1,0 +1,229 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/exceptions.h>
+#include <geocone/conditions/held_width.h>
+#include <geocone/materials/retention.h>
+#include <geocone/points/initial_overstress.h>
+#include <geocone/problem/bars.h>
+#include <geocone/run/implicit_simulation.h>
+#include <geocone/run/run_estimate.h>
+#include <geocone/scene/magnitudes.h>
+#include <geocone/scene/small_motion.h>
+#include <geocone/seepage/flow_on_mesh.h>
+
+#include <algorithm>
+
+namespace geocone::GEOCONE_DIM
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** Rejects strength from suction. @throws InputError */
+    void
+    refuse_suction(const Scene &scene)
+    {
+      for (unsigned int m = 0; m < scene.materials.size(); ++m)
+        if (scene.water.seepage.acts() &&
+            scene.materials.law(m).retention().adds_strength())
+          throw InputError("Materials/" + scene.materials.name(m) +
+                             "/Bishop parameter",
+                           "chi of a suction",
+                           "none in steps of FEM and MPM",
+                           "suction adds strength in bounds: 'Analysis/Kind' = "
+                           "strength reduction or limit load");
+    }
+
+    /** Whether a material of low dilatancy has nu > 0.49. */
+    bool
+    is_nearly_incompressible(const Materials &materials)
+    {
+      for (unsigned int m = 0; m < materials.size(); ++m)
+        if (const Elasticity &elastic = materials[m].elasticity();
+            materials[m].non_associativity() >
+              Material::strong_non_associativity &&
+            elastic.normal_stiffness() >
+              50. * elastic.stiffness()(2, 2)) // 1/(1 - 2 nu)
+          return true;
+      return false;
+    }
+
+    /** Effect of friction with memory on the steps, for the estimate.
+     *  @throws InputError if there are too many substeps */
+    std::string
+    text_of_memory(const Scene &scene)
+    {
+      const double tau = scene.materials.traits().friction_memory;
+      if (!std::isfinite(tau))
+        return "";
+      double longest = 0.;
+      for (const auto &stage : scene.loading.list)
+        for (const double size : stage->step_sizes())
+          longest = std::max(longest, size);
+      constexpr double most = 1e4;
+      for (unsigned int i = 0; i < scene.materials.size(); ++i)
+        if (const double own = scene.materials[i].friction_memory();
+            own > 0. && 2. * longest / own > most)
+          throw InputError(
+            "Materials/" + scene.materials.name(i) + "/Friction memory",
+            own,
+            format("0 | automatic | at least %.3g s, so that steps of %.3g s "
+                   "have at most %.0f substeps",
+                   2. * longest / most,
+                   longest,
+                   most),
+            "0 is the exact law; or take a longer memory, or shorter steps");
+      return format(
+        "friction has a memory of %.3g s, substeps at most half of it", tau);
+    }
+  } // namespace
+
+  StartOfRun::StartOfRun()
+    : ParameterAcceptor("/Initial stress")
+  {
+    add_parameter(
+      "Run",
+      folder,
+      "FEM and MPM: folder of another run with a checkpoint ('Checkpoint/Every "
+      "steps'), the same mesh and the same materials in the same order (their "
+      "parameters may differ). Positions, stresses and histories of the points "
+      "are those of its last checkpoint, at rest, instead of 'Type'. Boundary "
+      "conditions and loads are those of this file.");
+  }
+
+  std::string
+  ImplicitSimulation::prepare_mesh(const RunOptions &options)
+  {
+    std::string remark;
+    Seeding   *seeding    = method.is_mpm() ? &implicit_mpm.seeding() : nullptr;
+    const auto check_size = [&]() {
+      const RunEstimate estimate =
+        estimate_run(scene, method, mesh, seeding, run_output.fields_asked());
+      log.print(options.name + ": " + estimate.text());
+      estimate.check(options.force);
+    };
+    if (!scene.geometry.is_script())
+      check_size();
+    mesh.take_sizes(
+      [&](const MeshParameters &parameters) {
+        scene.materials.refuse_undrained(
+          "Mesh/Type = from the bounds",
+          "bounds are those of drained strength: take another mesh");
+        scene.structures.refuse("'Mesh/Type' = from the bounds",
+                                "bounds do not support them: take another mesh");
+        scene.dirichlet.refuse_stages(
+          "'Mesh/Type' = from the bounds",
+          "bounds have no stages: take another mesh");
+        auto [sizes, bracket] = sizes_of_scene(parameters, scene, comm, log);
+        if (scene.loading.reduces_strength())
+          bracket.name = "the factor of all loads at full strength";
+        if (bracket.other_than_observed.empty())
+          run_output.set_bracket(bracket);
+        else
+          remark = "the bounds of the mesh are not reported: " +
+                   bracket.other_than_observed;
+        return sizes;
+      },
+      scene,
+      method);
+    mesh.prepare(scene, method);
+    if (scene.geometry.is_script())
+      check_size();
+    return remark;
+  }
+
+  void
+  ImplicitSimulation::remember_friction()
+  {
+    // The exact law is easy with particles unless the soil is nearly incompressible.
+    if ((!method.is_mpm() || is_nearly_incompressible(scene.materials)) &&
+        !newton.wants_exact_friction() &&
+        scene.materials.traits().strongly_non_associated)
+      scene.materials.set_friction_memory(time_of_small_motion(
+        scene, mesh.bounding_box(), [&](const BoundaryCondition &condition) {
+          return mesh.faces_of(condition);
+        }));
+  }
+
+  std::vector<std::string>
+  ImplicitSimulation::prepare_method(const RunOptions &options)
+  {
+    scene.materials.check_closed_form(method.name());
+    if (scene.loading.reduces_strength())
+      scene.materials.reduce_strength(1.);
+    for (const auto &stage : scene.loading.list)
+      stage->check_implicit();
+    newton.prepare();
+    step_control.prepare();
+    exact_solution.prepare();
+    if constexpr (dim == 2)
+      {
+        refuse_suction(scene);
+        let_water_flow(scene, comm, log, options.dry_run);
+      }
+    const std::string remark_on_bounds = prepare_mesh(options);
+    remember_friction();
+    step_control.limit(scene.materials.traits().friction_memory);
+    if (const std::string text = text_of_memory(scene); !text.empty())
+      log.print(options.name + ": " + text);
+    space.prepare(
+      mesh, method, scene.materials.traits().strongly_non_associated);
+    if (method.is_mpm())
+      {
+        implicit_fem.refuse_consolidation();
+        stepper = &implicit_mpm;
+      }
+    else
+      stepper = &implicit_fem;
+    std::vector<std::string> warnings = {
+      stepper->prepare(scene, mesh, space, newton, timer, kinematics, points)};
+    if (!start_of_run.folder.empty() && stepper->consolidates())
+      throw InputError("Initial stress/Run",
+                       start_of_run.folder,
+                       "empty with 'Time stepping/Consolidation'",
+                       "compute the earlier stages in the same run");
+    if (!start_of_run.folder.empty() && !options.resumes)
+      checkpoint.read(
+        start_of_run.folder,
+        log,
+        [&](const Archive &archive) {
+          stepper->begin_from(archive, kinematics, points);
+          return std::string();
+        },
+        "Initial stress/Run");
+    warnings.push_back(remark_on_bounds);
+    warnings.push_back(scene.warn_of_time_histories());
+    const BoundingBox<dim> body(scene.geometry.shape == Geometry::Shape::file
+                                  ? mesh.bounding_box()
+                                  : scene.geometry.bounding_box());
+    log.print(options.name + ": " + text_of_magnitudes(scene, body));
+    for (const auto &more : {warn_of_magnitudes(scene, body),
+                             warn_of_partial_coverage(scene, mesh, space),
+                             method.is_mpm() ? std::vector<std::string>()
+                                             : warn_of_cut_cells(scene, mesh),
+                             warn_of_fixed_ends(scene.structures, mesh)})
+      warnings.insert(warnings.end(), more.begin(), more.end());
+    warnings.push_back(warn_of_overstress(points, scene.materials, comm));
+    LawTraits traits = scene.materials.traits();
+    // The remedies of undrained soil are refused.
+    traits.undrained = traits.undrained && !stepper->consolidates();
+    for (const auto &more : {space.warnings(traits, method),
+                             {scene.warn_of_effective_loads()},
+                             scene.materials.warnings()})
+      warnings.insert(warnings.end(), more.begin(), more.end());
+    warnings.erase(std::remove(warnings.begin(), warnings.end(), ""),
+                   warnings.end());
+    if (method.is_mpm())
+      observed_points.prepare_points(scene, points, comm);
+    else
+      observed_points.prepare_field(scene, mesh, space);
+    freezer.check(scene);
+    if (stepper->consolidates() && freezer.is_used())
+      throw InputError("Output/Freeze steps",
+                       "steps or failures",
+                       "none with 'Time stepping/Consolidation'",
+                       "leave 'Output/Freeze steps' and 'Freeze failures' out");
+    return warnings;
+  }
+} // namespace geocone::GEOCONE_DIM
