@@ -17,7 +17,7 @@ For each run folder, as far as the files for them exist:
                                    shear_stress.png of an elastic body instead
 of an explicit run energy.png, runout.png, points.png (plastic strain or shear stress at
 six times), slide.png where points are taken away, structure.png and loading.png of soils
-with such ratios; of an element test
+with such ratios, excess_pore_pressure.png where pore water flows; of an element test
 stress_strain.png, stress_path.png, compression.png and ratios.png; of seepage
 flow_net.png and discharge.png.
 Of each run also report.html, a page with all of it, and, of fields, paraview_state.py,

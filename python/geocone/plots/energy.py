@@ -22,6 +22,7 @@ EXPLICIT = {
                      "label": "released potential\nenergy (gravity work)"},
     "stress work": {"color": "#D55E00"},
     "damping work": {"color": "#009E73", "label": "damping"},
+    "seepage work": {"color": "#009E73", "linestyle": ":", "label": "flow of pore water"},
     "support work": {"color": ORANGE, "label": "work of the supports"},
     "stopped energy": {"color": "#56B4E9", "label": "stopped kinetic energy"},
     "removed kinetic energy": {"color": "#505050"}}

@@ -5,6 +5,7 @@
   points.png      points-*.vtu at up to six times: plastic strain, or shear stress
   structure.png   the same: the ratio Rb of the structure, of soils that have one
   loading.png     the same: the ratio R of the subloading surface
+  excess_pore_pressure.png  the same: of soil whose pore water flows
   runout.png      statistics.csv: how far and how high the body reaches
   slide.png       points-*.vtu: what has moved, of a body whose outline stays
 """
@@ -17,6 +18,7 @@ from matplotlib.colors import Normalize
 from geocone.plots.energy import draw_explicit
 from geocone.plots.point_values import level_of, states_at, strain_or_shear, values_of
 from geocone.plots.points import draw_panels, look_at
+from geocone.plots.pressures import NAME as PRESSURE
 from geocone.reader import Missing, ReadError
 from geocone.style import BESIDE, COLORS, RATIOS, Skipped, plain, save, subplots
 
@@ -127,6 +129,17 @@ def draw_ratio(run, path, names, label, least, times=None):
                 label, RATIOS, extend="max" if most > 1. else "neither")
 
 
+def draw_pressure(run, path, times=None):
+    """Draws the excess pore pressure."""
+    fields = snapshots_of(run, times)
+    values = [field.data[PRESSURE][:, 0] * run.mass_unit / 1e3 for field in fields]
+    most = level_of(fields, [np.abs(pressure) for pressure in values])
+    if most == 0.:
+        raise Skipped("there is no excess pore pressure")
+    draw_panels(run, path, fields, look_of(fields, values), values, Normalize(-most, most),
+                "excess pore pressure (kPa)", "RdBu_r", extend="both")
+
+
 def pictures(run, times=None):
     """Drawing functions of the pictures of an explicit run, by name."""
     found = {"energy.png": draw_explicit, "runout.png": draw_runout,
@@ -137,6 +150,8 @@ def pictures(run, times=None):
         known = set(snapshots_of(run, times)[0].data)
     except (ReadError, Skipped):  # reported where points.png is drawn
         known = set()
+    if PRESSURE in known:
+        found["excess_pore_pressure.png"] = functools.partial(draw_pressure, times=times)
     for name, (names, label, least) in SOILS.items():
         if known & set(names):
             found[name] = functools.partial(draw_ratio, names=names, label=label,

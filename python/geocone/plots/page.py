@@ -48,7 +48,7 @@ CAPTIONS = {
     "dependence.png": "What the bounds depend on",
     "principal_stresses.png": "Principal stresses at the end",
     "plastic_strain_rate.png": "Where the soil yields at the end, and how it moves",
-    "excess_pore_pressure.png": "Excess pore pressure at the end",
+    "excess_pore_pressure.png": "Excess pore pressure",
     "plastic_strain.png": "Plastic strain of the material points",
     "shear_stress.png": "Largest shear stress of the material points",
     "points.png": "The material points at some times", "runout.png": "Reach of the body",
