@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
-#include <geocone/conditions/held_width.h>
+#include <geocone/conditions/mesh_coverage.h>
 #include <geocone/materials/retention.h>
 #include <geocone/points/initial_overstress.h>
 #include <geocone/problem/bars.h>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/log.h>
-#include <geocone/conditions/held_width.h>
+#include <geocone/conditions/mesh_coverage.h>
 #include <geocone/shapes/part_in_box.h>
 #include <geocone/surfaces/face_points.h>
 

@@ -1,8 +1,8 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-#ifndef geocone_conditions_held_width_h
-#define geocone_conditions_held_width_h
+#ifndef geocone_conditions_mesh_coverage_h
+#define geocone_conditions_mesh_coverage_h
 
 #include <geocone/mesh/background_mesh.h>
 #include <geocone/scene/scene.h>
