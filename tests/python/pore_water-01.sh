@@ -9,9 +9,11 @@ PYTHONPATH=$root/python /usr/bin/python3 -B - <<'PYTHON'
 from geocone.plots import explicit
 from geocone.plots.energy import EXPLICIT, energies_of
 from geocone.reader import Run
+from geocone.style import finish
 
 run = Run("run")
 assert energies_of(run, EXPLICIT)["seepage work"][-1] > 0.
 explicit.pictures(run)["excess_pore_pressure.png"](run, run.folder / "excess_pore_pressure.png")
+finish()
 assert (run.folder / "excess_pore_pressure.png").stat().st_size > 1e4
 PYTHON
