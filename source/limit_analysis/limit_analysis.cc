@@ -121,6 +121,9 @@ namespace geocone::GEOCONE_DIM
                        "set Mesh/Cells = triangles");
     check_axis();
     triangles.emplace(fitted_mesh(mesh_parameters, scene, comm));
+    const dealii::BoundingBox<dim> body(triangles->vertices);
+    scene.geometry.check_radii(triangles->vertices,
+                               1e-12 * body.side_length(0));
     if (scene.geometry.shape == Geometry::Shape::file)
       file_domain.emplace(domain_of_file(*triangles, scene));
     if (scene.water.acts() && !scene.water.varies_in_cells())
@@ -129,7 +132,6 @@ namespace geocone::GEOCONE_DIM
       bounded_load.prepare_reduction(scene, *triangles, kind_word());
     else
       bounded_load.prepare(scene, *triangles);
-    const dealii::BoundingBox<dim> body(triangles->vertices);
     print_start(options,
                 triangles->cells.size(),
                 format("; about %.0f MB", 100. + 0.02 * most_cells),

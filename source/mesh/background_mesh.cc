@@ -171,17 +171,7 @@ namespace geocone::GEOCONE_DIM
         part_bodies(scene.contacts, mesh);
       }
     symmetry = scene.geometry.symmetry;
-    if (is_axisymmetric())
-      for (const Point<dim> &x : mesh.points)
-        if (!(x[0] >= 0.))
-          throw InputError(
-            "Geometry/Symmetry",
-            scene.geometry.symmetry.word(),
-            format("x >= 0, the radius, and there is a vertex at "
-                   "(%g, %g)",
-                   x[0],
-                   x[1]),
-            "put the axis at x = 0 and the body on its right");
+    scene.geometry.check_radii(mesh.points);
     sides                      = mesh.sides;
     lines                      = mesh.grid;
     simplicial                 = mesh.has_simplices();

@@ -404,6 +404,22 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
+  Geometry::check_radii(const std::vector<dealii::Point<dim>> &vertices,
+                        const double                           rounding) const
+  {
+    if (is_axisymmetric())
+      for (const dealii::Point<dim> &x : vertices)
+        if (!(x[0] >= -rounding))
+          throw InputError("Geometry/Symmetry",
+                           symmetry.word(),
+                           format("x >= 0, the radius, and there is a vertex "
+                                  "at (%g, %g)",
+                                  x[0],
+                                  x[1]),
+                           "put the axis at x = 0 and the body on its right");
+  }
+
+  void
   Geometry::refuse_axis(const std::string &who, const std::string &remedy) const
   {
     if (is_axisymmetric())

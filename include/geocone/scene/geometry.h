@@ -184,6 +184,12 @@ namespace geocone::GEOCONE_DIM
     std::string
     unit(const std::string &in_plane_strain) const;
 
+    /** Rejects vertices at a negative radius of an axisymmetric body. @throws
+     *  InputError @param rounding largest accepted distance beyond the axis (m) */
+    void
+    check_radii(const std::vector<dealii::Point<dim>> &vertices,
+                const double                           rounding = 0.) const;
+
     /** Rejects axisymmetry. @throws InputError @param who feature that does not
      *  support it
      *  @param remedy e.g. "set ..." */
