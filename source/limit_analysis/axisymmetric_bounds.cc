@@ -249,8 +249,7 @@ namespace geocone::GEOCONE_DIM
 
     namespace space = axisymmetric_velocity;
 
-    constexpr unsigned int columns_of_rate = space::order == 1 ? 6 : 8,
-                           columns_of_jump = 6;
+    constexpr unsigned int columns_of_rate = 8, columns_of_jump = 6;
     using EdgePoints    = PointGroupOf<FaceConeOf<2>, columns_of_jump>;
     using OpeningPoints = PointGroupOf<OpeningCone, columns_of_jump>;
 

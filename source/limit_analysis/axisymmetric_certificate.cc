@@ -404,9 +404,11 @@ namespace geocone::GEOCONE_DIM
     ConicProblem          problem = upper_problem(scene);
     CertifiedBounds::Side side;
     static_cast<ConicSolution &>(side.solution) =
-      solve_for_velocities(problem, tolerance);
+      solve_for_velocities(problem, tolerance, [&](const Eigen::VectorXd &q) {
+        side.bound = certify_upper(scene, q, power);
+        return side.bound;
+      });
     side.n_unknowns = problem.n_unknowns();
-    side.bound      = certify_upper(scene, side.solution.q, power);
     return side;
   }
 

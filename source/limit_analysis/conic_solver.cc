@@ -627,20 +627,32 @@ namespace geocone
   }
 
   ConicSolution
-  solve_for_velocities(ConicProblem &problem, const double tolerance)
+  solve_for_velocities(
+    ConicProblem                                                &problem,
+    const double                                                 tolerance,
+    const std::function<BoundVerdict(const Eigen::VectorXd &q)> &certify)
   {
     const bool   is_constrained = problem.has_free_direction();
     ConicOptions options;
     options.tolerance             = tolerance;
     options.equilibrium_tolerance = std::max(tolerance, 1e-7);
     options.flow_tolerance        = is_constrained ? 1e-6 : 1e-8;
-    options.flow_margin           = 10. * options.flow_tolerance;
-    ConicSolution solution        = solve(problem, options);
-    if (is_constrained && solution.q.allFinite())
+    unsigned int factorisations   = 0;
+    for (double margin = 10.;; margin *= 10.)
       {
-        constrain_rates(problem, solution.q);
-        ++solution.factorisations;
+        options.flow_margin    = margin * options.flow_tolerance;
+        ConicSolution solution = solve(problem, options);
+        if (is_constrained && solution.q.allFinite())
+          {
+            constrain_rates(problem, solution.q);
+            ++solution.factorisations;
+          }
+        factorisations += solution.factorisations;
+        solution.factorisations    = factorisations;
+        const BoundVerdict verdict = certify(solution.q);
+        if (verdict.certified || !(verdict.violation > 0.) ||
+            !solution.converged || margin >= 1000.)
+          return solution;
       }
-    return solution;
   }
 } // namespace geocone

@@ -237,13 +237,17 @@ namespace geocone::GEOCONE_DIM
                   const double       tolerance)
   {
     ConicProblem problem = upper_problem(bound, order);
-    const ConicSolution solution = solve_for_velocities(problem, tolerance);
-    std::vector<Tensor<1, dim>> velocity(simplex_nodes::n_in_cell(order) *
-                                         bound.tetrahedra->cells.size());
-    for (unsigned int i = 0; i < velocity.size(); ++i)
-      for (unsigned int d = 0; d < dim; ++d)
-        velocity[i][d] = solution.q[dim * i + d];
-    SolidBound side = certify_upper(bound, order, velocity);
+    SolidBound          side;
+    const ConicSolution solution =
+      solve_for_velocities(problem, tolerance, [&](const Eigen::VectorXd &q) {
+        std::vector<Tensor<1, dim>> velocity(simplex_nodes::n_in_cell(order) *
+                                             bound.tetrahedra->cells.size());
+        for (unsigned int i = 0; i < velocity.size(); ++i)
+          for (unsigned int d = 0; d < dim; ++d)
+            velocity[i][d] = q[dim * i + d];
+        side = certify_upper(bound, order, velocity);
+        return side;
+      });
     add_solution(side, solution, problem);
     return side;
   }

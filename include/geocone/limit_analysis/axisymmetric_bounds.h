@@ -105,7 +105,6 @@ namespace geocone::GEOCONE_DIM
     constexpr unsigned int order   = 2; ///< of the strain rates
     constexpr unsigned int n_v     = bernstein::n_in_triangle(order);
     constexpr unsigned int n_w     = bernstein::n_in_triangle(order + 1);
-    constexpr unsigned int n_rates = n_v;
 
     inline unsigned int
     dof_of_v(const unsigned int cell, const bernstein::Exponents<3> &a)

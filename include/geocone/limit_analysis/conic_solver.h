@@ -4,8 +4,10 @@
 #ifndef geocone_limit_analysis_conic_solver_h
 #define geocone_limit_analysis_conic_solver_h
 
+#include <geocone/limit_analysis/bound_verdict.h>
 #include <geocone/limit_analysis/point_group.h>
 
+#include <functional>
 #include <limits>
 #include <memory>
 #include <string>
@@ -107,12 +109,16 @@ namespace geocone
   ConicSolution
   solve(ConicProblem &problem, const ConicOptions &options);
 
-  /** Solves a conic problem for velocities that an upper bound can certify:
-   *  rates lie inside their cones by a margin, which no projection repairs where phi >
-   *  0, and constrained rates vanish.
-   *  @param tolerance duality gap, relative to the load */
+  /** Solves a conic problem for velocities that an upper bound can certify: constrained
+   *  rates vanish, and others lie inside their cones by a margin, which costs its part of
+   *  the load and is raised while rates miss the cones.
+   *  @param tolerance duality gap, relative to the load
+   *  @param certify verdict on velocities; its last call has those that are returned */
   ConicSolution
-  solve_for_velocities(ConicProblem &problem, const double tolerance);
+  solve_for_velocities(
+    ConicProblem                                                &problem,
+    const double                                                 tolerance,
+    const std::function<BoundVerdict(const Eigen::VectorXd &q)> &certify);
 
   /** Projects velocities onto the subspace in which all constrained strain rates vanish.
    *  The projection is orthogonal in the metric of B'B. For phi = 0 the constrained rates
