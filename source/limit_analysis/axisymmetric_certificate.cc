@@ -145,7 +145,9 @@ namespace geocone::GEOCONE_DIM
                   result.power += edge.length / (order + 1) * left[k][d] *
                                   edge.condition.velocity[d];
                 else
-                  take_larger(result.error, std::abs(left[k][d]));
+                  take_larger(result.error,
+                              2. * std::abs(left[k][d]) /
+                                (edge.radius[0] + edge.radius[1]));
             }
         }
       return result;
@@ -164,6 +166,8 @@ namespace geocone::GEOCONE_DIM
         const auto            &cell = scene.cells[c];
         const SpatialStrength &one =
           scene.bound.strengths[scene.bound.triangles.material[c]];
+        const double mean_radius =
+          (cell.radius[0] + cell.radius[1] + cell.radius[2]) / 3.;
         check.is_dead = check.is_dead || cell.body_force.dead.norm() > 0.;
         for (const auto &a :
              bernstein::functions_of_triangle(axisymmetric_stress::order))
@@ -175,7 +179,8 @@ namespace geocone::GEOCONE_DIM
             if (k == 0. && s.isZero(0.))
               continue; // on the axis
             const Eigen::Matrix3d m = tensor_of(s);
-            check.add(one.utilisation(k, m), k, m.norm());
+            check.add(
+              one.utilisation(k, m), k / mean_radius, m.norm() / mean_radius);
           }
       }
     for (const auto &edge : scene.edges)
