@@ -113,6 +113,7 @@ namespace geocone
   BlockMatrix::Factors::analyse_natural_order(
     const Eigen::SparseMatrix<double> &matrix)
   {
+    cholmod().print              = 0; // a failure is a value here
     cholmod().nmethods           = 1;
     cholmod().method[0].ordering = CHOLMOD_NATURAL;
     cholmod().postorder          = false; // the rows are in postorder
