@@ -139,8 +139,9 @@ namespace geocone::GEOCONE_DIM
   MeshParameters::check_mesh_from_bounds(const Geometry &geometry,
                                          const Method   &method) const
   {
-    const std::string remedy = "strict bounds are of plane scenes: set "
-                               "Mesh/Type = unstructured";
+    const std::string remedy =
+      "meshes from the bounds are those of plane scenes: set "
+      "Mesh/Type = unstructured";
     if (dim == 3)
       throw InputError("Mesh/Type",
                        type.word(),
