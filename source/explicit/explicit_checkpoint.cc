@@ -15,63 +15,31 @@ namespace geocone::GEOCONE_DIM
   using namespace dealii;
 
   void
-  ExplicitMPM::state_of_all(StateRow &row)
+  ExplicitPoints::save(Archive &archive)
   {
-    row(n_steps,
-        mass_ratio,
-        fade_end,
-        last_step,
-        gravity,
-        sums,
-        energy_n,
-        rising,
-        stage_start,
-        progress.begun,
-        progress.now,
-        progress.report);
-    if (boundary)
-      boundary->state(row);
-  }
-
-  void
-  ExplicitMPM::state_of_ranks(StateRow &row)
-  {
-    row(n_point_steps, sum, *nodes, counts);
-  }
-
-  void
-  ExplicitMPM::save(Archive &archive)
-  {
-    StateRow of_all, of_ranks;
-    state_of_all(of_all);
-    archive.write_row("explicit", of_all);
-    state_of_ranks(of_ranks);
-    archive.write("explicit sums", of_ranks.values());
     StateRow list;
-    for (PointArrays &group : groups)
+    for (PointArrays &group : all_groups)
       {
         unsigned int material  = group.of_material;
         std::string  variables = group.variables();
         list(material, group.ramped, variables);
       }
     archive.write_row("groups", list);
-    for (unsigned int g = 0; g < groups.size(); ++g)
+    for (unsigned int g = 0; g < all_groups.size(); ++g)
       {
-        const PointArrays  &group = groups[g];
+        const PointArrays  &group = all_groups[g];
         std::vector<double> rows;
         rows.reserve(group.n_points() * group.n_numbers());
         for (unsigned int p = 0; p < group.n_points(); ++p)
           group.add_row(p, rows);
         archive.write("points " + std::to_string(g), rows);
       }
-    // Continued and resumed runs thus start from the same nodes.
-    must_refresh = true;
   }
 
   std::vector<double>
-  ExplicitMPM::points_of_rank(const Archive     &archive,
-                              const std::string &name,
-                              const std::size_t  size) const
+  ExplicitPoints::points_of_rank(const Archive     &archive,
+                                 const std::string &name,
+                                 const std::size_t  size) const
   {
     const unsigned int rank    = Utilities::MPI::this_mpi_process(comm),
                        n_ranks = Utilities::MPI::n_mpi_processes(comm);
@@ -95,6 +63,71 @@ namespace geocone::GEOCONE_DIM
       if (owner[i] % n_ranks == rank) // points without owner go to the first
         own.insert(own.end(), &all[i * size], &all[i * size] + size);
     return own;
+  }
+
+  void
+  ExplicitPoints::load(const Archive &archive)
+  {
+    StateRow list = archive.read_row("groups");
+    all_groups.clear();
+    while (!list.at_end())
+      {
+        unsigned int material = 0;
+        bool         ramped   = false;
+        std::string  variables;
+        list(material, ramped, variables);
+        if (material >= scene->materials.size())
+          throw RunError("the checkpoint has other materials");
+        all_groups.push_back(make_group(material));
+        PointArrays &group = all_groups.back();
+        group.ramped       = ramped;
+        check_variables(variables, group.variables());
+        const unsigned int        size = group.n_numbers();
+        const std::vector<double> rows = points_of_rank(
+          archive, "points " + std::to_string(all_groups.size() - 1), size);
+        group.set_capacity(rows.size() / size);
+        for (std::size_t i = 0; i < rows.size(); i += size)
+          group.append(&rows[i]);
+        group.pad();
+      }
+  }
+
+  void
+  ExplicitMPM::state_of_all(StateRow &row)
+  {
+    row(n_steps,
+        fade_end,
+        last_step,
+        gravity,
+        damping.energy,
+        damping.rising,
+        stage_start,
+        progress.begun,
+        progress.now,
+        progress.report);
+    body.state_of_all(row);
+    if (boundary)
+      boundary->state(row);
+  }
+
+  void
+  ExplicitMPM::state_of_ranks(StateRow &row)
+  {
+    row(sum, *nodes);
+    body.state_of_ranks(row);
+  }
+
+  void
+  ExplicitMPM::save(Archive &archive)
+  {
+    StateRow of_all, of_ranks;
+    state_of_all(of_all);
+    archive.write_row("explicit", of_all);
+    state_of_ranks(of_ranks);
+    archive.write("explicit sums", of_ranks.values());
+    body.save(archive);
+    // Continued and resumed runs thus start from the same nodes.
+    must_refresh = true;
   }
 
   void
@@ -123,29 +156,7 @@ namespace geocone::GEOCONE_DIM
       own = mine.values();
     StateRow row(own);
     state_of_ranks(row);
-
-    StateRow list = archive.read_row("groups");
-    groups.clear();
-    while (!list.at_end())
-      {
-        unsigned int material = 0;
-        bool         ramped   = false;
-        std::string  variables;
-        list(material, ramped, variables);
-        if (material >= scene->materials.size())
-          throw RunError("the checkpoint has other materials");
-        groups.push_back(make_group(material));
-        PointArrays &group = groups.back();
-        group.ramped       = ramped;
-        check_variables(variables, group.variables());
-        const unsigned int        size = group.n_numbers();
-        const std::vector<double> rows = points_of_rank(
-          archive, "points " + std::to_string(groups.size() - 1), size);
-        group.set_capacity(rows.size() / size);
-        for (std::size_t i = 0; i < rows.size(); i += size)
-          group.append(&rows[i]);
-        group.pad();
-      }
+    body.load(archive);
     must_refresh = true;
   }
 } // namespace geocone::GEOCONE_DIM

@@ -1,11 +1,10 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-// Passes of the explicit material point method over its points, block by block:
-// they gather from the nodes, update stresses, move, and scatter to the nodes.
+// Passes over the points of the explicit material point method, block by block: they
+// gather from the nodes, update stresses, move, and scatter to the nodes.
 #include <geocone/base/log.h>
-#include <geocone/base/stopwatch.h>
-#include <geocone/explicit/explicit_mpm.h>
+#include <geocone/explicit/explicit_points.h>
 
 #include <algorithm>
 #include <cmath>
@@ -15,9 +14,9 @@ namespace geocone::GEOCONE_DIM
   using namespace dealii;
 
   TransferBlock
-  ExplicitMPM::block(const unsigned int g, const unsigned int first)
+  ExplicitPoints::block(const unsigned int g, const unsigned int first)
   {
-    PointArrays       &group = groups[g];
+    PointArrays       &group = all_groups[g];
     const unsigned int n =
       std::min(PointBlock::capacity, group.n_padded() - first);
     TransferBlock points = {n,
@@ -38,27 +37,26 @@ namespace geocone::GEOCONE_DIM
       }
     for (int i = 0; i < n_mandel; ++i)
       points.s[i] = group.stress[i] + first;
-    for (unsigned int i = 0; i < dim * dim && affine; ++i)
+    for (unsigned int i = 0; i < dim * dim && rule.is_affine(); ++i)
       points.c[i] = group.affine[i] + first;
     return points;
   }
 
   void
-  ExplicitMPM::pass(const Update        update,
-                    const ScatteredData scattered,
-                    const double        dt)
+  ExplicitPoints::pass(const Update        update,
+                       const ScatteredData scattered,
+                       const double        dt)
   {
-    const Stopwatch watch(clock.passes);
-    const bool      gives_force =
+    const bool gives_force =
       scattered == ScatteredData::force || scattered == ScatteredData::all;
     if (gives_force)
-      hoop_force = 0.;
+      hoop = 0.;
     const PoreWater::Loop loop =
       [this](const std::function<void(const TransferBlock &)> &action) {
         for_each_block(action);
       };
     if (water.acts())
-      water.update_points(update, dt, loop, groups, scratch);
+      water.update_points(update, dt, loop, all_groups, scratch);
     // Cell means of the stress need the stress at all points.
     const bool later = b_bar && gives_force;
     if (b_bar && update.strain)
@@ -75,9 +73,9 @@ namespace geocone::GEOCONE_DIM
       if (scattered != ScatteredData::nothing && !later)
         scatter(scattered, points);
     });
-    for (const PointArrays &group : groups)
+    for (const PointArrays &group : all_groups)
       if (update.strain)
-        n_point_steps += group.n_points();
+        point_steps += group.n_points();
     if (later)
       {
         average_in_cells([&](const TransferBlock &points) {
@@ -93,14 +91,14 @@ namespace geocone::GEOCONE_DIM
                     scattered == ScatteredData::all ||
                       scattered == ScatteredData::momentum_and_mass,
                     loop,
-                    groups,
+                    all_groups,
                     scratch);
   }
 
   void
-  ExplicitMPM::gather(const Update         update,
-                      const double         dt,
-                      const TransferBlock &points)
+  ExplicitPoints::gather(const Update         update,
+                         const double         dt,
+                         const TransferBlock &points)
   {
     if (update.strain || update.velocity || update.position)
       {
@@ -108,7 +106,7 @@ namespace geocone::GEOCONE_DIM
           transfer->gather(points, scratch);
         else
           transfer->gather_values(points, scratch);
-        if (update.velocity && affine)
+        if (update.velocity && rule.is_affine())
           transfer->gather_affine(points, scratch);
         if (update.strain && b_bar)
           transfer->average(points, scratch.divergence);
@@ -120,17 +118,17 @@ namespace geocone::GEOCONE_DIM
       {
         bound_positions(points);
         // The pass that moves points is the last of a step.
-        if (groups[points.group].ramped)
+        if (all_groups[points.group].ramped)
           fade_points(points);
       }
   }
 
   void
-  ExplicitMPM::update_stresses(const Update         update,
-                               const double         dt,
-                               const TransferBlock &points)
+  ExplicitPoints::update_stresses(const Update         update,
+                                  const double         dt,
+                                  const TransferBlock &points)
   {
-    PointArrays           &group = groups[points.group];
+    PointArrays           &group = all_groups[points.group];
     const ConstitutiveLaw &law   = scene->materials.law(group.of_material);
     if (axisymmetric)
       strain_around_axis(update, dt, points);
@@ -158,7 +156,7 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
-  ExplicitMPM::bound_positions(const TransferBlock &points)
+  ExplicitPoints::bound_positions(const TransferBlock &points)
   {
     PassSums here;
     kernels->bound(points, here);
@@ -179,17 +177,17 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
-  ExplicitMPM::for_each_block(
+  ExplicitPoints::for_each_block(
     const std::function<void(const TransferBlock &)> &action)
   {
-    for (unsigned int g = 0; g < groups.size(); ++g)
-      for (unsigned int first = 0; first < groups[g].n_padded();
+    for (unsigned int g = 0; g < all_groups.size(); ++g)
+      for (unsigned int first = 0; first < all_groups[g].n_padded();
            first += PointBlock::capacity)
         action(block(g, first));
   }
 
   void
-  ExplicitMPM::average_in_cells(
+  ExplicitPoints::average_in_cells(
     const std::function<const double *(const TransferBlock &)> &values_at)
   {
     transfer->clear_cells();
@@ -213,19 +211,19 @@ namespace geocone::GEOCONE_DIM
   } // namespace
 
   void
-  ExplicitMPM::find_mean_stress(const TransferBlock &points)
+  ExplicitPoints::find_mean_stress(const TransferBlock &points)
   {
     for (unsigned int k = 0; k < points.n; ++k)
       scratch.mean_stress[k] = mean_stress(points, k);
     if (water.acts())
       for (unsigned int k = 0; k < points.n; ++k)
         scratch.mean_stress[k] -=
-          water.excess_pressure(groups[points.group], points.first + k);
+          water.excess_pressure(all_groups[points.group], points.first + k);
   }
 
   void
-  ExplicitMPM::scatter(const ScatteredData  scattered,
-                       const TransferBlock &points)
+  ExplicitPoints::scatter(const ScatteredData  scattered,
+                          const TransferBlock &points)
   {
     const bool force =
       scattered == ScatteredData::force || scattered == ScatteredData::all;
@@ -240,26 +238,26 @@ namespace geocone::GEOCONE_DIM
     if (b_bar && force)
       kernels->replace_mean_stress(points, scratch);
     else if (water.acts() && force)
-      water.add_pressure(points, groups[points.group], scratch);
+      water.add_pressure(points, all_groups[points.group], scratch);
     if (force)
       transfer->scatter(points, scratch, mass);
     else
       transfer->scatter_values(points, scratch, mass);
-    if (affine && momentum)
+    if (rule.is_affine() && momentum)
       transfer->scatter_affine(points, scratch);
   }
 
   double
-  ExplicitMPM::hoop_rate(const unsigned int k, const double r) const
+  ExplicitPoints::hoop_rate(const unsigned int k, const double r) const
   {
     return scratch.gathered[BlockScratch::n_gathered * k] /
            std::max(r, least_radius);
   }
 
   void
-  ExplicitMPM::strain_around_axis(const Update         update,
-                                  const double         dt,
-                                  const TransferBlock &points)
+  ExplicitPoints::strain_around_axis(const Update         update,
+                                     const double         dt,
+                                     const TransferBlock &points)
   {
     for (unsigned int k = 0; k < points.n; ++k)
       {
@@ -274,9 +272,9 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
-  ExplicitMPM::force_around_axis(const TransferBlock &points)
+  ExplicitPoints::force_around_axis(const TransferBlock &points)
   {
-    const PointArrays     &group = groups[points.group];
+    const PointArrays     &group = all_groups[points.group];
     const ConstitutiveLaw &law   = scene->materials.law(group.of_material);
     point_history.resize(group.n_history());
     for (unsigned int k = 0; k < points.n; ++k)
@@ -290,13 +288,13 @@ namespace geocone::GEOCONE_DIM
           s_zz -= water.excess_pressure(group, points.first + k);
         scratch.hoop_force[k] =
           -points.volume[k] * s_zz / std::max(points.x[0][k], least_radius);
-        hoop_force += scratch.hoop_force[k];
+        hoop += scratch.hoop_force[k];
       }
   }
 
   std::string
-  ExplicitMPM::lost_point_message(const PointArrays &group,
-                                  const unsigned int p) const
+  ExplicitPoints::lost_point_message(const PointArrays &group,
+                                     const unsigned int p) const
   {
     return format("point %u has left the background mesh at (%s)\n"
                   "  remedy:  enlarge 'Mesh/Box', hold the side, or set "
@@ -306,9 +304,9 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
-  ExplicitMPM::correct_positions(const TransferBlock &points)
+  ExplicitPoints::correct_positions(const TransferBlock &points)
   {
-    PointArrays       &group = groups[points.group];
+    PointArrays       &group = all_groups[points.group];
     const unsigned int end =
       std::min(points.first + points.n, group.n_points());
     const double tolerance = 1e-6 * transfer->cell_size();

@@ -4,7 +4,7 @@
 // Sums and extrema of the points of the explicit material point method, over
 // all ranks.
 #include <geocone/base/over_ranks.h>
-#include <geocone/explicit/explicit_mpm.h>
+#include <geocone/explicit/explicit_points.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -16,8 +16,8 @@ namespace geocone::GEOCONE_DIM
   using namespace dealii;
 
   double
-  ExplicitMPM::kinetic_energy(const PointArrays &group,
-                              const unsigned int p) const
+  ExplicitPoints::kinetic_energy(const PointArrays &group,
+                                 const unsigned int p) const
   {
     const double energy =
       group.mass[p] * group.velocity.of(p).norm_square() / 2.;
@@ -25,7 +25,7 @@ namespace geocone::GEOCONE_DIM
   }
 
   Tensor<1, dim>
-  ExplicitMPM::momentum(const PointArrays &group, const unsigned int p) const
+  ExplicitPoints::momentum(const PointArrays &group, const unsigned int p) const
   {
     Tensor<1, dim> sum = group.mass[p] * group.velocity.of(p);
     if (water.acts())
@@ -34,10 +34,29 @@ namespace geocone::GEOCONE_DIM
   }
 
   double
-  ExplicitMPM::current_mass() const
+  ExplicitPoints::kinetic_energy() const
+  {
+    double energy = 0.;
+    for (const PointArrays &group : all_groups)
+      for (unsigned int p = 0; p < group.n_points(); ++p)
+        energy += kinetic_energy(group, p);
+    return Utilities::MPI::sum(energy, comm);
+  }
+
+  unsigned long
+  ExplicitPoints::n_of_rank() const
+  {
+    unsigned long n = 0;
+    for (const PointArrays &group : all_groups)
+      n += group.n_points();
+    return n;
+  }
+
+  double
+  ExplicitPoints::mass_of_rank() const
   {
     double mass = 0.;
-    for (const PointArrays &group : groups)
+    for (const PointArrays &group : all_groups)
       for (unsigned int p = 0; p < group.n_points(); ++p)
         mass += group.mass[p];
     return mass;
@@ -86,7 +105,7 @@ namespace geocone::GEOCONE_DIM
   } // namespace
 
   ExplicitState
-  ExplicitMPM::state() const
+  ExplicitPoints::state() const
   {
     ExplicitState s;
     // With the full gravity, also while it increases.
@@ -94,7 +113,7 @@ namespace geocone::GEOCONE_DIM
     double               bounds[2 * dim];
     std::fill_n(bounds, 2 * dim, 1e300);
     double fastest = -1.;
-    for (const PointArrays &group : groups)
+    for (const PointArrays &group : all_groups)
       {
         const ConstitutiveLaw &law = scene->materials.law(group.of_material);
         std::vector<double>    values(group.n_history());
@@ -159,9 +178,9 @@ namespace geocone::GEOCONE_DIM
   }
 
   double
-  ExplicitMPM::mass_quantile(const double wanted,
-                             double       left,
-                             double       right) const
+  ExplicitPoints::mass_quantile(const double wanted,
+                                double       left,
+                                double       right) const
   {
     // Refines the interval that contains the quantile, in equal parts.
     double before = 0.;
@@ -169,7 +188,7 @@ namespace geocone::GEOCONE_DIM
       {
         std::vector<double> part(1000, 0.);
         const double        per_width = part.size() / (right - left);
-        for (const PointArrays &group : groups)
+        for (const PointArrays &group : all_groups)
           for (unsigned int p = 0; p < group.n_points(); ++p)
             {
               const double place = (group.position[0][p] - left) * per_width;
@@ -187,16 +206,8 @@ namespace geocone::GEOCONE_DIM
     return right;
   }
 
-  Exchange
-  ExplicitMPM::exchange() const
-  {
-    std::vector<Exchange> all = {sum};
-    sum_states_over_ranks(all, comm);
-    return all[0];
-  }
-
   LawCounts
-  ExplicitMPM::law_counts() const
+  ExplicitPoints::law_counts() const
   {
     LawCounts all = counts;
     all.updates   = Utilities::MPI::sum(counts.updates, comm);
@@ -208,10 +219,10 @@ namespace geocone::GEOCONE_DIM
   }
 
   std::size_t
-  ExplicitMPM::memory() const
+  ExplicitPoints::memory() const
   {
     std::size_t bytes = transfer->memory() + water.memory();
-    for (const PointArrays &group : groups)
+    for (const PointArrays &group : all_groups)
       bytes += group.memory();
     return bytes;
   }

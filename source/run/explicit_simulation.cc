@@ -41,15 +41,15 @@ namespace geocone::GEOCONE_DIM
     log.print(options.name + ": " + text_of_magnitudes(scene, body));
     const std::vector<std::string> absurd = warn_of_magnitudes(scene, body);
     remarks.insert(remarks.end(), absurd.begin(), absurd.end());
-    observed_points.prepare_points(scene, stepper.points(), comm);
+    observed_points.prepare_points(scene, stepper.points().groups(), comm);
     return remarks;
   }
 
   void
   ExplicitSimulation::prepare_output(const RunOptions &options)
   {
-    explicit_output.prepare(options, scene, stepper.pore_water());
-    state = stepper.state();
+    explicit_output.prepare(options, scene, stepper.points().pore_water());
+    state = stepper.points().state();
     explicit_output.set_initial(state);
   }
 
@@ -61,9 +61,9 @@ namespace geocone::GEOCONE_DIM
                   name.c_str(),
                   stepper.order_name().c_str(),
                   stepper.element().c_str(),
-                  stepper.grid().n_all_nodes(),
+                  stepper.points().grid().n_all_nodes(),
                   state.n_points,
-                  stepper.grid().description().c_str(),
+                  stepper.points().grid().description().c_str(),
                   Utilities::MPI::n_mpi_processes(comm),
                   Utilities::MPI::n_mpi_processes(comm) > 1 ? "s" : "");
   }
@@ -98,22 +98,24 @@ namespace geocone::GEOCONE_DIM
   void
   ExplicitSimulation::record(const TimePoint &now)
   {
-    state           = stepper.state();
+    state           = stepper.points().state();
     state.reactions = std::move(report.reactions);
     std::vector<double> pressures;
-    if (stepper.pore_water().acts())
+    if (stepper.points().pore_water().acts())
       pressures = observed_points.pressures(
-        stepper.points(), [&](const PointArrays &group, const unsigned int p) {
-          return stepper.pore_water().excess_pressure(group, p);
+        stepper.points().groups(),
+        [&](const PointArrays &group, const unsigned int p) {
+          return stepper.points().pore_water().excess_pressure(group, p);
         });
-    explicit_output.add_step({{now.step,
-                               now.time,
-                               state,
-                               observed_points.displacements(stepper.points())},
-                              step_loop.last_cpu_time(),
-                              report,
-                              stepper.exchange(),
-                              pressures});
+    explicit_output.add_step(
+      {{now.step,
+        now.time,
+        state,
+        observed_points.displacements(stepper.points().groups())},
+       step_loop.last_cpu_time(),
+       report,
+       stepper.exchange(),
+       pressures});
   }
 
   std::string
@@ -133,21 +135,22 @@ namespace geocone::GEOCONE_DIM
   void
   ExplicitSimulation::write_fields(const double t)
   {
-    explicit_output.write_points(t, stepper.points());
+    explicit_output.write_points(t, stepper.points().groups());
   }
 
   Json
   ExplicitSimulation::topics()
   {
-    Json json    = explicit_output.results(stepper.law_counts());
-    json["size"] = {{"method", method.name()},
-                    {"element", stepper.element()},
-                    {"cells", stepper.grid().n_cells()},
-                    {"nodes", stepper.grid().n_all_nodes()},
-                    {"points", state.n_points},
-                    {"ranks", Utilities::MPI::n_mpi_processes(comm)},
-                    {"imbalance", imbalance(stepper.n_points_of_rank(), comm)},
-                    {"repartitions", stepper.grid().n_repartitions()}};
+    Json json    = explicit_output.results(stepper.points().law_counts());
+    json["size"] = {
+      {"method", method.name()},
+      {"element", stepper.element()},
+      {"cells", stepper.points().grid().n_cells()},
+      {"nodes", stepper.points().grid().n_all_nodes()},
+      {"points", state.n_points},
+      {"ranks", Utilities::MPI::n_mpi_processes(comm)},
+      {"imbalance", imbalance(stepper.points().n_of_rank(), comm)},
+      {"repartitions", stepper.points().grid().n_repartitions()}};
     json["cost"] = cost();
     return json;
   }
@@ -162,16 +165,18 @@ namespace geocone::GEOCONE_DIM
   ExplicitSimulation::load(const Archive &archive)
   {
     stepper.load(archive);
-    state = stepper.state();
+    state = stepper.points().state();
   }
 
   Json
   ExplicitSimulation::cost() const
   {
     const auto  &seconds = stepper.seconds();
-    const double updates = Utilities::MPI::sum(stepper.n_point_steps, comm);
-    const double cpu     = Utilities::MPI::sum(step_loop.cpu_time(), comm);
-    const double bytes   = Utilities::MPI::sum(double(stepper.memory()), comm);
+    const double updates =
+      Utilities::MPI::sum(stepper.points().n_point_steps(), comm);
+    const double cpu = Utilities::MPI::sum(step_loop.cpu_time(), comm);
+    const double bytes =
+      Utilities::MPI::sum(double(stepper.points().memory()), comm);
     return {{"total_s", total.wall_time()},
             {"cpu_s", Utilities::MPI::sum(cpu_time_of_rank(), comm)},
             {"step_loop_s", step_loop.wall_time()},
