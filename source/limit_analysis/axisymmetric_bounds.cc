@@ -431,6 +431,94 @@ namespace geocone::GEOCONE_DIM
                      edge.length * mean(own, r, live[1]));
         }
     }
+
+    /** Points of the jumps of velocity at edges. */
+    struct JumpPoints
+    {
+      explicit JumpPoints(const std::vector<SpatialStrength> &strengths)
+      {
+        std::vector<FaceConeOf<2>> laws;
+        for (const SpatialStrength &one : strengths)
+          laws.push_back(face_cone<2>(one.face_friction()));
+        of_soil   = std::make_unique<EdgePoints>(laws);
+        of_planes = std::make_unique<OpeningPoints>(
+          std::vector<OpeningCone>{opening_cone()});
+      }
+
+      void
+      move_to(ConicProblem &problem)
+      {
+        if (of_soil->n_points() > 0)
+          problem.groups.push_back(std::move(of_soil));
+        if (of_planes->n_points() > 0)
+          problem.groups.push_back(std::move(of_planes));
+      }
+
+      std::unique_ptr<EdgePoints>    of_soil;
+      std::unique_ptr<OpeningPoints> of_planes; ///< openings at smooth planes
+    };
+
+    /** Adds the jumps at an inner or a held edge; prescribes velocities at a plane that
+     *  soil without friction cannot leave. */
+    void
+    add_jumps(const AxisymmetricScene &scene,
+              const unsigned int       e,
+              const HeldBodies        &bodies,
+              JumpPoints              &jumps,
+              ConicProblem            &problem)
+    {
+      const auto           &edge = scene.edges[e];
+      const FacetCondition &held = edge.condition;
+      if (!edge.is_inner() && held.kind == FacetCondition::Kind::free)
+        return;
+      Linear<2>              cohesion;
+      const SpatialStrength &one = scene.strength_of_jump(e, cohesion);
+      const bool is_plane        = held.kind == FacetCondition::Kind::plane;
+      if (is_plane && one.face_friction() == 0.)
+        return prescribe_plane(scene, e, problem);
+      const auto complete = [&](auto &jump, const auto &axes, const auto k) {
+        add_velocity(jump, scene, e, edge.cells[0], k, -1., axes);
+        if (edge.is_inner())
+          add_velocity(jump, scene, e, edge.cells[1], k, 1., axes);
+        else
+          for (unsigned int d = 0; d < dim; ++d)
+            {
+              typename std::decay_t<decltype(jump)>::Vector v;
+              for (unsigned int i = 0; i < axes.size(); ++i)
+                v[i] = axes[i][d];
+              jump.add(bodies.dof_of(edge) + d, v);
+            }
+        jump.finish();
+      };
+      for (unsigned int k = 0; k <= space::order + 1; ++k)
+        {
+          const Exponents<2> own  = {{space::order + 1 - k, k}};
+          const double       part = mean(own, edge.radius),
+                       weight     = edge.length * part,
+                       c          = mean(own, edge.radius, cohesion) / part;
+          if (is_plane)
+            {
+              Columns<1, columns_of_jump> opening;
+              complete(
+                opening, std::array<Tensor<1, dim>, 1>{{edge.normal}}, k);
+              jumps.of_planes->add(
+                opening.B, opening.dofs, weight, 0, c / one.face_friction());
+            }
+          else
+            {
+              Columns<2, columns_of_jump> jump;
+              complete(
+                jump,
+                std::array<Tensor<1, dim>, 2>{{edge.normal, edge.tangent()}},
+                k);
+              jumps.of_soil->add(jump.B,
+                                 jump.dofs,
+                                 weight,
+                                 &one - scene.bound.strengths.data(),
+                                 c);
+            }
+        }
+    }
   } // namespace
 
   ConicProblem
@@ -441,7 +529,7 @@ namespace geocone::GEOCONE_DIM
     const unsigned int first_body = (space::n_v + space::n_w) * n_cells;
     const HeldBodies   bodies(scene, first_body);
     ConicProblem problem = ConicProblem::of_dofs(first_body + bodies.n_dofs());
-    const Forces       forces  = {problem};
+    const Forces forces  = {problem};
     bodies.prescribe(problem);
 
     auto points = empty_axisymmetric_points<columns_of_rate>(bound.strengths);
@@ -466,81 +554,16 @@ namespace geocone::GEOCONE_DIM
                        part * cell.body_force.live[1]);
           }
       }
-
-    std::vector<FaceConeOf<2>> faces;
-    for (const SpatialStrength &one : bound.strengths)
-      faces.push_back(face_cone<2>(one.face_friction()));
-    auto jumps = std::make_unique<EdgePoints>(faces);
-    auto openings =
-      std::make_unique<OpeningPoints>(std::vector<OpeningCone>{opening_cone()});
+    JumpPoints jumps(bound.strengths);
     for (unsigned int e = 0; e < scene.edges.size(); ++e)
-      {
-        const auto &edge = scene.edges[e];
-        if (edge.is_on_axis())
-          continue;
-        const FacetCondition &held = edge.condition;
-        if (!edge.is_inner())
-          add_tractions_of_edge(scene, e, forces);
-        if (!edge.is_inner() && held.kind == FacetCondition::Kind::free)
-          continue;
-        Linear<2>              cohesion;
-        const SpatialStrength &one = scene.strength_of_jump(e, cohesion);
-        const bool is_plane        = held.kind == FacetCondition::Kind::plane;
-        if (is_plane && one.face_friction() == 0.)
-          {
-            prescribe_plane(scene, e, problem);
-            continue;
-          }
-        const auto complete = [&](auto &jump, const auto &axes, const auto k) {
-          add_velocity(jump, scene, e, edge.cells[0], k, -1., axes);
-          if (edge.is_inner())
-            add_velocity(jump, scene, e, edge.cells[1], k, 1., axes);
-          else
-            for (unsigned int d = 0; d < dim; ++d)
-              {
-                typename std::decay_t<decltype(jump)>::Vector v;
-                for (unsigned int i = 0; i < axes.size(); ++i)
-                  v[i] = axes[i][d];
-                jump.add(bodies.dof_of(edge) + d, v);
-              }
-          jump.finish();
-        };
-        for (unsigned int k = 0; k <= space::order + 1; ++k)
-          {
-            const Exponents<2> own  = {{space::order + 1 - k, k}};
-            const double       part = mean(own, edge.radius);
-            const double       c    = mean(own, edge.radius, cohesion) / part;
-            if (is_plane)
-              {
-                Columns<1, columns_of_jump> opening;
-                complete(
-                  opening, std::array<Tensor<1, dim>, 1>{{edge.normal}}, k);
-                openings->add(opening.B,
-                              opening.dofs,
-                              edge.length * part,
-                              0,
-                              c / one.face_friction());
-              }
-            else
-              {
-                Columns<2, columns_of_jump> jump;
-                complete(
-                  jump,
-                  std::array<Tensor<1, dim>, 2>{{edge.normal, edge.tangent()}},
-                  k);
-                jumps->add(jump.B,
-                           jump.dofs,
-                           edge.length * part,
-                           &one - bound.strengths.data(),
-                           c);
-              }
-          }
-      }
+      if (!scene.edges[e].is_on_axis())
+        {
+          if (!scene.edges[e].is_inner())
+            add_tractions_of_edge(scene, e, forces);
+          add_jumps(scene, e, bodies, jumps, problem);
+        }
     points.move_to(problem);
-    if (jumps->n_points() > 0)
-      problem.groups.push_back(std::move(jumps));
-    if (openings->n_points() > 0)
-      problem.groups.push_back(std::move(openings));
+    jumps.move_to(problem);
     return problem;
   }
 
@@ -552,6 +575,161 @@ namespace geocone::GEOCONE_DIM
     {
       return d == 0 ? Eigen::Vector4d(g[0], 0., g[1] * M_SQRT1_2, 0.)
                     : Eigen::Vector4d(0., g[1], g[0] * M_SQRT1_2, 0.);
+    }
+
+    /** Dofs of the lower bound's equations: of equilibrium along r and z in cells, and of
+     *  tractions on edges. */
+    struct EquilibriumDofs
+    {
+      static constexpr unsigned int order = axisymmetric_stress::order,
+                                    n_r   = axisymmetric_stress::n,
+                                    n_z   = bernstein::n_in_triangle(order - 1),
+                                    n_edge = order + 1;
+
+      explicit EquilibriumDofs(const AxisymmetricScene &scene)
+        : first_w((n_r + n_z) * scene.cells.size())
+        , n(first_w + dim * n_edge * scene.edges.size())
+      {}
+
+      static unsigned int
+      of_r(const unsigned int cell)
+      {
+        return (n_r + n_z) * cell;
+      }
+      static unsigned int
+      of_z(const unsigned int cell)
+      {
+        return of_r(cell) + n_r;
+      }
+      unsigned int
+      of_edge(const unsigned int edge, const unsigned int k) const
+      {
+        return first_w + dim * (n_edge * edge + k);
+      }
+
+      const unsigned int first_w, n;
+    };
+
+    constexpr unsigned int columns_of_stress = 9;
+    using StressColumns                      = Columns<4, columns_of_stress>;
+
+    /** Equations of a coefficient of the stress times the radius. */
+    StressColumns
+    equations_of(const AxisymmetricScene &scene,
+                 const unsigned int       c,
+                 const Exponents<3>      &a,
+                 const EquilibriumDofs   &equations)
+    {
+      constexpr unsigned int order     = EquilibriumDofs::order;
+      const auto            &cell      = scene.cells[c];
+      const Triangles       &triangles = scene.bound.triangles;
+      const unsigned int     first_r   = equations.of_r(c),
+                         first_z       = equations.of_z(c);
+      const double V                   = cell.area / EquilibriumDofs::n_r,
+                   V_z                 = cell.area / EquilibriumDofs::n_z;
+      StressColumns rate;
+      rate.add(first_r + bernstein::position(a), {0., 0., 0., 1.});
+      for (unsigned int j = 0; j < 3; ++j)
+        if (a[j] > 0)
+          {
+            const Exponents<3> less = lowered(a, j);
+            // Equation b has the coefficient a = b - i + j in r div S.
+            for (unsigned int i = 0; i < 3; ++i)
+              {
+                const Exponents<3> b = raised(less, i);
+                if (b[i] * cell.radius[i] != 0.)
+                  rate.add(first_r + bernstein::position(b),
+                           -double(b[i]) * cell.radius[i] *
+                             symmetric_rate(0, cell.gradients[j]));
+              }
+            rate.add(first_z + bernstein::position(less),
+                     -V_z / V * order * symmetric_rate(1, cell.gradients[j]));
+          }
+      for (unsigned int f = 0; f < 3; ++f)
+        if (a[f] == 0) // a function of the edge
+          {
+            const unsigned int   e    = triangles.edges_of_cell[c][f];
+            const auto          &edge = scene.edges[e];
+            const unsigned int   at   = a[ends_in_cell(triangles, e, c)[1]];
+            const Tensor<1, dim> n =
+              (c == edge.cells[0] ? 1. : -1.) * edge.normal;
+            for (unsigned int d = 0; d < dim; ++d)
+              rate.add(equations.of_edge(e, at) + d,
+                       edge.length / EquilibriumDofs::n_edge / V *
+                         symmetric_rate(d, n));
+          }
+      rate.finish();
+      return rate;
+    }
+
+    /** Adds the stress and the weight of a cell. */
+    template <typename Points>
+    void
+    add_cell(const AxisymmetricScene &scene,
+             const unsigned int       c,
+             const EquilibriumDofs   &equations,
+             Points                  &points,
+             ConicProblem            &problem)
+    {
+      const auto        &cell     = scene.cells[c];
+      const unsigned int material = scene.bound.triangles.material[c];
+      const double       V        = cell.area / EquilibriumDofs::n_r,
+                   V_z            = cell.area / EquilibriumDofs::n_z;
+      for (const auto &a :
+           bernstein::functions_of_triangle(EquilibriumDofs::order))
+        {
+          const double k =
+            bernstein::coefficient(a, cell.radius, cell.strength);
+          // On the axis the stress times r is zero.
+          if (k == 0.)
+            {
+              const unsigned int equation =
+                equations.of_r(c) + bernstein::position(a);
+              problem.is_prescribed[equation] = true;
+              StressColumns none;
+              none.add(equation, Eigen::Vector4d::Zero());
+              none.finish();
+              points.add(material, none.B, none.dofs, V, 1.);
+              continue;
+            }
+          const auto rate = equations_of(scene, c, a, equations);
+          points.add(material, rate.B, rate.dofs, V, k);
+        }
+      const Forces forces = {problem};
+      for (unsigned int i = 0; i < EquilibriumDofs::n_z; ++i)
+        forces.add(equations.of_z(c) + i,
+                   V_z * cell.radius[i] * cell.body_force.dead[1],
+                   V_z * cell.radius[i] * cell.body_force.live[1]);
+    }
+
+    /** Adds the given tractions and the held components of an edge. */
+    void
+    add_edge(const AxisymmetricScene &scene,
+             const unsigned int       e,
+             const EquilibriumDofs   &equations,
+             ConicProblem            &problem)
+    {
+      constexpr unsigned int order  = EquilibriumDofs::order;
+      const auto            &edge   = scene.edges[e];
+      const double           m      = edge.length / EquilibriumDofs::n_edge;
+      const Forces           forces = {problem};
+      for (unsigned int k = 0; k <= order; ++k)
+        {
+          const AxisymmetricScene::Load t = traction_coefficient(edge, k);
+          const bool is_on_axis           = (k == 0 && edge.radius[0] == 0.) ||
+                                  (k == order && edge.radius[1] == 0.) ||
+                                  edge.is_on_axis();
+          for (unsigned int d = 0; d < dim; ++d)
+            {
+              const unsigned int dof = equations.of_edge(e, k) + d;
+              forces.add(dof, m * t.dead[d], m * t.live[d]);
+              if (edge.condition.holds(d) || is_on_axis)
+                {
+                  problem.is_prescribed[dof] = true;
+                  problem.prescribed[dof]    = edge.condition.velocity[d];
+                }
+            }
+        }
     }
   } // namespace
 
@@ -575,103 +753,14 @@ namespace geocone::GEOCONE_DIM
   ConicProblem
   lower_problem(const AxisymmetricScene &scene)
   {
-    constexpr unsigned int order = axisymmetric_stress::order,
-                           n_s = axisymmetric_stress::n, n_w = order + 1,
-                           n_z = bernstein::n_in_triangle(order - 1),
-                           n_u = n_s + n_z, n_columns = 9;
-    const BoundScene  &bound     = scene.bound;
-    const Triangles   &triangles = bound.triangles;
-    const unsigned int n_cells   = scene.cells.size();
-    const unsigned int first_w   = n_u * n_cells;
-    ConicProblem       problem =
-      ConicProblem::of_dofs(first_w + dim * n_w * scene.edges.size());
-    const Forces forces = {problem};
-    const auto   w_of   = [&](const unsigned int edge, const unsigned int k) {
-      return first_w + dim * (n_w * edge + k);
-    };
-
-    auto points = empty_axisymmetric_points<n_columns>(bound.strengths);
-    for (unsigned int c = 0; c < n_cells; ++c)
-      {
-        const auto        &cell    = scene.cells[c];
-        const unsigned int first_r = n_u * c, first_z = first_r + n_s;
-        const double       V = cell.area / n_s, V_z = cell.area / n_z;
-        for (const auto &a : bernstein::functions_of_triangle(order))
-          {
-            const double k =
-              bernstein::coefficient(a, cell.radius, cell.strength);
-            const unsigned int equation = first_r + bernstein::position(a);
-            // On the axis the stress times r is zero.
-            if (k == 0.)
-              {
-                problem.is_prescribed[equation] = true;
-                Columns<4, n_columns> none;
-                none.add(equation, Eigen::Vector4d::Zero());
-                none.finish();
-                points.add(triangles.material[c], none.B, none.dofs, V, 1.);
-                continue;
-              }
-            Columns<4, n_columns> rate;
-            rate.add(equation, {0., 0., 0., 1.});
-            for (unsigned int j = 0; j < 3; ++j)
-              if (a[j] > 0)
-                {
-                  const Exponents<3> less = lowered(a, j);
-                  // Equation b has the coefficient a = b - i + j in r div S.
-                  for (unsigned int i = 0; i < 3; ++i)
-                    {
-                      const Exponents<3> b = raised(less, i);
-                      if (b[i] * cell.radius[i] != 0.)
-                        rate.add(first_r + bernstein::position(b),
-                                 -double(b[i]) * cell.radius[i] *
-                                   symmetric_rate(0, cell.gradients[j]));
-                    }
-                  rate.add(first_z + bernstein::position(less),
-                           -V_z / V * order *
-                             symmetric_rate(1, cell.gradients[j]));
-                }
-            for (unsigned int f = 0; f < 3; ++f)
-              if (a[f] == 0) // a function of the edge
-                {
-                  const unsigned int   e    = triangles.edges_of_cell[c][f];
-                  const auto          &edge = scene.edges[e];
-                  const unsigned int   at = a[ends_in_cell(triangles, e, c)[1]];
-                  const Tensor<1, dim> n =
-                    (c == edge.cells[0] ? 1. : -1.) * edge.normal;
-                  for (unsigned int d = 0; d < dim; ++d)
-                    rate.add(w_of(e, at) + d,
-                             edge.length / n_w / V * symmetric_rate(d, n));
-                }
-            rate.finish();
-            points.add(triangles.material[c], rate.B, rate.dofs, V, k);
-          }
-        for (unsigned int i = 0; i < n_z; ++i)
-          forces.add(first_z + i,
-                     V_z * cell.radius[i] * cell.body_force.dead[1],
-                     V_z * cell.radius[i] * cell.body_force.live[1]);
-      }
+    const EquilibriumDofs equations(scene);
+    ConicProblem          problem = ConicProblem::of_dofs(equations.n);
+    auto                  points =
+      empty_axisymmetric_points<columns_of_stress>(scene.bound.strengths);
+    for (unsigned int c = 0; c < scene.cells.size(); ++c)
+      add_cell(scene, c, equations, points, problem);
     for (unsigned int e = 0; e < scene.edges.size(); ++e)
-      {
-        const auto &edge = scene.edges[e];
-        for (unsigned int k = 0; k < n_w; ++k)
-          {
-            const AxisymmetricScene::Load t = traction_coefficient(edge, k);
-            const double                  m = edge.length / n_w;
-            const bool                    is_on_axis =
-              (k < order && edge.radius[0] == 0. && k == 0) ||
-              (k == order && edge.radius[1] == 0.) || edge.is_on_axis();
-            for (unsigned int d = 0; d < dim; ++d)
-              {
-                const unsigned int dof = w_of(e, k) + d;
-                forces.add(dof, m * t.dead[d], m * t.live[d]);
-                if (edge.condition.holds(d) || is_on_axis)
-                  {
-                    problem.is_prescribed[dof] = true;
-                    problem.prescribed[dof]    = edge.condition.velocity[d];
-                  }
-              }
-          }
-      }
+      add_edge(scene, e, equations, problem);
     points.move_to(problem);
     return problem;
   }

@@ -47,15 +47,15 @@ namespace geocone::GEOCONE_DIM
     for (unsigned int c = 0; c < tetrahedra.cells.size(); ++c)
       {
         const SpatialStrength &one = bound.strengths[tetrahedra.material[c]];
-        const auto           k   = bound.strength_at_vertices(c);
-        const Mandel *const  s   = &stress[n_nodes * c];
+        const auto             k   = bound.strength_at_vertices(c);
+        const Mandel *const    s   = &stress[n_nodes * c];
         for (unsigned int i = 0; i < n_nodes; ++i)
           {
-            const double k_i  = i < 4 ? k[i]
-                                      : (k[simplex_nodes::edges[i - 4][0]] +
+            const double          k_i = i < 4 ? k[i]
+                                              : (k[simplex_nodes::edges[i - 4][0]] +
                                         k[simplex_nodes::edges[i - 4][1]]) /
                                          2.;
-            const Eigen::Matrix3d m    = SemidefiniteCone::matrix(s[i]);
+            const Eigen::Matrix3d m   = SemidefiniteCone::matrix(s[i]);
             check.add(one.utilisation(k_i, m), k_i, m.norm());
           }
         const auto           g = tetrahedra.gradients(c);
@@ -108,112 +108,157 @@ namespace geocone::GEOCONE_DIM
     return result;
   }
 
+  namespace
+  {
+    /** Dissipation and power of loads of velocities, as far as they have been added. */
+    struct Flow
+    {
+      SolidBound    result;
+      VelocityCheck check;
+      double        power = 0.; ///< dissipation less the power of dead loads
+      double        work  = 0.; ///< power of live loads
+    };
+
+    void
+    add_cell(const SolidScene  &bound,
+             const unsigned int order,
+             const unsigned int c,
+             Flow              &sum)
+    {
+      const Tetrahedra           &tetrahedra = *bound.tetrahedra;
+      const double                L          = bound.units.length;
+      const unsigned int          n_nodes    = simplex_nodes::n_in_cell(order);
+      const auto                  g          = tetrahedra.gradients(c);
+      const double                V = tetrahedra.volume(c) / (L * L * L);
+      const Tensor<1, dim> *const v = &sum.result.velocity[n_nodes * c];
+      const auto                  k = strength_of_rates(bound, order, c);
+      double &dissipation           = sum.result.dissipation_of_cell[c];
+      for (unsigned int i = 0; i < k.size(); ++i)
+        {
+          Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero();
+          for (unsigned int j = 0; j < 4; ++j)
+            {
+              const Tensor<1, dim> &v_j =
+                v[order == 1 ? j : simplex_nodes::node(i, j)];
+              for (unsigned int a = 0; a < dim; ++a)
+                for (unsigned int b = 0; b < dim; ++b)
+                  gradient(a, b) += order * v_j[a] * L * g[j][b];
+            }
+          const Eigen::Matrix3d e = (gradient + gradient.transpose()) / 2.;
+          const SpatialStrength::Flow flow =
+            bound.strengths[tetrahedra.material[c]].flow(k[i], e);
+          dissipation += V / k.size() * flow.dissipation;
+          sum.check.add_rate(flow, e.norm());
+        }
+      sum.power += dissipation;
+      const SolidScene::Load load = bound.body_force(c);
+      for (unsigned int i = 0; i < n_nodes; ++i)
+        {
+          sum.power -= V / n_nodes * load.dead * v[i];
+          sum.work += V / n_nodes * load.live * v[i];
+        }
+    }
+
+    /** Velocities at the nodes of a facet, of the cell on a side. */
+    std::vector<Tensor<1, dim>>
+    velocities_at(const SolidScene  &bound,
+                  const unsigned int order,
+                  const unsigned int f,
+                  const unsigned int side,
+                  const SolidBound  &result)
+    {
+      const unsigned int first = simplex_nodes::n_in_cell(order) *
+                                 bound.tetrahedra->facets[f].cells[side];
+      std::vector<Tensor<1, dim>> all;
+      for (const unsigned int i :
+           nodes_in_cell(*bound.tetrahedra, order, f, side))
+        all.push_back(result.velocity[first + i]);
+      return all;
+    }
+
+    void
+    add_tractions(const SolidScene                  &bound,
+                  const unsigned int                 order,
+                  const unsigned int                 f,
+                  const std::vector<Tensor<1, dim>> &v,
+                  Flow                              &sum)
+    {
+      const double L = bound.units.length,
+                   A = bound.tetrahedra->area(f) / (L * L);
+      std::array<Tensor<1, dim>, 3> dead, live;
+      for (unsigned int i = 0; i < 3; ++i)
+        {
+          dead[i] = bound.tractions(f)[i].dead;
+          live[i] = bound.tractions(f)[i].live;
+        }
+      const auto f_dead = forces_of_traction(order, dead),
+                 f_live = forces_of_traction(order, live);
+      for (unsigned int i = 0; i < v.size(); ++i)
+        {
+          sum.power -= A * f_dead[i] * v[i];
+          sum.work += A * f_live[i] * v[i];
+        }
+    }
+
+    void
+    add_facet(const SolidScene  &bound,
+              const unsigned int order,
+              const unsigned int f,
+              Flow              &sum)
+    {
+      const Tetrahedra &tetrahedra = *bound.tetrahedra;
+      const double L = bound.units.length, A = tetrahedra.area(f) / (L * L);
+      const FacetCondition &held = bound.facet_conditions[f];
+      const bool is_inner = tetrahedra.facets[f].cells[1] != Tetrahedra::none;
+      const auto outer    = velocities_at(bound, order, f, 0, sum.result);
+      if (!is_inner)
+        add_tractions(bound, order, f, outer, sum);
+      if (!is_inner && held.kind == FacetCondition::Kind::free)
+        return;
+      const auto inner =
+        is_inner ? velocities_at(bound, order, f, 1, sum.result)
+                 : std::vector<Tensor<1, dim>>(outer.size(), held.velocity);
+      const auto             axes = axes_of_facet(tetrahedra, f);
+      const SpatialStrength &one =
+        bound.strengths[tetrahedra.material[cell_of_jump(bound, f)]];
+      const auto k           = strength_of_jumps(bound, order, f);
+      double    &dissipation = sum.result.dissipation_of_facet[f];
+      for (unsigned int i = 0; i < outer.size(); ++i)
+        {
+          const Tensor<1, dim> u = inner[i] - outer[i];
+          // Along a plane of symmetry, or a smooth one, soil slides freely.
+          const double slip = held.kind == FacetCondition::Kind::plane
+                                ? 0.
+                                : std::hypot(u * axes[1], u * axes[2]);
+          const SpatialStrength::Flow flow =
+            one.flow_of_jump(k[i], u * axes[0], slip);
+          dissipation += A / outer.size() * flow.dissipation;
+          sum.check.add_jump(flow);
+        }
+      sum.power += dissipation;
+    }
+  } // namespace
+
   SolidBound
   certify_upper(const SolidScene                  &bound,
                 const unsigned int                 order,
                 const std::vector<Tensor<1, dim>> &velocity)
   {
-    const Tetrahedra  &tetrahedra = *bound.tetrahedra;
-    const double       L          = bound.units.length;
-    const unsigned int n_nodes    = simplex_nodes::n_in_cell(order),
-                       n_facet    = simplex_nodes::n_on_facet(order);
-    SolidBound result;
-    result.velocity = velocity;
-    result.dissipation_of_cell.assign(tetrahedra.cells.size(), 0.);
-    result.dissipation_of_facet.assign(tetrahedra.facets.size(), 0.);
-    double power = 0., work = 0.;
-    VelocityCheck check;
+    const Tetrahedra &tetrahedra = *bound.tetrahedra;
+    Flow              sum;
+    sum.result.velocity = velocity;
+    sum.result.dissipation_of_cell.assign(tetrahedra.cells.size(), 0.);
+    sum.result.dissipation_of_facet.assign(tetrahedra.facets.size(), 0.);
     for (unsigned int c = 0; c < tetrahedra.cells.size(); ++c)
-      {
-        const auto                  g = tetrahedra.gradients(c);
-        const double                V = tetrahedra.volume(c) / (L * L * L);
-        const Tensor<1, dim> *const v = &velocity[n_nodes * c];
-        const auto                  k = strength_of_rates(bound, order, c);
-        for (unsigned int i = 0; i < k.size(); ++i)
-          {
-            Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero();
-            for (unsigned int j = 0; j < 4; ++j)
-              {
-                const Tensor<1, dim> &v_j =
-                  v[order == 1 ? j : simplex_nodes::node(i, j)];
-                for (unsigned int a = 0; a < dim; ++a)
-                  for (unsigned int b = 0; b < dim; ++b)
-                    gradient(a, b) += order * v_j[a] * L * g[j][b];
-              }
-            const Eigen::Matrix3d e = (gradient + gradient.transpose()) / 2.;
-            const SpatialStrength::Flow flow =
-              bound.strengths[tetrahedra.material[c]].flow(k[i], e);
-            result.dissipation_of_cell[c] += V / k.size() * flow.dissipation;
-            check.add_rate(flow, e.norm());
-          }
-        power += result.dissipation_of_cell[c];
-        const SolidScene::Load load = bound.body_force(c);
-        for (unsigned int i = 0; i < n_nodes; ++i)
-          {
-            power -= V / n_nodes * load.dead * v[i];
-            work += V / n_nodes * load.live * v[i];
-          }
-      }
+      add_cell(bound, order, c, sum);
     for (unsigned int f = 0; f < tetrahedra.facets.size(); ++f)
-      {
-        const auto           &facet    = tetrahedra.facets[f];
-        const FacetCondition &held     = bound.facet_conditions[f];
-        const double          A        = tetrahedra.area(f) / (L * L);
-        const auto            first    = nodes_in_cell(tetrahedra, order, f, 0);
-        const bool            is_inner = facet.cells[1] != Tetrahedra::none;
-        const auto            axes     = axes_of_facet(tetrahedra, f);
-        const SpatialStrength &one =
-          bound.strengths[tetrahedra.material[cell_of_jump(bound, f)]];
-        const auto                  k = strength_of_jumps(bound, order, f);
-        std::vector<Tensor<1, dim>> outer; // of the nodes
-        for (unsigned int i = 0; i < n_facet; ++i)
-          outer.push_back(velocity[n_nodes * facet.cells[0] + first[i]]);
-        if (!is_inner)
-          {
-            std::array<Tensor<1, dim>, 3> dead, live;
-            for (unsigned int i = 0; i < 3; ++i)
-              {
-                dead[i] = bound.tractions(f)[i].dead;
-                live[i] = bound.tractions(f)[i].live;
-              }
-            const auto F      = forces_of_traction(order, dead),
-                       f_live = forces_of_traction(order, live);
-            for (unsigned int i = 0; i < n_facet; ++i)
-              {
-                power -= A * F[i] * outer[i];
-                work += A * f_live[i] * outer[i];
-              }
-          }
-        if (!is_inner && held.kind == FacetCondition::Kind::free)
-          continue;
-        std::vector<unsigned int> second;
-        if (is_inner)
-          second = nodes_in_cell(tetrahedra, order, f, 1);
-        for (unsigned int i = 0; i < n_facet; ++i)
-          {
-            const Tensor<1, dim> u =
-              (is_inner ? velocity[n_nodes * facet.cells[1] + second[i]]
-                        : held.velocity) -
-              outer[i];
-            // Along a plane of symmetry, or a smooth one, soil slides freely.
-            const double    slip = held.kind == FacetCondition::Kind::plane
-                                     ? 0.
-                                     : std::hypot(u * axes[1], u * axes[2]);
-            const SpatialStrength::Flow flow =
-              one.flow_of_jump(k[i], u * axes[0], slip);
-            result.dissipation_of_facet[f] += A / n_facet * flow.dissipation;
-            check.add_jump(flow);
-          }
-        power += result.dissipation_of_facet[f];
-      }
+      add_facet(bound, order, f, sum);
     // A body that moves by prescribed velocities has no other measure of its jumps.
     for (const Tensor<1, dim> &v : velocity)
-      take_larger(check.fastest, v.norm());
-    if (bound.factor == LoadFactor::velocity)
-      work = 1.;
-    result.work = work;
-    check.judge(result, power, work);
-    return result;
+      take_larger(sum.check.fastest, v.norm());
+    sum.result.work = bound.factor == LoadFactor::velocity ? 1. : sum.work;
+    sum.check.judge(sum.result, sum.power, sum.result.work);
+    return sum.result;
   }
 
   namespace
@@ -236,7 +281,7 @@ namespace geocone::GEOCONE_DIM
                   const unsigned int order,
                   const double       tolerance)
   {
-    ConicProblem problem = upper_problem(bound, order);
+    ConicProblem        problem = upper_problem(bound, order);
     SolidBound          side;
     const ConicSolution solution =
       solve_for_velocities(problem, tolerance, [&](const Eigen::VectorXd &q) {
