@@ -205,6 +205,32 @@ namespace geocone::GEOCONE_DIM
       "take a smaller 'Explicit/Courant number', splines, or the order MUSL");
   }
 
+  namespace
+  {
+    /** Adds the columns of the pore water. @param add adds a column, a function of the
+     *  group, the point and a component */
+    template <typename Add>
+    void
+    add_pore_water(const Add &add, const PoreWater *const water)
+    {
+      using Group = PointArrays;
+      using Index = unsigned int;
+      add("pore_pressure", [water](const Group &g, const Index p, Index) {
+        return water->pressure(g, p);
+      });
+      add("excess_pore_pressure",
+          [water](const Group &g, const Index p, Index) {
+            return water->excess_pressure(g, p);
+          });
+      add(
+        "water_velocity",
+        [water](const Group &g, const Index p, const Index d) {
+          return water->velocity(g, p)[d];
+        },
+        dim);
+    }
+  } // namespace
+
   void
   ExplicitOutput::write_points(const double                    time,
                                const std::vector<PointArrays> &groups)
@@ -265,22 +291,7 @@ namespace geocone::GEOCONE_DIM
     });
 
     if (water != nullptr)
-      {
-        add("pore_pressure", [this](const Group &g, const Index p, Index) {
-          return water->pressure(g, p);
-        });
-        add("excess_pore_pressure",
-            [this](const Group &g, const Index p, Index) {
-              return water->excess_pressure(g, p);
-            });
-        add(
-          "water_velocity",
-          [this](const Group &g, const Index p, const Index d) {
-            return water->velocity(g, p)[d];
-          },
-          dim);
-      }
-
+      add_pore_water(add, water);
     // Output quantities of all laws; not a number where a law has none.
     for (const std::string &name : scene->materials.shown_names())
       table.columns.push_back({name, 1, [&, name](std::vector<double> &to) {
