@@ -4,6 +4,7 @@
 #include <geocone/limit_analysis/block_matrix.h>
 
 #include <algorithm>
+#include <mutex>
 #include <numeric>
 
 namespace geocone
@@ -101,6 +102,9 @@ namespace geocone
   BlockMatrix::Factors::fill_reducing_order(
     const Eigen::SparseMatrix<double> &matrix)
   {
+    // METIS draws from the random numbers of the process, which it seeds first.
+    static std::mutex                 in_use;
+    const std::lock_guard<std::mutex> lock(in_use);
     analyzePattern(matrix);
     std::vector<int> place_of(matrix.rows());
     const int *const from = static_cast<const int *>(m_cholmodFactor->Perm);

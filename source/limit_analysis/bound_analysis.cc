@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
+#include <geocone/base/resources.h>
 #include <geocone/base/unused_parameters.h>
 #include <geocone/limit_analysis/bound_analysis.h>
 #include <geocone/output/run_status.h>

@@ -1,6 +1,7 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <geocone/base/resources.h>
 #include <geocone/limit_analysis/axisymmetric_certificate.h>
 #include <geocone/limit_analysis/certified_bounds.h>
 
@@ -134,8 +135,9 @@ namespace geocone::GEOCONE_DIM
       {
         const AxisymmetricScene body(bound);
         AxisymmetricPower       power;
-        bounds.upper = certified_upper(body, tolerance, power);
-        bounds.lower = certified_lower(body, tolerance);
+        run_both(
+          [&]() { bounds.upper = certified_upper(body, tolerance, power); },
+          [&]() { bounds.lower = certified_lower(body, tolerance); });
         bounds.gap =
           gap_of_cells(body, bounds.upper.bound, power, bounds.lower.bound);
         work = power.work;
@@ -143,8 +145,12 @@ namespace geocone::GEOCONE_DIM
     else
       {
         const BoundProblem above = upper_problem(bound);
-        bounds.upper = certified_upper(bound, above, tolerance, no_question);
-        bounds.lower = certified_lower(bound, tolerance);
+        run_both(
+          [&]() {
+            bounds.upper =
+              certified_upper(bound, above, tolerance, no_question);
+          },
+          [&]() { bounds.lower = certified_lower(bound, tolerance); });
         bounds.gap =
           gap_of_cells(above, bounds.upper.bound, bounds.lower.bound);
         work = above.has_factor() ? above.live.dot(bounds.upper.bound.q) : 1.;

@@ -3,6 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
+#include <geocone/base/resources.h>
 #include <geocone/limit_analysis/safety_search.h>
 
 #include <algorithm>
@@ -131,10 +132,15 @@ namespace geocone
         constexpr double near = 0.03;
         if (std::abs(std::log(next / factor)) < near || attempt == 30)
           {
-            for (const Side side : {lower, upper})
-              if (both[side].is_usable())
-                (side == lower ? level.lower : level.upper) =
-                  prove(solver, side, both[side].load, level.iterations[side]);
+            const auto proven = [&](const Side side) {
+              return both[side].is_usable() ? prove(solver,
+                                                    side,
+                                                    both[side].load,
+                                                    level.iterations[side])
+                                            : std::nullopt;
+            };
+            run_both([&]() { level.upper = proven(upper); },
+                     [&]() { level.lower = proven(lower); });
             factor = next;
             return level;
           }

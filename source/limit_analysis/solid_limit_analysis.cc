@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
+#include <geocone/base/resources.h>
 #include <geocone/base/unused_parameters.h>
 #include <geocone/limit_analysis/solid_certificate_files.h>
 #include <geocone/limit_analysis/solid_fields.h>
@@ -123,8 +124,13 @@ namespace geocone::GEOCONE_DIM
   SolidLimitAnalysis::bound_load()
   {
     const SolidScene bound = load.on(scene, *tetrahedra);
-    upper = certified_upper(bound, degree(velocities), inner_tolerance());
-    lower = certified_lower(bound, degree(stresses), inner_tolerance());
+    run_both(
+      [&]() {
+        upper = certified_upper(bound, degree(velocities), inner_tolerance());
+      },
+      [&]() {
+        lower = certified_lower(bound, degree(stresses), inner_tolerance());
+      });
     for (const SolidBound *side : {&upper, &lower})
       if (side->grows && !side->certified)
         throw StepFailure(
@@ -152,8 +158,9 @@ namespace geocone::GEOCONE_DIM
     std::array<SafetySearch::Attempt, 2>
     both(const double F) override
     {
-      const auto below = one(F, SafetySearch::lower),
-                 above = one(F, SafetySearch::upper);
+      SafetySearch::Attempt below, above;
+      run_both([&]() { above = one(F, SafetySearch::upper); },
+               [&]() { below = one(F, SafetySearch::lower); });
       of.gap   = gap_of_cells(of.load.reduced(of.scene, *of.tetrahedra, F),
                             degree(of.velocities),
                             degree(of.stresses),

@@ -29,17 +29,17 @@ namespace geocone::GEOCONE_DIM
       SafetySearch::Attempt
       one(const double F, const SafetySearch::Side side) override
       {
-        last = side == SafetySearch::lower
-                 ? certified_lower(reduced(F), tolerance)
-                 : certified_upper(reduced(F), tolerance);
-        return figures_of(last);
+        last[side] = side == SafetySearch::lower
+                       ? certified_lower(reduced(F), tolerance)
+                       : certified_upper(reduced(F), tolerance);
+        return figures_of(last[side]);
       }
 
       void
       keep(const SafetySearch::Side side) override
       {
         (side == SafetySearch::lower ? level.lower_proof : level.upper_proof) =
-          last;
+          last[side];
       }
 
     private:
@@ -56,7 +56,8 @@ namespace geocone::GEOCONE_DIM
       const StrengthReduction::Reduced &reduced;
       const double                      tolerance;
       StrengthReduction::Level         &level;
-      CertifiedBounds::Side             last;
+
+      std::array<CertifiedBounds::Side, 2> last; ///< by SafetySearch::Side
     };
   } // namespace
 

@@ -6,7 +6,6 @@
 #include <geocone/base/log.h>
 #include <geocone/output/run_status.h>
 
-#include <deal.II/base/utilities.h>
 
 #include <cerrno>
 #include <cstdlib>
@@ -113,20 +112,6 @@ namespace geocone
             {"host", host_name()},
             {"started", started},
             {"last_sign_of_life", time_now()}};
-  }
-
-  double
-  cpu_time_of_rank()
-  {
-    return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
-  }
-
-  double
-  peak_memory_of_rank()
-  {
-    dealii::Utilities::System::MemoryStats memory;
-    dealii::Utilities::System::get_memory_stats(memory);
-    return memory.VmHWM / 1024.; // from kB
   }
 
   void

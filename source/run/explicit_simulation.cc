@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/over_ranks.h>
+#include <geocone/base/resources.h>
 #include <geocone/output/run_status.h>
 #include <geocone/run/explicit_simulation.h>
 #include <geocone/run/run_estimate.h>

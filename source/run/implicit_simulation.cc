@@ -3,6 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/over_ranks.h>
+#include <geocone/base/resources.h>
 #include <geocone/base/stop_request.h>
 #include <geocone/base/unused_parameters.h>
 #include <geocone/output/run_status.h>

@@ -3,34 +3,17 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
+#include <geocone/base/resources.h>
 #include <geocone/run/run_estimate.h>
 #include <geocone/space/space.h>
 
 #include <cmath>
-#include <fstream>
 #include <limits>
-
-#include <sys/resource.h>
 
 namespace geocone::GEOCONE_DIM
 {
   namespace
   {
-    /** Memory still available to this program (bytes). */
-    double
-    available_memory()
-    {
-      double        available = std::numeric_limits<double>::max();
-      std::ifstream in("/proc/meminfo");
-      for (std::string name, unit, line; std::getline(in, line);)
-        if (line.compare(0, 13, "MemAvailable:") == 0)
-          available = 1024. * std::strtod(line.c_str() + 13, nullptr);
-      rlimit limit;
-      if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)
-        available = std::min(available, static_cast<double>(limit.rlim_cur));
-      return available;
-    }
-
     std::string
     number(const double x)
     {
@@ -75,7 +58,7 @@ namespace geocone::GEOCONE_DIM
       if (!(n < largest_integer))
         refuse("what gives fewer than 2^31 cells, unknowns and points",
                "make it coarser");
-    const double available = available_memory();
+    const double available = 1048576. * available_memory();
     if (!force && memory > available)
       refuse("what fits into the " + size(available) +
                " of memory that are free",

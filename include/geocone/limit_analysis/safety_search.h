@@ -48,7 +48,8 @@ namespace geocone
     };
 
     /** Base class of solvers for limit analyses on a mesh, with the strength
-     *  divided by a factor F. */
+     *  divided by a factor F. one() and keep() are called for both sides at the same
+     *  time (run_both()). */
     class Solver
     {
     public:

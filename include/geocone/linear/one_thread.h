@@ -7,8 +7,8 @@
 namespace geocone
 {
   /**
-   * Restricts all libraries to one thread per MPI rank, since the program is
-   * parallelised with MPI only. Linking this function also replaces
+   * Restricts all libraries to one thread of their own per MPI rank, since the program
+   * is parallelised with MPI and run_both() only. Linking this function also replaces
    * GOMP_parallel() (one_thread.cc), so that parallel regions of OpenMP in any
    * library of the process are executed serially.
    */

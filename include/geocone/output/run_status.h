@@ -27,15 +27,6 @@ namespace geocone
   Json
   run_topic();
 
-  /** CPU time of this rank (s). */
-  double
-  cpu_time_of_rank();
-
-  /** Peak memory of this rank (MB), without that of the process that has started
-   *  it, which getrusage() includes. */
-  double
-  peak_memory_of_rank();
-
   /**
    * Replaces the status "running" in the summary.json of a folder with
    * @p status. Has an effect only if the summary belongs to process @p pid on
