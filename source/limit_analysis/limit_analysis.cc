@@ -226,8 +226,9 @@ namespace geocone::GEOCONE_DIM
         "the "
         "dead loads (what 'Analysis/Load factor of' does not name), the "
         "strengths and the supports");
-    if ((bounds.upper.solution.grows || bounds.lower.solution.grows) &&
-        !level.upper_certified)
+    // The lower bound may be loose beside an upper one that is sharp.
+    if (bounds.upper.solution.grows ||
+        (bounds.lower.solution.grows && !level.upper_certified))
       throw StepFailure(
         "the load seems unbounded: stresses in equilibrium with it grow beyond "
         "all bounds within the strength\n  remedy:  check that the body can "
