@@ -103,7 +103,8 @@ namespace geocone::GEOCONE_DIM
       return *number;
     if (record)
       return record->value(t);
-    function->set_time(t);
+    if (function->get_time() != t) // threads evaluate with the same t
+      function->set_time(t);
     return function->value(x);
   }
 
