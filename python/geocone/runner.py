@@ -241,7 +241,8 @@ def reason_of(code: int, output: str) -> str:
     for i, line in enumerate(lines):
         if line.startswith("error:"):
             return " ".join(lines[i:i + 3])
-    unmet = [line for line in lines if line.startswith("expected ") and ": NO" in line]
+    said = [line.removeprefix("warning: ") for line in lines]
+    unmet = [line for line in said if line.startswith("expected ") and ": NO" in line]
     return "; ".join(unmet) or (lines[-1] if lines else f"exit code {code}")
 
 

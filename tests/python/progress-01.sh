@@ -71,6 +71,13 @@ try:
 except geocone.RunFailed as problem:
     assert str(problem) == ("parameter 'Mesh/Cell size' = '-1' allowed: > 0 "
                             "remedy: give it in m"), str(problem)
+# The reason is what was expected, not the name of a picture that is drawn afterwards.
+try:
+    run(parameters={**short, "Output/Pictures": True, "Loading/push/Duration": 0.04,
+                    "Output/Expectations": "newton/steps >= 99"}, progress=heard.append)
+    raise AssertionError
+except geocone.RunFailed as problem:
+    assert str(problem).startswith("expected newton/steps >= 99: NO"), str(problem)
 assert run(parameters={**short, "Output/Verbosity": 2, "Loading/push/Duration": 0.04},
            progress=heard.append).status == "finished"
 assert [state.step for state in heard[-2:]] == [1, 2]
