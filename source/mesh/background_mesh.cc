@@ -47,9 +47,13 @@ namespace geocone::GEOCONE_DIM
           types::boundary_id next = 0;
           for (const auto &side : mesh.sides)
             next = std::max(next, types::boundary_id(side.second + 1));
-          const auto id = mesh.sides.emplace(pair->name, next).first->second;
+          if (!mesh.sides.emplace(pair->name, next).second)
+            throw InputError("Contacts/Names",
+                             pair->name,
+                             "names that are not those of sides of the body",
+                             "rename the contact");
           for (const CoarseMesh::Face &face : faces)
-            mesh.add_boundary(face, id);
+            mesh.add_boundary(face, next);
         }
     }
   } // namespace
