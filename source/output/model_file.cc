@@ -198,8 +198,7 @@ namespace geocone::GEOCONE_DIM
           body["sides"] = sides;
           Json holes    = Json::object();
           for (std::size_t i = 0; i < geometry.holes.size(); ++i)
-            holes["hole " + std::to_string(i)] =
-              json_of_places(geometry.holes[i]);
+            holes[geometry.hole_names[i]] = json_of_places(geometry.holes[i]);
           body["holes"] = holes;
         }
       // Outlines describe neither discs nor the region where a formula is positive.

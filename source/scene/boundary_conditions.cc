@@ -6,6 +6,7 @@
 #include <geocone/base/unused_parameters.h>
 #include <geocone/functions/formula.h>
 #include <geocone/scene/boundary_conditions.h>
+#include <geocone/scene/side_names.h>
 
 #include <algorithm>
 
@@ -157,7 +158,7 @@ namespace geocone::GEOCONE_DIM
         all.insert(all.end(), group->second.begin(), group->second.end());
       else
         {
-          if (!groups.empty() && name.rfind("hole", 0) == 0)
+          if (!groups.empty() && name.rfind(prefix_of_holes, 0) == 0)
             {
               std::string known;
               for (const auto &entry : groups)
@@ -185,8 +186,9 @@ namespace geocone::GEOCONE_DIM
       throw InputError(parameter("Sides"),
                        "",
                        "one or more sides of the domain, or all",
-                       "of a box: bottom, right, top, left; of a polygon: 0, "
-                       "1, ...; of a file: its physical curves");
+                       "of a box: bottom, right, top, left; of a polygon: its "
+                       "'Side names', or 0, 1, ...; of a file: its physical "
+                       "curves");
     sides       = unquoted(sides, parameter("Sides"));
     sides_given = sides;
     bool is_box = box.empty() || box.size() == 2;

@@ -5,10 +5,12 @@
 #include <geocone/base/files.h>
 #include <geocone/base/lexicographic.h>
 #include <geocone/base/log.h>
+#include <geocone/base/quoted_names.h>
 #include <geocone/base/unused_parameters.h>
 #include <geocone/functions/formula.h>
 #include <geocone/scene/geometry.h>
 #include <geocone/scene/holes.h>
+#include <geocone/scene/side_names.h>
 
 #include <deal.II/base/bounding_box.h>
 
@@ -25,6 +27,7 @@ namespace geocone::GEOCONE_DIM
       {"Geometry/*", "Discretisation/Method", {"FEM", "MPM", "explicit MPM"}},
       {"Geometry/Box", "Geometry/Shape", {"box"}},
       {"Geometry/Polygon", "Geometry/Shape", {"polygon"}},
+      {"Geometry/Side names", "Geometry/Shape", {"polygon"}},
       {"Geometry/Holes", "Geometry/Shape", {"box", "polygon"}},
       {"Geometry/Centres", "Geometry/Shape", {"discs"}},
       {"Geometry/Radii", "Geometry/Shape", {"discs"}},
@@ -290,17 +293,27 @@ namespace geocone::GEOCONE_DIM
     add_parameter("Polygon",
                   polygon,
                   "Vertices x, y; x, y; ... [m] in order. Side i connects "
-                  "vertex i and the next one, and is named i (0, 1, ...).");
+                  "vertex i and the next one, and is named i (0, 1, ...) "
+                  "unless it has one of the 'Side names'.");
+    if (dim == 2)
+      add_parameter(
+        "Side names",
+        side_names,
+        "Names of the sides of the polygon for 'Sides' of conditions, instead "
+        "of their numbers: one for each side, in the order of the vertices, "
+        "comma-separated, e.g. base, right, crest, slope, left. A side whose "
+        "number stands in its place has no other name. Empty: numbers.");
     if (dim == 2)
       add_parameter(
         "Holes",
         holes_text,
         "Holes of the box or polygon, separated by |: polygons x, y; x, y; "
         "... [m] or circle(x, y, r), circle(x, y, r, n) with n sides (48) and "
-        "their vertices on the circle. The numbers of their sides follow those "
-        "of the outline, in the order of the holes; 'hole 0', 'hole 1', ... "
-        "are all sides of one. For FEM and bounds with an unstructured mesh, "
-        "and for particles.");
+        "their vertices on the circle. 'hole 0', 'hole 1', ... are all sides "
+        "of one for 'Sides' of conditions, or the name before it: tunnel: "
+        "circle(0, -5, 2). The numbers of their sides follow those of the "
+        "outline, in the order of the holes. For FEM and bounds with an "
+        "unstructured mesh, and for particles.");
     add_parameter(
       "Centres", centres, "Centres of the discs x, y; x, y; ... [m].");
     add_parameter("Radii",
@@ -330,6 +343,7 @@ namespace geocone::GEOCONE_DIM
     outline.clear();
     sides.clear();
     holes.clear();
+    hole_names.clear();
     sides_of_hole.clear();
     if (!where_text.empty())
       {
@@ -359,22 +373,8 @@ namespace geocone::GEOCONE_DIM
       {
         outline = polygon;
         check_polygon(outline, "Geometry/Polygon");
-        for (unsigned int i = 0; i < outline.size(); ++i)
-          sides[std::to_string(i)] = i;
       }
-    if (!outline.empty() && !holes_text.empty())
-      holes = holes_of(holes_text, outline);
-    for (const Polygon &hole : holes)
-      {
-        std::vector<std::string> &names =
-          sides_of_hole["hole " + std::to_string(sides_of_hole.size())];
-        for (std::size_t i = 0; i < hole.size(); ++i)
-          {
-            const unsigned int id = sides.size();
-            names.push_back(std::to_string(id));
-            sides[names.back()] = id;
-          }
-      }
+    prepare_sides();
     if (shape == Shape::discs)
       check_discs();
     else if (shape == Shape::file)
@@ -382,6 +382,35 @@ namespace geocone::GEOCONE_DIM
                            folder_of_parameters,
                            "Geometry/File",
                            "an existing gmsh .msh file");
+  }
+
+  void
+  Geometry::prepare_sides()
+  {
+    if (shape == Shape::polygon)
+      for (const std::string &name :
+           names_of_sides(side_names, outline.size(), "Geometry/Side names"))
+        sides.emplace(name, sides.size());
+    if (outline.empty() || holes_text.empty())
+      return;
+    for (const Hole &hole : holes_of(holes_text, outline))
+      {
+        std::vector<std::string> names;
+        for (std::size_t i = 0; i < hole.outline.size(); ++i)
+          {
+            const unsigned int id = sides.size();
+            names.push_back(std::to_string(id));
+            sides[names.back()] = id;
+          }
+        require(sides.count(hole.name) == 0 &&
+                  sides_of_hole.emplace(hole.name, names).second,
+                "Geometry/Holes",
+                hole.name,
+                "names that differ from those of other holes and of the sides",
+                "rename it");
+        holes.push_back(hole.outline);
+        hole_names.push_back(hole.name);
+      }
   }
 
   bool

@@ -4,6 +4,7 @@
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
 #include <geocone/scene/holes.h>
+#include <geocone/scene/side_names.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -19,8 +20,8 @@ namespace geocone::GEOCONE_DIM
   {
     constexpr const char *parameter   = "Geometry/Holes";
     constexpr const char *forms       = "polygons x, y; x, y; ... or circle(x, "
-                                        "y, r) or circle(x, y, r, n), separated "
-                                        "by |";
+                                        "y, r) or circle(x, y, r, n), with or "
+                                        "without 'name: ', separated by |";
     constexpr unsigned    usual_sides = 48, most_sides = 10000;
 
     /** Numbers in a text, separated by commas. @throws InputError */
@@ -97,6 +98,20 @@ namespace geocone::GEOCONE_DIM
       return polygon;
     }
 
+    /** Hole of the description 'polygon' or 'name: polygon'.
+     *  @param number of the hole */
+    Hole
+    hole_of(const std::string &text, const std::size_t number)
+    {
+      const std::size_t colon = text.find(':');
+      if (colon == std::string::npos)
+        return {"hole " + std::to_string(number), polygon_of(text)};
+      const std::string name = dealii::Utilities::trim(text.substr(0, colon));
+      check_side_name(name, parameter, "hole " + std::to_string(number));
+      return {name,
+              polygon_of(dealii::Utilities::trim(text.substr(colon + 1)))};
+    }
+
     /** Whether a side of one polygon meets one of another. */
     bool
     meet(const Polygon &one, const Polygon &other)
@@ -115,40 +130,37 @@ namespace geocone::GEOCONE_DIM
     }
   } // namespace
 
-  std::vector<Polygon>
+  std::vector<Hole>
   holes_of(const std::string &text, const Polygon &outline)
   {
-    std::vector<Polygon>           holes;
-    const std::vector<std::string> texts = split_string_list(text, '|');
-    const auto                     name  = [](const std::size_t i) {
-      return "hole " + std::to_string(i);
-    };
-    for (const std::string &hole : texts)
+    std::vector<Hole> holes;
+    for (const std::string &hole : split_string_list(text, '|'))
       {
-        const Polygon polygon = polygon_of(hole);
+        const auto [name, polygon] = hole_of(hole, holes.size());
         check_polygon(polygon, parameter);
         if (meet(polygon, outline))
           throw InputError(parameter,
                            hole,
                            "holes inside the body, apart from its outline",
-                           name(holes.size()) +
+                           name +
                              " meets the outline: move it, or let the outline "
                              "go around it");
         if (!contains(outline, polygon[0]))
           throw InputError(parameter,
                            hole,
                            "holes inside the body, apart from its outline",
-                           name(holes.size()) + " lies outside of it");
-        for (std::size_t j = 0; j < holes.size(); ++j)
-          if (meet(polygon, holes[j]) || contains(polygon, holes[j][0]) ||
-              contains(holes[j], polygon[0]))
+                           name + " lies outside of it");
+        for (const Hole &other : holes)
+          if (meet(polygon, other.outline) ||
+              contains(polygon, other.outline[0]) ||
+              contains(other.outline, polygon[0]))
             throw InputError(parameter,
                              hole,
                              "holes apart from each other",
-                             name(j) + " and " + name(holes.size()) +
+                             other.name + " and " + name +
                                " overlap or touch: move one of them, or make "
                                "them one");
-        holes.push_back(polygon);
+        holes.push_back({name, polygon});
       }
     return holes;
   }

@@ -208,14 +208,16 @@ namespace geocone::GEOCONE_DIM
         }
       else if (const auto box = condition.box_corners())
         part.cut(*box);
-      // Vertical sides are as long as the part is high.
+      // Vertical sides are as long as the part is high. Sides of a polygon may
+      // have the names of those of a box.
+      const bool is_box = scene.geometry.shape == Geometry::Shape::box;
       part.is_upright =
         condition.moves_with_body()
-          ? std::any_of(condition.sides.begin(),
-                        condition.sides.end(),
-                        [](const std::string &side) {
-                          return side == "left" || side == "right";
-                        })
+          ? is_box && std::any_of(condition.sides.begin(),
+                                  condition.sides.end(),
+                                  [](const std::string &side) {
+                                    return side == "left" || side == "right";
+                                  })
           : part.high[1] - part.low[1] > part.high[0] - part.low[0];
       return part;
     }
@@ -229,7 +231,8 @@ namespace geocone::GEOCONE_DIM
           const char *const side = plane.along == 1
                                      ? (plane.is_first ? "bottom" : "top")
                                      : (plane.is_first ? "left" : "right");
-          return !condition.is_on_side(side) ? Extent::none
+          const bool is_box      = scene.geometry.shape == Geometry::Shape::box;
+          return !condition.is_on_side(is_box ? side : "all") ? Extent::none
                  : condition.wide_box() || condition.has_formula()
                    ? Extent::some
                    : Extent::all;

@@ -117,8 +117,9 @@ namespace geocone::GEOCONE_DIM
    * Geometry of the body: a box, a polygon, discs, or a mesh from a .msh file
    * or gmsh script. For MPM a formula can restrict the body to the part where
    * the formula is positive. The sides of a box are called bottom, right, top,
-   * left; those of a polygon 0, 1, 2, ... (side i connects vertex i to the next
-   * one); the numbers of the sides of holes follow those of the outline; those
+   * left; those of a polygon have names or are 0, 1, 2, ... (side i connects
+   * vertex i to the next one); the numbers of the sides of holes follow those
+   * of the outline; those
    * of a file have the numbers or names of its physical curves; discs have
    * none, and are supported by the material point method only.
    */
@@ -216,8 +217,10 @@ namespace geocone::GEOCONE_DIM
      *  name. */
     std::map<std::string, dealii::types::boundary_id> sides;
 
-    /** Names of the sides of each hole, by name of the hole: "hole 0", "hole
-     *  1", ... */
+    /** Name of each hole. */
+    std::vector<std::string> hole_names;
+
+    /** Names of the sides of each hole, by name of the hole. */
     std::map<std::string, std::vector<std::string>> sides_of_hole;
 
     /** Name of the .msh file or gmsh script. */
@@ -273,6 +276,11 @@ namespace geocone::GEOCONE_DIM
     refuse_where(const std::string &who, const std::string &remedy) const;
 
   private:
+    /** Sets the names of the sides of the outline of a polygon, and holes with
+     *  their names and sides. */
+    void
+    prepare_sides();
+
     void
     check_discs();
 
@@ -287,6 +295,7 @@ namespace geocone::GEOCONE_DIM
     unsigned int                    dimension = dim;
     std::vector<dealii::Point<dim>> box;
     std::vector<dealii::Point<dim>> polygon;
+    std::vector<std::string>        side_names;
     std::string                     holes_text;
     std::vector<dealii::Point<dim>> centres = {dealii::Point<dim>()};
     std::vector<double>             radii   = {1.};

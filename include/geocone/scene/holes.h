@@ -11,16 +11,23 @@
 
 namespace geocone::GEOCONE_DIM
 {
+  /** Hole of a plane body. */
+  struct Hole
+  {
+    std::string name; ///< the given one, or "hole 0", "hole 1", ...
+    Polygon     outline;
+  };
+
   /**
    * Converts the description of the holes of a plane body to polygons. The
    * holes are separated by |. A hole is a polygon x, y; x, y; ... or circle(x,
-   * y, r) or circle(x, y, r, n). A circle is replaced by a regular polygon
-   * whose n vertices lie on the circle, counterclockwise from the lowest
-   * vertex.
+   * y, r) or circle(x, y, r, n), which may follow a name and a colon. A circle
+   * is replaced by a regular polygon whose n vertices lie on the circle,
+   * counterclockwise from the lowest vertex.
    * @throws InputError if a hole is not a polygon, is not inside the outline,
    * or meets the outline or another hole
    */
-  std::vector<Polygon>
+  std::vector<Hole>
   holes_of(const std::string &text, const Polygon &outline);
 } // namespace geocone::GEOCONE_DIM
 

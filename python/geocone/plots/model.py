@@ -469,14 +469,14 @@ def draw_side_names(axes, model):
     """Names of the sides beside their middles, and of holes in them, as conditions call
     them."""
     body = model.data["body"]
-    style = {"textcoords": "offset points", "ha": "center", "va": "center", "fontsize": 7,
+    style = {"textcoords": "offset points", "va": "center", "fontsize": 7,
              "color": "#303030", "zorder": 6, "bbox": {
                  "boxstyle": "round,pad=0.15", "fc": "white", "ec": "#909090", "lw": 0.5,
                  "alpha": 0.85}}
     without_number = set()
     n = len(body.get("outline", ()))
     for name, hole in body.get("holes", {}).items():
-        axes.annotate(name, np.mean(hole, axis=0), xytext=(0., 0.), **style)
+        axes.annotate(plain(name), np.mean(hole, axis=0), xytext=(0., 0.), ha="center", **style)
         if len(hole) > MOST_NUMBERS:
             without_number.update(str(i) for i in range(n, n + len(hole)))
         n += len(hole)
@@ -485,7 +485,10 @@ def draw_side_names(axes, model):
             continue
         a, b = np.array(ends)
         inward = np.array([a[1] - b[1], b[0] - a[0]]) / np.linalg.norm(b - a)
-        axes.annotate(plain(name), (a + b) / 2., xytext=11. * inward, **style)
+        # Long names begin or end at the side, not across it.
+        away = "center" if abs(inward[0]) < 0.3 else "left" if inward[0] > 0. else "right"
+        axes.annotate(plain(name), (a + b) / 2., ha=away,
+                      xytext=(11. if away == "center" else 7.) * inward, **style)
 
 
 def view_of(model):
