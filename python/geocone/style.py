@@ -36,7 +36,8 @@ for colors in STRAINS, RATIOS:
 SHOWN = 1e-3  # a rate below this part of level() is drawn as none: it is elastic noise
 EXCEEDED = 0.02  # part of the area whose values are beyond the end of the colours
 MOST_PATHS = 3000  # that a vector file has of one collection
-BESIDE = {"loc": "upper left", "bbox_to_anchor": (1., 1.02)}  # a legend's place
+# A legend's place. Its lines are as long as dashes need to be seen.
+BESIDE = {"loc": "upper left", "bbox_to_anchor": (1., 1.02), "handlelength": 3.}
 
 matplotlib.rcdefaults()  # not what a file in the folder of the call may say, e.g. to run TeX
 matplotlib.rcParams.update({

@@ -13,6 +13,8 @@ from geocone.plots.answer import heading
 from geocone.reader import Missing
 from geocone.style import BESIDE, COLORS, GREY, ORANGE, Skipped, plain, save, subplots, unit_for
 
+DASHES = ["-", (0, (4, 1.5)), (0, (1.5, 1))]  # of curves that share a colour
+
 # mm, N/m or N, of the summary, s, of a limit analysis
 Curve = namedtuple("Curve", "displacement load limit time marks", defaults=((),))
 
@@ -93,6 +95,7 @@ def draw_lines(axes, names, curves, unit):
         style = ({"linewidth": 1., "zorder": 1.2} if len(load) > 61 else
                  {"marker": "o", "markersize": 3.5})
         axes.plot(displacement, load / unit[1], color=color,
+                  linestyle=DASHES[i // len(COLORS) % len(DASHES)],
                   label=name if single else text, **style)
         last = displacement[np.argmax(np.abs(displacement))]
         level = {"color": ORANGE if single else color, "linewidth": 5., "alpha": 0.7,
