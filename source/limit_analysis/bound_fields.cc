@@ -3,6 +3,7 @@
 
 #include <geocone/cone/second_order_cone.h>
 #include <geocone/limit_analysis/axisymmetric_certificate.h>
+#include <geocone/limit_analysis/bar_cells.h>
 #include <geocone/limit_analysis/bound_fields.h>
 
 namespace geocone::GEOCONE_DIM
@@ -13,13 +14,18 @@ namespace geocone::GEOCONE_DIM
 
     void
     add_plane_fields(SimplexTable<Triangles> &table,
-                     const BoundUnits        &units,
+                     const BoundScene        &bound,
                      const Bound             &upper,
                      const Bound             &lower)
     {
       table.add(
-        "velocity", dim, [&](const Index, const Index v, const Index d) {
-          return upper.q.size() > 0 ? upper.q[dim * v + d] : 0.;
+        "velocity", dim, [&](const Index p, const Index, const Index d) {
+          return upper.q.size() > 0
+                   ? upper.q[dof_of_node(bound,
+                                         bound.bars.node_of_cell(
+                                           bound.triangles, p / 3, p % 3)) +
+                             d]
+                   : 0.;
         });
       // Translation of each triangle, from the dual of the lower bound.
       table.add(
@@ -30,7 +36,7 @@ namespace geocone::GEOCONE_DIM
       for (Index i = 0; i < 3; ++i)
         table.add(names[i], 1, [&, i](const Index p, const Index, const Index) {
           const Mandel s = from_cone_axes(Mandel(lower.s[p]));
-          return units.stress * (i == 2 ? s[2] / sqrt2 : s[i]);
+          return bound.units.stress * (i == 2 ? s[2] / sqrt2 : s[i]);
         });
     }
 
@@ -73,7 +79,7 @@ namespace geocone::GEOCONE_DIM
     if (bound.is_axisymmetric())
       add_axisymmetric_fields(table, bound, upper, lower);
     else
-      add_plane_fields(table, bound.units, upper, lower);
+      add_plane_fields(table, bound, upper, lower);
     table.add_parts_of_gap(gap);
     table.add_materials();
     return table;

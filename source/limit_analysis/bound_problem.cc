@@ -3,6 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/cone/second_order_cone.h>
+#include <geocone/limit_analysis/bar_cells.h>
 #include <geocone/limit_analysis/bound_problem.h>
 #include <geocone/limit_analysis/interface_cells.h>
 #include <geocone/materials/retention.h>
@@ -266,25 +267,6 @@ namespace geocone::GEOCONE_DIM
       return -1. * g / g.norm();
     }
 
-    /** Calls f(component, value) for the values prescribed by a condition at x. */
-    template <typename Function>
-    void
-    prescribe(const BoundaryCondition &condition,
-              const Point<dim>        &x,
-              const Tensor<1, dim>    &n,
-              const double             unit,
-              const Function          &f)
-    {
-      for (unsigned int d = 0; d < dim; ++d)
-        if (condition.components[d])
-          f(d, condition.components[d]->value(x, 0.) / unit);
-      if (condition.normal && is_along_axis(n)) // else there is an interface
-        {
-          const unsigned int d = std::abs(n[0]) > 0.5 ? 0 : 1;
-          f(d, n[d] * condition.normal->value(x, 0.) / unit);
-        }
-    }
-
     /** The traction of a load at x, in units. */
     Tensor<1, dim>
     traction(const BoundaryCondition &load,
@@ -322,16 +304,20 @@ namespace geocone::GEOCONE_DIM
      * Nodes of an edge. In the upper problem both ends and the middle: Simpson's rule is
      * exact for linear tractions. In the lower one w at both ends, the value of a linear
      * velocity at the third point next to the end; the integral of its function with a
-     * linear traction equals the traction at the end.
+     * linear traction equals the traction at the end. On a structure, whose middle
+     * velocity is (b_0 + 2 b_1 + b_2)/4 of Bernstein's coefficients, each part is that
+     * of a coefficient.
      */
     std::vector<EdgeNode>
-    nodes_of(const BoundSide    side,
-             const Triangles   &triangles,
-             const unsigned int edge)
+    nodes_of(const BoundScene          &bound,
+             const BoundSide            side,
+             const Triangles::HeldEdge &held)
     {
-      const auto       &ends = triangles.edges[edge].vertices;
-      const Point<dim> &a    = triangles.vertices[ends[0]],
-                       &b    = triangles.vertices[ends[1]];
+      const Triangles   &triangles = bound.triangles;
+      const unsigned int edge      = held.edge;
+      const auto        &ends      = triangles.edges[edge].vertices;
+      const Point<dim>  &a         = triangles.vertices[ends[0]],
+                       &b          = triangles.vertices[ends[1]];
       if (side == BoundSide::lower)
         return {{dof_at_end(triangles, edge, ends[0]),
                  Point<dim>(a + (b - a) / 3.),
@@ -342,10 +328,31 @@ namespace geocone::GEOCONE_DIM
                  b,
                  1. / 2.}};
       const Point<dim>   middle(a + (b - a) / 2.);
-      const unsigned int n_vertices = triangles.vertices.size();
-      return {{dim * ends[0], a, a, 1. / 6.},
-              {dim * ends[1], b, b, 1. / 6.},
-              {dim * (n_vertices + edge), middle, middle, 2. / 3.}};
+      const PlasticBars &bars = bound.bars;
+      if (const int k = bars.number_of_edge(edge); k >= 0)
+        {
+          const auto dof = [&](const unsigned int node) {
+            return dof_of_node(bound, node);
+          };
+          const unsigned int first = dof(bars.node_of_vertex(
+                               bars.number_of_vertex(ends[0]))),
+                             last  = dof(bars.node_of_vertex(
+                               bars.number_of_vertex(ends[1])));
+          return {{first, a, a, 1. / 6.},
+                  {last, b, b, 1. / 6.},
+                  {first, a, middle, 1. / 6.},
+                  {last, b, middle, 1. / 6.},
+                  {dof(bars.node_of_edge(k)), middle, middle, 1. / 3.}};
+        }
+      const auto dof = [&](const unsigned int i) {
+        return dof_of_node(bound, bars.node_of_cell(triangles, held.cell, i));
+      };
+      const unsigned int i = (held.opposite_vertex + 1) % 3,
+                         j = (held.opposite_vertex + 2) % 3;
+      const bool is_first  = triangles.cells[held.cell][i] == ends[0];
+      return {{dof(is_first ? i : j), a, a, 1. / 6.},
+              {dof(is_first ? j : i), b, b, 1. / 6.},
+              {dof(held.opposite_vertex + 3), middle, middle, 2. / 3.}};
     }
 
     /** Prescribes velocities and adds tractions. */
@@ -357,8 +364,8 @@ namespace geocone::GEOCONE_DIM
       const Triangles &triangles = bound.triangles;
       for (const auto &condition : bound.scene.dirichlet.list)
         for (const auto &held : triangles.held_edges(*condition))
-          for (const EdgeNode &node : nodes_of(side, triangles, held.edge))
-            prescribe(
+          for (const EdgeNode &node : nodes_of(bound, side, held))
+            for_prescribed(
               *condition,
               node.of_velocity,
               outward_normal(triangles, held.cell, held.opposite_vertex),
@@ -426,7 +433,7 @@ namespace geocone::GEOCONE_DIM
     }
 
     /** Excludes stress-free points of cohesionless soil at free surfaces.
-     *  @param end_dof (edge, vertex) -> its x dof */
+     *  @param end_dof (cell, edge, vertex) -> its x dof */
     template <typename EndDof>
     void
     free_surfaces_without_cohesion(const BoundScene &bound,
@@ -434,48 +441,60 @@ namespace geocone::GEOCONE_DIM
                                    BoundProblem     &problem)
     {
       const Triangles       &triangles = bound.triangles;
-      std::vector<bool>      is_apex(triangles.vertices.size(), false);
+      const PlasticBars     &bars      = bound.bars;
+      std::vector<bool>      is_apex(bars.n_sectors(triangles), false);
       std::set<unsigned int> slides;
       for (const Interface &interface : bound.interfaces)
         slides.insert(interface.held.edge);
+      for (const PlasticBars::BarEdge &bar : bars.edges)
+        slides.insert(bar.edge);
       for (const auto &outer : triangles.outer_edges())
         if (slides.count(outer.edge) == 0)
-          for (const unsigned int v : triangles.edges[outer.edge].vertices)
+          for (const unsigned int i : {(outer.opposite_vertex + 1) % 3,
+                                       (outer.opposite_vertex + 2) % 3})
             {
-              bool is_free = true;
+              const unsigned int v       = triangles.cells[outer.cell][i];
+              bool               is_free = true;
               for (unsigned int d = 0; d < dim; ++d)
                 {
-                  const unsigned int dof = end_dof(outer.edge, v) + d;
+                  const unsigned int dof =
+                    end_dof(outer.cell, outer.edge, v) + d;
                   is_free = is_free && !problem.is_prescribed[dof] &&
                             problem.dead[dof] == 0. && problem.live[dof] == 0.;
                 }
               if (is_free)
-                is_apex[v] = true;
+                is_apex[bars.sector(triangles, outer.cell, i)] = true;
             }
       for (unsigned int c = 0; c < triangles.cells.size(); ++c)
         for (unsigned int i = 0; i < 3; ++i)
           if (problem.cone[3 * c + i].k > 0.)
-            is_apex[triangles.cells[c][i]] = false;
+            is_apex[bars.sector(triangles, c, i)] = false;
       for (unsigned int c = 0; c < triangles.cells.size(); ++c)
         for (unsigned int i = 0; i < 3; ++i)
-          if (const unsigned int v = triangles.cells[c][i]; is_apex[v])
+          if (is_apex[bars.sector(triangles, c, i)])
             {
+              const unsigned int v    = triangles.cells[c][i];
               problem.cone[3 * c + i] = inactive_cone;
               problem.B.remove(3 * c + i);
               for (const unsigned int e : {(i + 1) % 3, (i + 2) % 3})
-                for (unsigned int d = 0; d < dim; ++d)
-                  {
-                    const unsigned int dof =
-                      end_dof(triangles.edges_of_cell[c][e], v) + d;
-                    problem.has_no_force[dof]  = true;
-                    problem.is_prescribed[dof] = true;
-                    problem.prescribed[dof]    = 0.;
-                  }
+                {
+                  const unsigned int edge = triangles.edges_of_cell[c][e];
+                  const int          bar  = bars.number_of_edge(edge);
+                  if (bar >= 0 && !bars.has_weak_interface(bar))
+                    continue; // the structure is loaded from its other side
+                  for (unsigned int d = 0; d < dim; ++d)
+                    {
+                      const unsigned int dof     = end_dof(c, edge, v) + d;
+                      problem.has_no_force[dof]  = true;
+                      problem.is_prescribed[dof] = true;
+                      problem.prescribed[dof]    = 0.;
+                    }
+                }
             }
     }
 
     /** Adds the cells of the lower bound, with velocities of the cell and of both ends
-     *  of each edge. @param end_dof (edge, vertex) -> its x dof */
+     *  of each edge. @param end_dof (cell, edge, vertex) -> its x dof */
     template <typename EndDof>
     void
     add_linear_cells(const BoundScene &bound,
@@ -502,7 +521,8 @@ namespace geocone::GEOCONE_DIM
                 for (unsigned int d = 0; d < dim; ++d)
                   {
                     B.col(dofs.size()) = -3. * symmetric_part(d, g[e]);
-                    dofs.push_back(end_dof(triangles.edges_of_cell[c][e],
+                    dofs.push_back(end_dof(c,
+                                           triangles.edges_of_cell[c][e],
                                            triangles.cells[c][i]) +
                                    d);
                   }
@@ -520,6 +540,23 @@ namespace geocone::GEOCONE_DIM
         }
     }
   } // namespace
+
+  void
+  for_prescribed(const BoundaryCondition                         &condition,
+                 const Point<dim>                                &x,
+                 const Tensor<1, dim>                            &n,
+                 const double                                     unit,
+                 const std::function<void(unsigned int, double)> &f)
+  {
+    for (unsigned int d = 0; d < dim; ++d)
+      if (condition.components[d])
+        f(d, condition.components[d]->value(x, 0.) / unit);
+    if (condition.normal && is_along_axis(n)) // else there is an interface
+      {
+        const unsigned int d = std::abs(n[0]) > 0.5 ? 0 : 1;
+        f(d, n[d] * condition.normal->value(x, 0.) / unit);
+      }
+  }
 
   Tensor<1, dim>
   weight_of_cell(const BoundScene &bound, const unsigned int cell)
@@ -546,9 +583,9 @@ namespace geocone::GEOCONE_DIM
       if (side == BoundSide::lower)
         F[dim * cell + d] += force[d] * area;
       else // the integral is zero for a vertex function and A/3 for an edge function
-        for (const unsigned int edge : triangles.edges_of_cell[cell])
-          F[dim * (triangles.vertices.size() + edge) + d] +=
-            force[d] * area / 3.;
+        for (unsigned int i = 3; i < 6; ++i)
+          F[dof_of_node(bound, bound.bars.node_of_cell(triangles, cell, i)) +
+            d] += force[d] * area / 3.;
   }
 
   void
@@ -564,7 +601,7 @@ namespace geocone::GEOCONE_DIM
         const double length =
           triangles.vertices[ends[0]].distance(triangles.vertices[ends[1]]) /
           bound.units.length;
-        for (const EdgeNode &node : nodes_of(side, triangles, held.edge))
+        for (const EdgeNode &node : nodes_of(bound, side, held))
           {
             const Tensor<1, dim> t = traction(
               load,
@@ -602,18 +639,21 @@ namespace geocone::GEOCONE_DIM
     const unsigned int n_vertices = triangles.vertices.size();
     const unsigned int n_nodes    = n_vertices + triangles.edges.size();
     BoundProblem       problem =
-      begin_problem(bound, 10, dim * n_nodes + n_dofs_of_interfaces(bound));
+      begin_problem(bound,
+                    10,
+                    dim * n_nodes + n_dofs_of_interfaces(bound) +
+                      n_dofs_of_bars(bound, BoundSide::upper));
     bound_dissipation_from_above(problem);
     std::vector<bool> is_used(n_vertices, false);
+    const auto        dof = [&](const unsigned int c, const unsigned int i) {
+      return dof_of_node(bound, bound.bars.node_of_cell(triangles, c, i));
+    };
     for (unsigned int c = 0; c < triangles.cells.size(); ++c)
       {
         std::vector<unsigned int> dofs;
         for (unsigned int f = 0; f < 6; ++f)
           for (unsigned int d = 0; d < dim; ++d)
-            dofs.push_back(
-              dim * (f < 3 ? triangles.cells[c][f]
-                           : n_vertices + triangles.edges_of_cell[c][f - 3]) +
-              d);
+            dofs.push_back(dof(c, f) + d);
         const auto g       = triangles.gradients(c);
         const auto suction = suction_of_cell(bound, c);
         for (unsigned int i = 0; i < 3; ++i)
@@ -630,8 +670,10 @@ namespace geocone::GEOCONE_DIM
                           B,
                           dofs);
           }
-        for (const unsigned int v : triangles.cells[c])
-          is_used[v] = true;
+        for (unsigned int i = 0; i < 3; ++i)
+          if (const unsigned int v = bound.bars.node_of_cell(triangles, c, i);
+              v < n_vertices)
+            is_used[v] = true;
         add_body_forces(problem, bound, BoundSide::upper, c);
       }
     for (unsigned int v = 0; v < n_vertices; ++v)
@@ -642,10 +684,14 @@ namespace geocone::GEOCONE_DIM
     apply_conditions(bound, BoundSide::upper, problem);
     add_interfaces(
       bound,
-      [&](const unsigned int edge) {
-        const auto        &ends = triangles.edges[edge].vertices;
-        const unsigned int a = dim * ends[0], b = dim * ends[1],
-                           m = dim * (n_vertices + edge);
+      [&](const Triangles::HeldEdge &held) {
+        const auto        &ends     = triangles.edges[held.edge].vertices;
+        const unsigned int i        = (held.opposite_vertex + 1) % 3,
+                           j        = (held.opposite_vertex + 2) % 3;
+        const bool         is_first = triangles.cells[held.cell][i] == ends[0];
+        const unsigned int a        = dof(held.cell, is_first ? i : j),
+                           b        = dof(held.cell, is_first ? j : i),
+                           m        = dof(held.cell, held.opposite_vertex + 3);
         const Point<dim> &x  = triangles.vertices[ends[0]],
                          &y  = triangles.vertices[ends[1]];
         return std::array<InterfacePoint, 3>{{{1. / 3., {{a, 1.}}, x},
@@ -656,6 +702,7 @@ namespace geocone::GEOCONE_DIM
       },
       dim * n_nodes,
       problem);
+    add_bars(bound, BoundSide::upper, problem);
     add_cut_offs(problem);
     return problem;
   }
@@ -667,10 +714,14 @@ namespace geocone::GEOCONE_DIM
     const unsigned int n_cells   = triangles.cells.size();
     const unsigned int n_nodes   = n_cells + 2 * triangles.edges.size();
     BoundProblem       problem =
-      begin_problem(bound, 6, dim * n_nodes + n_dofs_of_interfaces(bound));
-    const auto end_dof = [&](const unsigned int edge,
+      begin_problem(bound,
+                    6,
+                    dim * n_nodes + n_dofs_of_interfaces(bound) +
+                      n_dofs_of_bars(bound, BoundSide::lower));
+    const auto end_dof = [&](const unsigned int cell,
+                             const unsigned int edge,
                              const unsigned int vertex) {
-      return dof_at_end(triangles, edge, vertex);
+      return dof_at_end_of_cell(bound, cell, edge, vertex);
     };
     add_linear_cells(bound, end_dof, problem);
 
@@ -678,18 +729,20 @@ namespace geocone::GEOCONE_DIM
     free_surfaces_without_cohesion(bound, end_dof, problem);
     add_interfaces(
       bound,
-      [&](const unsigned int edge) {
-        const auto &ends = triangles.edges[edge].vertices;
+      [&](const Triangles::HeldEdge &held) {
+        const unsigned int edge = held.edge, cell = held.cell;
+        const auto        &ends = triangles.edges[edge].vertices;
         // Third points, as for w.
         const Point<dim>    &x     = triangles.vertices[ends[0]];
         const Tensor<1, dim> third = (triangles.vertices[ends[1]] - x) / 3.;
         return std::array<InterfacePoint, 3>{
-          {{1. / 2., {{end_dof(edge, ends[0]), 1.}}, x + third},
-           {1. / 2., {{end_dof(edge, ends[1]), 1.}}, x + 2. * third},
+          {{1. / 2., {{end_dof(cell, edge, ends[0]), 1.}}, x + third},
+           {1. / 2., {{end_dof(cell, edge, ends[1]), 1.}}, x + 2. * third},
            {1. / 2., {}, x}}};
       },
       dim * n_nodes,
       problem);
+    add_bars(bound, BoundSide::lower, problem);
     add_cut_offs(problem);
     return problem;
   }

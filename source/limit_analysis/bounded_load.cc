@@ -5,6 +5,7 @@
 #include <geocone/base/log.h>
 #include <geocone/limit_analysis/axisymmetric_bounds.h>
 #include <geocone/limit_analysis/bounded_load.h>
+#include <geocone/materials/retention.h>
 #include <geocone/mesh/empty_regions.h>
 
 #include <deal.II/base/bounding_box.h>
@@ -22,9 +23,12 @@ namespace geocone::GEOCONE_DIM
   namespace
   {
     /** @throws InputError if a rigid motion of the body is free
-     *  @param problem of quadratic velocities */
+     *  @param problem of quadratic velocities, without structures
+     *  @param ties anchors and struts, which hold the body at fixed points */
     void
-    check_supports(const BoundScene &bound, const BoundProblem &problem)
+    check_supports(const BoundScene                    &bound,
+                   const BoundProblem                  &problem,
+                   const std::vector<PlasticBars::Tie> &ties)
     {
       // Rigid motions of the prescribed dofs: two translations and a rotation.
       Eigen::Matrix3d  squares   = Eigen::Matrix3d::Zero();
@@ -71,6 +75,9 @@ namespace geocone::GEOCONE_DIM
                 if (face.has_tangential)
                   hold(triangles.vertices[v], Tensor<1, dim>({-n[1], n[0]}));
               }
+      for (const PlasticBars::Tie &tie : ties)
+        if (const auto &[first, last] = tie.vertices; first < 0 || last < 0)
+          hold(triangles.vertices[std::max(first, last)], tie.along);
       const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(squares);
       if (solver.eigenvalues()[0] > 1e-10 * solver.eigenvalues()[2])
         return;
@@ -185,9 +192,11 @@ namespace geocone::GEOCONE_DIM
       return check_axisymmetric_loads(scene, triangles);
     check_strength(scene, triangles);
     choose_units(scene, triangles);
-    const BoundScene   bound   = on(scene, triangles);
+    BoundScene bound = on(scene, triangles);
+    const auto ties  = bound.bars.ties;
+    bound.bars       = {}; // others only tie parts of the body together
     const BoundProblem problem = upper_problem(bound);
-    check_supports(bound, problem);
+    check_supports(bound, problem, ties);
     check_ways(bound, problem);
     if (!is_reaction() && !problem.has_factor())
       refuse_zero_load();
@@ -271,6 +280,13 @@ namespace geocone::GEOCONE_DIM
                            "free surfaces would be at their strength whatever "
                            "the load: give a small one, e.g. a hundredth of "
                            "the cohesion");
+        if (!scene.structures.list.empty() &&
+            scene.materials.law(m).retention().adds_strength())
+          throw InputError("Structures/Names",
+                           scene.structures.list.front()->name,
+                           "none in soil with suction where loads are bounded",
+                           "the strength by suction between structures and "
+                           "soil is unknown: leave the suction out");
         flow_cones.push_back(*cone);
         growth.push_back(scene.materials[m].growth());
         less_dilatant = less_dilatant || cone->b < cone->a * (1. - 1e-12);
@@ -378,6 +394,20 @@ namespace geocone::GEOCONE_DIM
                            "nothing resists in this scene");
         units.stress = dead / 8.;
       }
+    for (const auto &structure : scene.structures.list)
+      {
+        // Forces in structures exceed the strength of weak soil by orders of magnitude.
+        const double length =
+          structure->points.front().distance(structure->points.back());
+        const auto [least, most] = structure->axial_strength();
+        units.stress             = std::max(units.stress, dead);
+        for (const double one :
+             {-least / length,
+              most / length,
+              structure->moment_capacity() / (length * length)})
+          if (std::isfinite(one))
+            units.stress = std::max(units.stress, one);
+      }
     if (is_reaction())
       load_unit =
         units.stress * units.length * std::abs(scene.observation.factor);
@@ -393,6 +423,7 @@ namespace geocone::GEOCONE_DIM
                         {},
                         interfaces(scene, triangles),
                         {},
+                        {},
                         {}};
     for (unsigned int m = 0; m < flow_cones.size(); ++m)
       {
@@ -407,6 +438,10 @@ namespace geocone::GEOCONE_DIM
         one.scale(units.stress);
         bound.strengths.push_back(one);
       }
+    std::vector<bool> is_frictional;
+    for (const FlowCone &cone : flow_cones)
+      is_frictional.push_back(cone.a > 0.);
+    bound.bars = PlasticBars(scene, triangles, bound.interfaces, is_frictional);
     return bound;
   }
 

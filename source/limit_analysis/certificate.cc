@@ -3,6 +3,7 @@
 
 #include <geocone/base/log.h>
 #include <geocone/cone/second_order_cone.h>
+#include <geocone/limit_analysis/bar_cells.h>
 #include <geocone/limit_analysis/certificate.h>
 #include <geocone/limit_analysis/point_matrix.h>
 
@@ -51,12 +52,27 @@ namespace geocone::GEOCONE_DIM
         {x[0] * n[0] + x[2] / sqrt2 * n[1], x[2] / sqrt2 * n[0] + x[1] * n[1]});
     }
 
-    /** Sums of the tractions of the cells on both sides, at each end of each edge. */
-    std::vector<Tensor<1, dim>>
-    tractions_at_ends(const Triangles             &triangles,
-                      const std::vector<Vector3d> &s)
+    /** Tractions of the cells at the ends of the edges. */
+    struct TractionsAtEnds
     {
-      std::vector<Tensor<1, dim>> sum(2 * triangles.edges.size());
+      /** Sums of both sides, at each end of each edge. */
+      std::vector<Tensor<1, dim>> sum;
+
+      /** Tractions on weak interfaces of structures. */
+      struct OfSide
+      {
+        unsigned int   edge, dof; ///< x dof of the soil
+        Tensor<1, dim> traction;
+      };
+      std::vector<OfSide> of_sides;
+    };
+
+    TractionsAtEnds
+    tractions_at_ends(const BoundScene &bound, const std::vector<Vector3d> &s)
+    {
+      const Triangles &triangles = bound.triangles;
+      TractionsAtEnds  at_ends;
+      at_ends.sum.resize(2 * triangles.edges.size());
       for (unsigned int c = 0; c < triangles.cells.size(); ++c)
         {
           const auto g = triangles.gradients(c);
@@ -68,11 +84,19 @@ namespace geocone::GEOCONE_DIM
                   triangles.edges[edge].vertices[0] == triangles.cells[c][i]
                     ? 0
                     : 1;
-                sum[2 * edge + end] +=
+                const Tensor<1, dim> t =
                   traction(s[3 * c + i], -1. * g[e] / g[e].norm());
+                if (const int bar = bound.bars.number_of_edge(edge);
+                    bar >= 0 && bound.bars.has_weak_interface(bar))
+                  at_ends.of_sides.push_back(
+                    {edge,
+                     dof_at_end_of_cell(bound, c, edge, triangles.cells[c][i]),
+                     t});
+                else
+                  at_ends.sum[2 * edge + end] += t;
               }
         }
-      return sum;
+      return at_ends;
     }
 
     /** Forces of the body on the obstacles, in all dofs. */
@@ -126,19 +150,34 @@ namespace geocone::GEOCONE_DIM
                                 F[dim * c + d] / (3. * problem.volume[3 * c])) *
                          std::sqrt(triangles.area(c)) / L);
         }
-      const auto     tractions     = tractions_at_ends(triangles, s);
+      const auto     tractions     = tractions_at_ends(bound, s);
       const VectorXd at_interfaces = interface_forces(problem, s);
+      const auto     half_length   = [&](const unsigned int e) {
+        const auto &ends = triangles.edges[e].vertices;
+        return triangles.vertices[ends[0]].distance(
+                 triangles.vertices[ends[1]]) /
+               (2. * L);
+      };
+      std::vector<bool> is_of_side(problem.n_dofs(), false);
+      for (const auto &side : tractions.of_sides)
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            const unsigned int dof  = side.dof + d;
+            const double       half = half_length(side.edge);
+            is_of_side[dof]         = true;
+            if (!problem.has_no_force[dof])
+              result.error = std::max(
+                result.error,
+                std::abs(side.traction[d] + at_interfaces[dof] / half));
+          }
       for (unsigned int e = 0; e < triangles.edges.size(); ++e)
         {
-          const auto  &ends = triangles.edges[e].vertices;
-          const double half =
-            triangles.vertices[ends[0]].distance(triangles.vertices[ends[1]]) /
-            (2. * L);
+          const double half = half_length(e);
           for (unsigned int end = 0; end < 2; ++end)
             for (unsigned int d = 0; d < dim; ++d)
               {
                 const unsigned int dof = dim * (n_cells + 2 * e + end) + d;
-                const double       t   = tractions[2 * e + end][d];
+                const double       t         = tractions.sum[2 * e + end][d];
                 const double left      = t * half + at_interfaces[dof] - F[dof];
                 if (problem.is_prescribed[dof] && !problem.has_no_force[dof])
                   result.power += left * problem.prescribed[dof];
@@ -151,7 +190,7 @@ namespace geocone::GEOCONE_DIM
            ++dof)
         if (problem.is_prescribed[dof])
           result.power += at_interfaces[dof] * problem.prescribed[dof];
-        else
+        else if (!is_of_side[dof])
           result.error =
             std::max(result.error, std::abs(at_interfaces[dof] - F[dof]));
       result.error /= largest;
@@ -282,6 +321,7 @@ namespace geocone::GEOCONE_DIM
     {
       Bound  result;
       double largest = std::numeric_limits<double>::min(), theta = 1.;
+      bool   finite = true; // comparisons with what is no number are false
       result.s = solution.s;
       result.q = solution.q;
       for (unsigned int p = 0; p < problem.n_points(); ++p)
@@ -291,6 +331,7 @@ namespace geocone::GEOCONE_DIM
             result.s[p] = result.s[problem.point_of_triangle(p)];
           else if (problem.B.is_removed(p))
             result.s[p].setZero(); // it has no part in anything
+          finite  = finite && result.s[p].allFinite();
           largest = std::max(largest, result.s[p].norm());
           if (const double f = excess(cone, result.s[p]); f > 0.)
             {
@@ -309,7 +350,7 @@ namespace geocone::GEOCONE_DIM
         theta * (problem.has_factor() ? solution.load : found.power);
       for (Vector3d &one : result.s)
         one *= theta;
-      if (!std::isfinite(result.load + result.error))
+      if (!finite || !std::isfinite(result.load + result.error))
         result.rejection = "it is not a number";
       else if (!(result.error < rounding))
         result.rejection =
@@ -484,7 +525,7 @@ namespace geocone::GEOCONE_DIM
     constexpr double share[3][2] = {
       {1. / 4., 1. / 12.}, {1. / 6., 1. / 6.}, {1. / 12., 1. / 4.}};
     for (unsigned int c = problem.n_triangles;
-         3 * c < problem.first_cut_point();
+         3 * c < problem.first_bar_point();
          ++c)
       for (unsigned int i = 0; i < 3; ++i)
         {

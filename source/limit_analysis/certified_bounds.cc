@@ -3,6 +3,7 @@
 
 #include <geocone/base/resources.h>
 #include <geocone/limit_analysis/axisymmetric_certificate.h>
+#include <geocone/limit_analysis/bar_cells.h>
 #include <geocone/limit_analysis/certified_bounds.h>
 
 #include <algorithm>
@@ -45,6 +46,16 @@ namespace geocone::GEOCONE_DIM
     if (above.n_interfaces() > 0)
       options.flow_margin = margin;
     CertifiedBounds::Side side = certified();
+    // Velocities of unlimited structures are projected, which needs a wider margin.
+    for (unsigned int i = 0; i < 3 && above.n_bar_cells > 0 &&
+                             !side.bound.certified && side.solution.converged;
+         ++i)
+      {
+        options.flow_margin *= 10.;
+        const unsigned int before = side.solution.factorisations;
+        side                      = certified();
+        side.solution.factorisations += before;
+      }
     if (side.bound.certified || side.bound.violation == 0. ||
         !side.solution.converged || options.flow_margin > 0.)
       return side;
@@ -153,6 +164,8 @@ namespace geocone::GEOCONE_DIM
           [&]() { bounds.lower = certified_lower(bound, tolerance); });
         bounds.gap =
           gap_of_cells(above, bounds.upper.bound, bounds.lower.bound);
+        add_gap_of_bars(
+          bound, above, bounds.upper.bound, bounds.lower.bound, bounds.gap);
         work = above.has_factor() ? above.live.dot(bounds.upper.bound.q) : 1.;
       }
     bounds.refinement_indicator = uneven_gap(bound, bounds.gap, bounds.lower);

@@ -70,6 +70,14 @@ namespace geocone::GEOCONE_DIM
         for (const Interface &interface : bound.interfaces)
           slides.insert(interface.held.edge);
         lines = borders;
+        for (const PlasticBars::BarEdge &bar : bound.bars.edges)
+          {
+            // A structure on the outline carries tractions as an obstacle does; others
+            // turn the stresses at its ends.
+            slides.insert(bar.edge);
+            lines.push_back(triangles.edges[bar.edge].vertices);
+            borders.push_back(triangles.edges[bar.edge].vertices);
+          }
         std::map<unsigned int, std::vector<EndAtVertex>> ends;
         for (const auto &outer : triangles.outer_edges())
           {

@@ -58,39 +58,6 @@ namespace geocone::GEOCONE_DIM
         }
     }
 
-    /**
-     * Relative velocity across an interface at a point, for a unit value of each dof.
-     */
-    struct PassingVelocity
-    {
-      std::vector<unsigned int>   dofs;
-      std::vector<Tensor<1, dim>> G;
-
-      void
-      add(const unsigned int dof, const Tensor<1, dim> &velocity)
-      {
-        dofs.push_back(dof);
-        G.push_back(velocity);
-      }
-
-      /** In cone axes, restricted to the components bounded by a face. @param N the
-     *  normal */
-      StrainMatrix
-      strains(const Interface::Face &face, const Tensor<1, dim> &N) const
-      {
-        const Tensor<1, dim> T({-N[1], N[0]});
-        StrainMatrix         B = StrainMatrix::Zero(3, dofs.size());
-        for (unsigned int j = 0; j < dofs.size(); ++j)
-          {
-            if (face.has_normal)
-              B(0, j) = -(G[j] * N);
-            if (face.has_tangential)
-              B(1, j) = -(G[j] * T);
-          }
-        return B;
-      }
-    };
-
     /** Relative velocity of the nodes of an edge and of the obstacle, if any. */
     PassingVelocity
     velocity_past(const BoundScene     &bound,
@@ -114,6 +81,22 @@ namespace geocone::GEOCONE_DIM
     }
   } // namespace
 
+  StrainMatrix
+  PassingVelocity::strains(const Interface::Face &face,
+                           const Tensor<1, dim>  &N) const
+  {
+    const Tensor<1, dim> T({-N[1], N[0]});
+    StrainMatrix         B = StrainMatrix::Zero(3, dofs.size());
+    for (unsigned int j = 0; j < dofs.size(); ++j)
+      {
+        if (face.has_normal)
+          B(0, j) = -(G[j] * N);
+        if (face.has_tangential)
+          B(1, j) = -(G[j] * T);
+      }
+    return B;
+  }
+
   void
   add_interfaces(const BoundScene   &bound,
                  const PointsOfEdge &points_of,
@@ -129,8 +112,7 @@ namespace geocone::GEOCONE_DIM
         const double length = bound.triangles.vertices[ends[0]].distance(
                                 bound.triangles.vertices[ends[1]]) /
                               bound.units.length;
-        const std::array<InterfacePoint, 3> points =
-          points_of(interface.held.edge);
+        const std::array<InterfacePoint, 3> points = points_of(interface.held);
         const Tensor<1, dim> &N = interface.normal;
         for (const Interface::Face &face : interface.faces)
           {

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
+#include <geocone/base/files.h>
+#include <geocone/limit_analysis/bar_cells.h>
 #include <geocone/limit_analysis/bound_fields.h>
 #include <geocone/limit_analysis/certificate_files.h>
 #include <geocone/limit_analysis/fans_of_jumps.h>
@@ -13,9 +15,92 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 namespace geocone::GEOCONE_DIM
 {
+  namespace
+  {
+    /** Writes the table of forces and plastic rates along all structures. Velocities and
+     *  rates are those for the largest speed of a structure of 1 m/s. */
+    void
+    write_structures(const std::string           &file,
+                     const Structures            &structures,
+                     const std::vector<BarPoint> &points)
+    {
+      CsvFile table;
+      table.open(file,
+                 {"structure",
+                  "distance along it (m)",
+                  "x (m)",
+                  "y (m)",
+                  "axial force (N/m)",
+                  "shear force (N/m)",
+                  "bending moment (N m/m)",
+                  "velocity x (-)",
+                  "velocity y (-)",
+                  "plastic rotation rate (1/m)",
+                  "plastic axial strain rate (1/m)",
+                  "plastic axial jump (-)"});
+      double largest = std::numeric_limits<double>::min();
+      for (const BarPoint &point : points)
+        largest = std::max(largest, point.velocity.norm());
+      for (const BarPoint &point : points)
+        for (unsigned int i = 0; i < structures.list.size(); ++i)
+          if (structures.list[i].get() == point.structure)
+            table.add_line({i + 1.,
+                            point.arc,
+                            point.x[0],
+                            point.x[1],
+                            point.normal,
+                            point.shear,
+                            point.moment,
+                            point.velocity[0] / largest,
+                            point.velocity[1] / largest,
+                            point.hinge / largest,
+                            point.rate / largest,
+                            point.jump / largest});
+    }
+
+    /** Largest forces of each structure in the lower bound, and their parts of the
+     *  strengths. */
+    Json
+    topic_of_structures(const Structures            &structures,
+                        const std::vector<BarPoint> &points)
+    {
+      Json json;
+      for (const auto &structure : structures.list)
+        {
+          double most = std::numeric_limits<double>::lowest(), least = -most,
+                 moment = 0., used = 0.;
+          const auto [low, high] = structure->axial_strength();
+          for (const BarPoint &point : points)
+            if (point.structure == structure.get())
+              {
+                most   = std::max(most, point.normal);
+                least  = std::min(least, point.normal);
+                moment = std::max(moment, std::abs(point.moment));
+              }
+          if (high > 0.)
+            used = std::max(used, most / high);
+          if (low < 0.)
+            used = std::max(used, least / low);
+          const std::string key = Structures::key_of(structure->name) + "_";
+          json[key + "axial_force_most_N_per_m"]  = most;
+          json[key + "axial_force_least_N_per_m"] = least;
+          json[key + "axial_strength_used"]       = used;
+          if (structure->is_plate())
+            {
+              json[key + "moment_N"] = moment;
+              json[key + "moment_strength_used"] =
+                moment / structure->moment_capacity();
+            }
+        }
+      return json;
+    }
+  } // namespace
+
   LimitAnalysis::LimitAnalysis(const MPI_Comm       comm,
                                const ParameterFile &file,
                                Log                 &log)
@@ -120,6 +205,10 @@ namespace geocone::GEOCONE_DIM
                        "triangles with 'Analysis/Kind' = limit load",
                        "set Mesh/Cells = triangles");
     check_axis();
+    if (limit_output.writes_certificates())
+      scene.structures.refuse("'Output/Certificates' = true",
+                              "set it to false: the bounds are checked all the "
+                              "same");
     triangles.emplace(fitted_mesh(mesh_parameters, scene, comm));
     const dealii::BoundingBox<dim> body(triangles->vertices);
     scene.geometry.check_radii(triangles->vertices,
@@ -146,8 +235,11 @@ namespace geocone::GEOCONE_DIM
       return fitted_mesh(mesh_parameters, scene, comm, &*sizes);
     const dealii::BoundingBox<dim> body(triangles->vertices);
     const auto [low, high] = body.get_boundary_points();
+    MeshLines lines        = scene.water.lines(low, high);
+    for (const auto &line : scene.structures.lines())
+      lines.push_back(line);
     return file_domain->mesh(
-      *sizes, scene.water.lines(low, high), mesh_parameters.algorithm, comm);
+      *sizes, std::move(lines), mesh_parameters.algorithm, comm);
   }
 
   void
@@ -378,13 +470,15 @@ namespace geocone::GEOCONE_DIM
     Json json = BoundAnalysis::topics();
     if (!gradients.empty())
       json["bounds"]["gradients"] = topic_of(gradients);
+    if (const auto points = points_of_structures(); !points.empty())
+      json["structures"] = topic_of_structures(scene.structures, points);
     return json;
   }
 
   std::vector<Gradient>
   LimitAnalysis::gradients_of_last() const
   {
-    if (scene.geometry.is_axisymmetric())
+    if (scene.geometry.is_axisymmetric() || !scene.structures.list.empty())
       return {};
     const BoundScene given = bounded_load.on(scene, *triangles);
     if (!reduces_strength())
@@ -399,6 +493,22 @@ namespace geocone::GEOCONE_DIM
     return gradients_of_safety(given,
                                {below, reduced.lower_proof, F_lower},
                                {above, reduced.upper_proof, F_upper});
+  }
+
+  std::vector<BarPoint>
+  LimitAnalysis::points_of_structures() const
+  {
+    // A run resumed after its last mesh has no fields.
+    if (scene.structures.list.empty() || !triangles ||
+        bounds.gap.size() != triangles->cells.size())
+      return {};
+    const BoundScene bound = bounded_load.on(scene, *triangles);
+    const bool       has_proofs =
+      reduces_strength() && reduced.lower && reduced.upper;
+    return points_of_bars(
+      bound,
+      has_proofs ? reduced.upper_proof.bound : bounds.upper.bound,
+      has_proofs ? reduced.lower_proof.bound : bounds.lower.bound);
   }
 
   LoadBracket
@@ -436,6 +546,9 @@ namespace geocone::GEOCONE_DIM
     // A run resumed after its last mesh has no fields.
     if (bounds.gap.size() == triangles->cells.size())
       gradients = gradients_of_last();
+    if (const auto points = points_of_structures(); !points.empty())
+      write_structures(
+        limit_output.folder() + "/structures.csv", scene.structures, points);
     if (const std::string text = text_of(gradients, bounded());
         !text.empty() && limit_output.verbosity >= 1)
       log.print(text);

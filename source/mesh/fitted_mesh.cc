@@ -74,9 +74,8 @@ namespace geocone::GEOCONE_DIM
           for (std::size_t i = 0; i < polygon.size(); ++i)
             lines.push_back({{polygon[i], polygon[(i + 1) % polygon.size()]}});
       // Plates are tied to nodes.
-      for (const Structure *plate : scene.structures.plates())
-        for (std::size_t i = 1; i < plate->points.size(); ++i)
-          lines.push_back({{plate->points[i - 1], plate->points[i]}});
+      for (const auto &line : scene.structures.lines())
+        lines.push_back(line);
       return lines;
     }
 

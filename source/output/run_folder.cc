@@ -59,7 +59,8 @@ namespace geocone
     {
       static const std::regex names(
         "(parameters\\.prm|summary\\.json|model\\.json|log\\.txt|report\\.html|"
-        "paraview_state\\.py|(statistics|newton|plates|path|surfaces|bounds)\\."
+        "paraview_state\\.py|(statistics|newton|plates|path|surfaces|bounds|"
+        "structures)\\."
         "csv|"
         "(cells|points|obstacles|bounds)(-[0-9]{4,}.*)?\\."
         "(vtu|pvtu|pvd|h5|vtkhdf|xdmf)|checkpoint-[0-9]{6,}\\.h5)(\\.part)?");

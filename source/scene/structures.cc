@@ -22,7 +22,10 @@ namespace geocone::GEOCONE_DIM
       {"Structures/*/Bending stiffness", "Structures/*/Type", {"plate"}},
       {"Structures/*/Moment capacity", "Structures/*/Type", {"plate"}},
       {"Structures/*/Spacing", "Structures/*/Type", {"plate"}},
-      {"Structures/*/Clamped ends", "Structures/*/Type", {"plate"}}};
+      {"Structures/*/Clamped ends", "Structures/*/Type", {"plate"}},
+      {"Structures/*/Interface strength",
+       "Analysis/Kind",
+       {"limit load", "strength reduction"}}};
 
     /** Strength of a bar from its text. @throws InputError */
     double
@@ -100,12 +103,20 @@ namespace geocone::GEOCONE_DIM
       ": ends of a plate whose rotation is prevented, as on an axis "
       "of symmetry or in a rigid support; otherwise ends carry no "
       "moment.");
+    add_parameter(
+      "Interface strength",
+      interface_strength,
+      "Strength of the interfaces between the soil and both sides of a plate "
+      "or geogrid, as a part of the soil's c and tan(phi) [-], 0.01 to 1, "
+      "where loads or the factor of safety are bounded. Strength reduction "
+      "reduces it with the soil's, but not the strengths of structures.");
     stages.declare(*this,
                    "; it is installed at the beginning of the first one.");
   }
 
   void
-  Structure::prepare(const std::vector<std::string> &all_stages)
+  Structure::prepare(const std::vector<std::string> &all_stages,
+                     const bool                      is_rigid)
   {
     const double infinite = std::numeric_limits<double>::infinity();
     const bool   grid     = type == Type::geogrid;
@@ -126,24 +137,29 @@ namespace geocone::GEOCONE_DIM
                          "two equal points",
                          "neighbours that differ",
                          "leave one of them out");
-    if (!(stiffness > 0. && std::isfinite(stiffness)))
+    if (!is_rigid && !(stiffness > 0. && std::isfinite(stiffness)))
       throw InputError(
         parameter("Axial stiffness"),
         stiffness,
         "EA > 0 N/m",
         "give E times the cross-section, divided by the spacing");
     if (is_plate())
-      prepare_plate();
+      prepare_plate(is_rigid);
     if (!(pre_stress >= -compressive && pre_stress <= tensile))
       throw InputError(parameter("Pre-stress"),
                        pre_stress,
                        "a force within the strengths",
                        "lower it, or raise the strength");
+    if (!(interface_strength >= 0.01 && interface_strength <= 1.))
+      throw InputError(parameter("Interface strength"),
+                       interface_strength,
+                       "0.01 to 1",
+                       "give tan(delta)/tan(phi), e.g. 0.67; 1 is rough");
     stages.check(parameter(ActingStages::entry), all_stages);
   }
 
   void
-  Structure::prepare_plate()
+  Structure::prepare_plate(const bool is_rigid)
   {
     const double infinite = std::numeric_limits<double>::infinity();
     const auto   positive = [&](const char        *entry,
@@ -164,7 +180,7 @@ namespace geocone::GEOCONE_DIM
                         "give the plastic moment per metre of thickness");
     spacing  = positive(
       "Spacing", spacing_text, "automatic", "give about the distance of nodes");
-    if (!(bending > 0. && std::isfinite(bending)))
+    if (!is_rigid && !(bending > 0. && std::isfinite(bending)))
       throw InputError(parameter("Bending stiffness"),
                        bending,
                        "EI > 0 N m",
@@ -213,8 +229,8 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
-  Structures::prepare(const Geometry                 &geometry,
-                      const std::vector<std::string> &stages)
+  Structures::check(const Geometry                 &geometry,
+                    const std::vector<std::string> &stages)
   {
     if (dim == 3)
       refuse("'Geometry/Dimension' = 3", "take a section in plane strain");
@@ -223,7 +239,7 @@ namespace geocone::GEOCONE_DIM
     std::vector<std::string> keys;
     for (const auto &structure : list)
       {
-        structure->prepare(stages);
+        structure->prepare(stages, is_rigid);
         for (const std::string &bar :
              structure->is_plate() ? std::vector<std::string>{structure->name}
                                    : structure->names_of_bars())
@@ -238,6 +254,39 @@ namespace geocone::GEOCONE_DIM
             keys.push_back(key_of(bar));
           }
       }
+  }
+
+  void
+  Structures::prepare(const Geometry                 &geometry,
+                      const std::vector<std::string> &stages)
+  {
+    check(geometry, stages);
+  }
+
+  void
+  Structures::prepare_rigid(const Geometry    &geometry,
+                            const std::string &analysis)
+  {
+    is_rigid = true;
+    for (const auto &structure : list)
+      if (!structure->stages.are_all())
+        throw InputError(structure->parameter(ActingStages::entry),
+                         structure->stages.names().front(),
+                         "empty with " + analysis,
+                         "bounds have no stages: leave it out, or leave the "
+                         "structure out of 'Structures/Names'");
+    check(geometry, {});
+  }
+
+  std::vector<std::array<dealii::Point<dim>, 2>>
+  Structures::lines() const
+  {
+    std::vector<std::array<dealii::Point<dim>, 2>> all;
+    for (const auto &structure : list)
+      if (structure->is_plate() || (is_rigid && structure->is_chain()))
+        for (std::size_t i = 1; i < structure->points.size(); ++i)
+          all.push_back({{structure->points[i - 1], structure->points[i]}});
+    return all;
   }
 
   std::vector<std::string>

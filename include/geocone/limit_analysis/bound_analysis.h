@@ -165,6 +165,12 @@ namespace geocone::GEOCONE_DIM
     {
       return false;
     }
+    /** Returns true if the analysis can bound scenes with structures. */
+    virtual bool
+    is_possible_with_structures() const
+    {
+      return false;
+    }
     /** Returns true if the analysis can run on several MPI ranks. */
     virtual bool
     runs_on_ranks() const

@@ -7,6 +7,7 @@
 #include <geocone/cone/second_order_cone.h>
 #include <geocone/limit_analysis/interfaces.h>
 #include <geocone/limit_analysis/load_factor.h>
+#include <geocone/limit_analysis/plastic_bars.h>
 #include <geocone/limit_analysis/point_strains.h>
 #include <geocone/limit_analysis/spatial_strength.h>
 #include <geocone/mesh/triangles.h>
@@ -14,6 +15,7 @@
 
 #include <Eigen/Dense>
 
+#include <functional>
 #include <vector>
 
 namespace geocone::GEOCONE_DIM
@@ -65,7 +67,8 @@ namespace geocone::GEOCONE_DIM
    * After the triangles come the faces of the interfaces, as cells of the same form: V is
    * a part of the length of an edge, B q the velocity of the body relative to the
    * obstacle. The velocities of the obstacles and then the cut_off rates of the
-   * interfaces (Interface::opens()) follow the other dofs.
+   * interfaces (Interface::opens()) follow the other dofs. Cells and dofs of structures
+   * (bar_cells.h) follow those of interfaces.
    *
    * The last cells are the tension cut-offs of triangles. Their points have the stress of
    * the triangle, in the cone |s_t| <= s_n + cut_off, and a strain rate w; the strain
@@ -81,9 +84,10 @@ namespace geocone::GEOCONE_DIM
 
     unsigned int n_triangles = 0;
     /** Index of the triangle that owns each additional cell: first the
-     *  interface cells, then the cells for the tension cut-off. The order is
-     *  that of these cells. */
+     *  interface cells, then those of structures and of the tension cut-off. The
+     *  order is that of these cells. */
     std::vector<unsigned int> owner;
+    unsigned int n_bar_cells = 0; ///< cells of structures, after interfaces
     std::vector<unsigned int> cut;               ///< triangles with a cut-off
     unsigned int              first_cut_dof = 0; ///< nine dofs per cut-off
 
@@ -111,11 +115,18 @@ namespace geocone::GEOCONE_DIM
     has_incompressible() const;
 
     /** Returns the number of interface cells, which represent slip between the
-     *  body and obstacles or fixed sides. */
+     *  body and obstacles or fixed sides, and of cells of structures. */
     unsigned int
     n_interfaces() const
     {
       return owner.size() - cut.size();
+    }
+
+    /** Returns the index of the first point of structures. */
+    unsigned int
+    first_bar_point() const
+    {
+      return 3 * (n_triangles + n_interfaces() - n_bar_cells);
     }
 
     /** Returns the index of the first point of the cells that represent the
@@ -163,6 +174,8 @@ namespace geocone::GEOCONE_DIM
     /** Strength of each material of an axisymmetric body, in scaled units. */
     std::vector<SpatialStrength> strengths;
 
+    PlasticBars bars; ///< structures; their strengths are given, not reduced
+
     bool
     is_axisymmetric() const
     {
@@ -198,6 +211,15 @@ namespace geocone::GEOCONE_DIM
     upper,
     lower
   };
+
+  /** Calls f(component, value) for the velocities prescribed by a condition at x, in
+   *  scaled units. @param n outward normal */
+  void
+  for_prescribed(const BoundaryCondition                         &condition,
+                 const dealii::Point<dim>                        &x,
+                 const dealii::Tensor<1, dim>                    &n,
+                 const double                                     unit,
+                 const std::function<void(unsigned int, double)> &f);
 
   /** Returns the self-weight of a cell per unit area, in scaled units. */
   dealii::Tensor<1, dim>

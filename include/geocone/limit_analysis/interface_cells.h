@@ -26,6 +26,25 @@ namespace geocone::GEOCONE_DIM
     dealii::Point<dim> place;
   };
 
+  /** Relative velocity across an interface at a point, for a unit value of each dof. */
+  struct PassingVelocity
+  {
+    std::vector<unsigned int>           dofs;
+    std::vector<dealii::Tensor<1, dim>> G;
+
+    void
+    add(const unsigned int dof, const dealii::Tensor<1, dim> &velocity)
+    {
+      dofs.push_back(dof);
+      G.push_back(velocity);
+    }
+
+    /** In cone axes, restricted to the components bounded by a face. @param N the
+     *  normal */
+    StrainMatrix
+    strains(const Interface::Face &face, const dealii::Tensor<1, dim> &N) const;
+  };
+
   /** Returns the number of dofs added by interfaces. These are the motions of the
    *  obstacles, and three opening rates for each interface that can open. */
   unsigned int
@@ -33,7 +52,7 @@ namespace geocone::GEOCONE_DIM
 
   /** Function that returns the three interface points of an edge. */
   using PointsOfEdge =
-    std::function<std::array<InterfacePoint, 3>(const unsigned int edge)>;
+    std::function<std::array<InterfacePoint, 3>(const Triangles::HeldEdge &)>;
 
   /**
    * Appends the interfaces to a problem as additional cells. Also prescribes the

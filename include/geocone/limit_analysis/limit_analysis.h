@@ -4,6 +4,7 @@
 #ifndef geocone_limit_analysis_limit_analysis_h
 #define geocone_limit_analysis_limit_analysis_h
 
+#include <geocone/limit_analysis/bar_cells.h>
 #include <geocone/limit_analysis/bound_analysis.h>
 #include <geocone/limit_analysis/bounded_load.h>
 #include <geocone/limit_analysis/certified_bounds.h>
@@ -70,6 +71,12 @@ namespace geocone::GEOCONE_DIM
       return true;
     }
 
+    bool
+    is_possible_with_structures() const override
+    {
+      return true;
+    }
+
     static Side
     figures_of(const CertifiedBounds::Side &side);
 
@@ -124,6 +131,11 @@ namespace geocone::GEOCONE_DIM
     /** Computes, on the current mesh, the gradients of both bounds. */
     std::vector<Gradient>
     gradients_of_last() const;
+
+    /** Returns the forces of the lower bound and the rates of the upper bound along all
+     *  structures, on the current mesh. */
+    std::vector<BarPoint>
+    points_of_structures() const;
 
     /** Returns the lower and upper bounds on the load certified so far, with
      *  Davis's estimate. */

@@ -13,6 +13,7 @@
 #include <deal.II/base/point.h>
 
 #include <algorithm>
+#include <array>
 #include <string>
 #include <vector>
 
@@ -44,9 +45,11 @@ namespace geocone::GEOCONE_DIM
 
     explicit Structure(const std::string &name);
 
-    /** Checks the parameters. @param stages names of all stages */
+    /** Checks the parameters. @param stages names of all stages
+     *  @param is_rigid whether the structure is rigid-plastic, without
+     *  stiffness, as in limit analysis */
     void
-    prepare(const std::vector<std::string> &stages);
+    prepare(const std::vector<std::string> &stages, const bool is_rigid);
 
     /** Returns the full parameter name "Structures/NAME/ENTRY", for error
      *  messages. */
@@ -122,6 +125,21 @@ namespace geocone::GEOCONE_DIM
       return !may_be_fixed();
     }
 
+    /** Interval [-N_c, N_t] of admissible axial forces (N/m). Its ends may be
+     *  infinite. */
+    std::array<double, 2>
+    axial_strength() const
+    {
+      return {{-compressive, tensile}};
+    }
+
+    /** Plastic moment M_p (N), which may be infinite. */
+    double
+    moment_capacity() const
+    {
+      return capacity;
+    }
+
     const std::string               name;
     ActingStages                    stages;
     std::vector<dealii::Point<dim>> points;
@@ -133,6 +151,9 @@ namespace geocone::GEOCONE_DIM
      *  (m). If infinite, the plate is tied to the body only where it crosses
      *  cell faces. */
     double spacing = 0.;
+
+    /** Strength of the interfaces to the soil, relative to that of the soil. */
+    double interface_strength = 1.;
 
   private:
     Choice<Type>             type    = {{{"anchor", Type::anchor},
@@ -150,7 +171,7 @@ namespace geocone::GEOCONE_DIM
 
     /** Checks the parameters of a plate. @throws InputError */
     void
-    prepare_plate();
+    prepare_plate(const bool is_rigid);
   };
 
   /** List of all structures of a scene, from the parameter
@@ -163,6 +184,17 @@ namespace geocone::GEOCONE_DIM
     /** Checks the parameters. @param stages names of all stages */
     void
     prepare(const Geometry &geometry, const std::vector<std::string> &stages);
+
+    /** Checks the parameters of rigid-plastic structures. Geogrids are then tied
+     *  to the body all along their polylines. @param analysis name of the
+     *  analysis, for messages */
+    void
+    prepare_rigid(const Geometry &geometry, const std::string &analysis);
+
+    /** Returns the segments of the structures that are tied to the body all
+     *  along their polylines. These are edges of unstructured meshes. */
+    std::vector<std::array<dealii::Point<dim>, 2>>
+    lines() const;
 
     /** Returns the names of the bars of all structures except plates, in the
      *  order of the list. */
@@ -177,6 +209,13 @@ namespace geocone::GEOCONE_DIM
      *  as a key of summary.json. */
     static std::string
     key_of(std::string name);
+
+  private:
+    bool is_rigid = false; ///< see prepare_rigid()
+
+    /** Checks the parameters. @param stages names of all stages */
+    void
+    check(const Geometry &geometry, const std::vector<std::string> &stages);
   };
 } // namespace geocone::GEOCONE_DIM
 

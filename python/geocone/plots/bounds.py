@@ -179,7 +179,15 @@ def draw_dependence(run, path):
     save(figure, run, path)
 
 
-def pictures(_run):
+def draw_structures(run, path):
+    """Draws where structures yield, and their forces."""
+    from geocone.plots import bars
+    bars.draw_run(run, path)
+
+
+def pictures(run):
     """Drawing functions by picture."""
-    return {"bounds.png": draw_bounds, "mechanism.png": draw_mechanism,
+    bending = ({"structures.png": draw_structures}
+               if (run.folder / "structures.csv").is_file() else {})
+    return {"bounds.png": draw_bounds, "mechanism.png": draw_mechanism, **bending,
             "dependence.png": draw_dependence}

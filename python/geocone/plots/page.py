@@ -45,6 +45,7 @@ CAPTIONS = {
     "safety.png": "Displacement while the strength is reduced",
     "plates.png": "Moments, forces and displacements of plates at the ends of stages",
     "mechanism.png": "How the body fails, and where the bounds differ",
+    "structures.png": "Where structures yield, and their forces",
     "dependence.png": "What the bounds depend on",
     "principal_stresses.png": "Principal stresses at the end",
     "plastic_strain_rate.png": "Where the soil yields at the end, and how it moves",

@@ -1,0 +1,1182 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/limit_analysis/bar_cells.h>
+#include <geocone/limit_analysis/interface_cells.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+namespace geocone::GEOCONE_DIM
+{
+  using dealii::Point;
+  using dealii::Tensor;
+
+  namespace
+  {
+    using BarChain = PlasticBars::Chain;
+    using BarEdge  = PlasticBars::BarEdge;
+
+    /** Integrals over an edge of Bernstein's functions of degree two times those of
+     *  degree one, over its length. */
+    constexpr double share_of_end[3][2] = {
+      {1. / 4., 1. / 12.}, {1. / 6., 1. / 6.}, {1. / 12., 1. / 4.}};
+
+    /** First dof of structures. */
+    unsigned int
+    first_dof_of_bars(const BoundScene &bound, const BoundSide side)
+    {
+      const Triangles   &triangles = bound.triangles;
+      const unsigned int n_nodes =
+        side == BoundSide::upper
+          ? triangles.vertices.size() + triangles.edges.size()
+          : triangles.cells.size() + 2 * triangles.edges.size();
+      return dim * n_nodes + n_dofs_of_interfaces(bound);
+    }
+
+    /** Interval of admissible forces of a point as a cone of one component. */
+    struct Interval
+    {
+      PointCone cone;
+      int       component = 0;  ///< of the stress of the point
+      double    sign      = 1.; ///< force = sign times component + shift
+      double    shift     = 0.;
+      bool      is_zero   = false; ///< no force other than zero
+
+      Interval(const double least, const double most)
+      {
+        const bool below = std::isfinite(least), above = std::isfinite(most);
+        if (below && above)
+          {
+            cone      = {0., (most - least) / 2.};
+            component = 1;
+            shift     = (most + least) / 2.;
+            is_zero   = !(most > least);
+          }
+        else if (below || above)
+          {
+            cone = {1., below ? -least : most};
+            sign = below ? 1. : -1.;
+          }
+        else
+          cone = {0., 1.};
+      }
+
+      double
+      force(const Eigen::Vector3d &s) const
+      {
+        return sign * s[component] + shift;
+      }
+    };
+
+    Interval
+    axial_interval(const Structure &structure, const BoundUnits &units)
+    {
+      const auto [least, most] = structure.axial_strength();
+      const double unit        = units.stress * units.length;
+      return {least / unit, most / unit};
+    }
+
+    Interval
+    moment_interval(const Structure &structure, const BoundUnits &units)
+    {
+      const double most = structure.moment_capacity() /
+                          (units.stress * units.length * units.length);
+      return {-most, most};
+    }
+
+    /** Rate as a linear function of dofs. */
+    class Functional
+    {
+    public:
+      void
+      add(const unsigned int dof, const double factor)
+      {
+        for (auto &[known, value] : entries)
+          if (known == dof)
+            {
+              value += factor;
+              return;
+            }
+        entries.emplace_back(dof, factor);
+      }
+
+      /** Adds the component of a velocity. @param dof its first one */
+      void
+      add(const unsigned int dof, const Tensor<1, dim> &factor)
+      {
+        for (unsigned int d = 0; d < dim; ++d)
+          if (factor[d] != 0.)
+            add(dof + d, factor[d]);
+      }
+
+      double
+      of(const Eigen::VectorXd &q) const
+      {
+        double sum = 0.;
+        for (const auto &[dof, factor] : entries)
+          sum += factor * q[dof];
+        return sum;
+      }
+
+      std::vector<std::pair<unsigned int, double>> entries;
+    };
+
+    /** Appends cells of structures to a problem. */
+    class BarCells
+    {
+    public:
+      BarCells(BoundProblem &problem)
+        : problem(problem)
+        , is_used(problem.n_dofs(), false)
+      {}
+
+      /** Adds a force that works with a rate, times a volume. */
+      void
+      add(const Interval &interval, const Functional &rate, const double volume)
+      {
+        if (interval.is_zero || rate.entries.empty())
+          return skip();
+        // Rates of order one, as those of the soil times its volume.
+        double norm = 0.;
+        for (const auto &entry : rate.entries)
+          norm += entry.second * entry.second;
+        const double V = volume * std::sqrt(norm);
+        StrainMatrix B = StrainMatrix::Zero(3, rate.entries.size());
+        std::vector<unsigned int> dofs;
+        for (const auto &[dof, factor] : rate.entries)
+          {
+            B(interval.component, dofs.size()) =
+              interval.sign * factor * volume / V;
+            problem.dead[dof] -= volume * interval.shift * factor;
+            dofs.push_back(dof);
+          }
+        add(interval.cone, B, dofs, V);
+      }
+
+      /** Adds a point, unless its rate is zero whatever the velocities are. */
+      void
+      add(const PointCone                 &cone,
+          const StrainMatrix              &B,
+          const std::vector<unsigned int> &dofs,
+          const double                     volume)
+      {
+        bool            is_free = false;
+        Eigen::Vector3d given   = Eigen::Vector3d::Zero();
+        for (unsigned int j = 0; j < dofs.size(); ++j)
+          {
+            is_free = is_free || !problem.is_prescribed[dofs[j]];
+            given += B.col(j) * problem.prescribed[dofs[j]];
+          }
+        if (!is_free && given.norm() < 1e-12)
+          return skip();
+        for (const unsigned int dof : dofs)
+          is_used[dof] = true;
+        problem.volume.push_back(volume);
+        problem.cone.push_back(cone);
+        problem.B.add(B, dofs);
+        ++n_points;
+      }
+
+      /** Adds a point without force. */
+      void
+      skip()
+      {
+        problem.volume.push_back(1.);
+        problem.cone.push_back(inactive_cone);
+        problem.B.add(StrainMatrix(3, 0), {});
+        ++n_points;
+      }
+
+      /** Excludes dofs in which no force works. */
+      void
+      exclude_unused(const unsigned int first, const unsigned int end)
+      {
+        for (unsigned int dof = first; dof < end; ++dof)
+          if (!is_used[dof] && !problem.is_prescribed[dof])
+            problem.is_prescribed[dof] = problem.has_no_force[dof] = true;
+      }
+
+      /** Ends a cell. @param owner triangle */
+      void
+      end_cell(const unsigned int owner)
+      {
+        while (n_points % 3 > 0)
+          skip();
+        problem.owner.push_back(owner);
+        ++problem.n_bar_cells;
+      }
+
+    private:
+      BoundProblem     &problem;
+      std::vector<bool> is_used;
+      unsigned int      n_points = 0;
+    };
+
+    /** Edge of a chain, in its direction. */
+    struct Step
+    {
+      unsigned int                number;   ///< of the edge in PlasticBars
+      std::array<unsigned int, 2> vertices; ///< of the mesh
+      std::array<unsigned int, 2> ends;     ///< of the edge of the mesh
+      double                      length;   ///< scaled
+      Tensor<1, dim>              t, n;     ///< along and to the left
+
+      Step(const BoundScene &bound, const BarChain &chain, const unsigned int i)
+      {
+        const Triangles &triangles = bound.triangles;
+        number                     = bound.bars.number_of_edge(chain.edges[i]);
+        vertices = {{chain.vertices[i], chain.vertices[i + 1]}};
+        const bool forward =
+          triangles.edges[chain.edges[i]].vertices[0] == vertices[0];
+        ends = {{forward ? 0u : 1u, forward ? 1u : 0u}};
+        t = triangles.vertices[vertices[1]] - triangles.vertices[vertices[0]];
+        length = t.norm() / bound.units.length;
+        t /= t.norm();
+        n = Tensor<1, dim>({-t[1], t[0]});
+      }
+    };
+
+    /** Dof of the axial jump at an end of an edge of chains, if there is one: the velocity
+     *  of the edge there less that of the vertex, along along_mesh(). */
+    std::optional<unsigned int>
+    dof_of_jump(const BoundScene  &bound,
+                const unsigned int number,
+                const unsigned int end)
+    {
+      const int jump = bound.bars.edges[number].jumps[end];
+      if (jump < 0)
+        return std::nullopt;
+      return first_dof_of_bars(bound, BoundSide::upper) +
+             dim * bound.bars.n_more_nodes() + jump;
+    }
+
+    /** Unit vector along an edge of the mesh. */
+    Tensor<1, dim>
+    along_mesh(const Triangles &triangles, const unsigned int edge)
+    {
+      const auto          &ends = triangles.edges[edge].vertices;
+      const Tensor<1, dim> t =
+        triangles.vertices[ends[1]] - triangles.vertices[ends[0]];
+      return t / t.norm();
+    }
+
+    /** The functional over the length of an edge. */
+    Functional
+    over_length(Functional rate, const Step &step)
+    {
+      for (auto &[dof, factor] : rate.entries)
+        factor /= step.length;
+      return rate;
+    }
+
+    unsigned int
+    owner_of(const BoundScene &bound, const Step &step)
+    {
+      return bound.bars.edges[step.number].cells[0];
+    }
+
+    /** Coulomb's cone of an interface at an end of an edge: tan(phi) and c of the soil
+     *  beside it, times the strength of the interface. */
+    PointCone
+    interface_cone(const BoundScene  &bound,
+                   const BarEdge     &edge,
+                   const unsigned int cell,
+                   const unsigned int vertex)
+    {
+      const PointCone soil    = bound.cone_at(bound.triangles.material[cell],
+                                           bound.triangles.vertices[vertex]);
+      const double    cos_phi = std::sqrt(1. - soil.a * soil.a);
+      return {edge.interface_strength * soil.a / cos_phi,
+              edge.interface_strength * soil.k / (sqrt2 * cos_phi)};
+    }
+
+    /** Unit normal of an edge into a triangle beside it. */
+    Tensor<1, dim>
+    normal_into(const Triangles   &triangles,
+                const unsigned int cell,
+                const unsigned int edge)
+    {
+      for (unsigned int i = 0; i < 3; ++i)
+        if (triangles.edges_of_cell[cell][i] == edge)
+          {
+            const Tensor<1, dim> g = triangles.gradients(cell)[i];
+            return g / g.norm();
+          }
+      return {};
+    }
+
+    /** Position of a vertex in a triangle. */
+    unsigned int
+    position_of(const Triangles   &triangles,
+                const unsigned int cell,
+                const unsigned int vertex)
+    {
+      unsigned int i = 0;
+      while (triangles.cells[cell][i] != vertex)
+        ++i;
+      return i;
+    }
+
+    /** Position of an edge in a triangle, as of a node. */
+    unsigned int
+    position_of_edge(const Triangles   &triangles,
+                     const unsigned int cell,
+                     const unsigned int edge)
+    {
+      unsigned int i = 0;
+      while (triangles.edges_of_cell[cell][i] != edge)
+        ++i;
+      return i + 3;
+    }
+
+    /** Velocity of the soil beside an edge relative to the structure, coefficients in
+     *  Bernstein's basis. */
+    std::array<PassingVelocity, 3>
+    passing_velocities(const BoundScene  &bound,
+                       const unsigned int number,
+                       const unsigned int cell)
+    {
+      const Triangles   &triangles = bound.triangles;
+      const PlasticBars &bars      = bound.bars;
+      const unsigned int edge      = bars.edges[number].edge;
+      const auto        &ends      = triangles.edges[edge].vertices;
+      const auto         node      = [&](const unsigned int i) {
+        return dof_of_node(bound, bars.node_of_cell(triangles, cell, i));
+      };
+      const std::array<unsigned int, 2> soil = {
+        {node(position_of(triangles, cell, ends[0])),
+         node(position_of(triangles, cell, ends[1]))}};
+      const unsigned int middle = node(position_of_edge(triangles, cell, edge));
+      std::array<PassingVelocity, 3> all;
+      const auto                     add =
+        [&](const unsigned int i, const unsigned int dof, const double factor) {
+          for (unsigned int d = 0; d < dim; ++d)
+            all[i].add(dof + d, factor * Point<dim>::unit_vector(d));
+        };
+      for (unsigned int end = 0; end < 2; ++end)
+        {
+          const unsigned int bar = dof_of_node(
+            bound, bars.node_of_vertex(bars.number_of_vertex(ends[end])));
+          if (bar != soil[end]) // else bonded
+            {
+              add(2 * end, soil[end], 1.);
+              add(2 * end, bar, -1.);
+              if (const auto jump = dof_of_jump(bound, number, end))
+                all[2 * end].add(*jump, -1. * along_mesh(triangles, edge));
+            }
+        }
+      add(1, middle, 2.);
+      add(1, soil[0], -0.5);
+      add(1, soil[1], -0.5);
+      add(1, dof_of_node(bound, bars.node_of_edge(number)), -1.);
+      return all;
+    }
+
+    constexpr Interface::Face coulomb = {0., 0., true, true};
+
+    /** Adds the interfaces on both sides of the structures to the upper problem. The
+     *  soil's tensile strength is not applied there, which makes the dissipation
+     *  larger. */
+    void
+    add_upper_interfaces(const BoundScene &bound, BarCells &cells)
+    {
+      const Triangles &triangles = bound.triangles;
+      for (unsigned int k = 0; k < bound.bars.edges.size(); ++k)
+        for (const int cell : bound.bars.edges[k].cells)
+          if (cell >= 0)
+            {
+              const BarEdge &edge   = bound.bars.edges[k];
+              const auto    &ends   = triangles.edges[edge.edge].vertices;
+              const double   length = triangles.vertices[ends[0]].distance(
+                                      triangles.vertices[ends[1]]) /
+                                    bound.units.length;
+              const Tensor<1, dim> N = normal_into(triangles, cell, edge.edge);
+              const PointCone      first =
+                                interface_cone(bound, edge, cell, ends[0]),
+                              last = interface_cone(bound, edge, cell, ends[1]);
+              const auto passing   = passing_velocities(bound, k, cell);
+              for (unsigned int i = 0; i < 3; ++i)
+                {
+                  // The integral of a linear k times this Bernstein function.
+                  const double k_i = 3. * (share_of_end[i][0] * first.k +
+                                           share_of_end[i][1] * last.k);
+                  cells.add({first.a, k_i},
+                            passing[i].strains(coulomb, N),
+                            passing[i].dofs,
+                            length / 3.);
+                }
+              cells.end_cell(cell);
+            }
+    }
+
+    /** Adds the rotation rate of an end of an edge, times a factor. */
+    void
+    add_slope(const BoundScene  &bound,
+              const Step        &step,
+              const unsigned int end,
+              const double       factor,
+              Functional        &rate)
+    {
+      const PlasticBars &bars = bound.bars;
+      const unsigned int middle =
+                           dof_of_node(bound, bars.node_of_edge(step.number)),
+                         vertex = dof_of_node(
+                           bound,
+                           bars.node_of_vertex(
+                             bars.number_of_vertex(step.vertices[end])));
+      const double sign = end == 0 ? 1. : -1.;
+      rate.add(middle, sign * factor * 2. / step.length * step.n);
+      rate.add(vertex, -sign * factor * 2. / step.length * step.n);
+    }
+
+    /** 1 if an edge is in the direction of the edge of the mesh, else -1. */
+    double
+    direction_of(const Step &step)
+    {
+      return step.ends[0] == 0 ? 1. : -1.;
+    }
+
+    /** Rate of axial strain at an end of an edge. */
+    Functional
+    axial_rate(const BoundScene  &bound,
+               const Step        &step,
+               const unsigned int end)
+    {
+      const PlasticBars &bars = bound.bars;
+      const double       sign = end == 0 ? 1. : -1.;
+      Functional         rate;
+      rate.add(dof_of_node(bound, bars.node_of_edge(step.number)),
+               sign * 2. / step.length * step.t);
+      rate.add(dof_of_node(bound,
+                           bars.node_of_vertex(
+                             bars.number_of_vertex(step.vertices[end]))),
+               -sign * 2. / step.length * step.t);
+      if (const auto jump = dof_of_jump(bound, step.number, step.ends[end]))
+        rate.add(*jump, -sign * 2. / step.length * direction_of(step));
+      return rate;
+    }
+
+    /** Rate by which a bar lengthens at the vertex at an end of an edge. */
+    Functional
+    jump_rate(const BoundScene &bound, const Step &step, const unsigned int end)
+    {
+      Functional rate;
+      if (const auto jump = dof_of_jump(bound, step.number, step.ends[end]))
+        rate.add(*jump, (end == 0 ? 1. : -1.) * direction_of(step));
+      return rate;
+    }
+
+    /** Jump of the rotation rate at a vertex of a plate. Empty at free ends. */
+    Functional
+    hinge_rate(const BoundScene  &bound,
+               const BarChain    &chain,
+               const unsigned int i)
+    {
+      const unsigned int n = chain.edges.size();
+      Functional         jump;
+      const bool         closed   = chain.is_closed();
+      const bool         at_first = i == 0, at_last = i == n;
+      if ((closed && at_last) || (!closed && (at_first || at_last) &&
+                                  !chain.structure->is_clamped(at_last)))
+        return jump;
+      if (!at_first || closed)
+        add_slope(
+          bound, {bound, chain, at_first ? n - 1 : i - 1}, 1, -1., jump);
+      if (!at_last)
+        add_slope(bound, {bound, chain, i}, 0, 1., jump);
+      return jump;
+    }
+
+    /** Rate of the length of an anchor or strut. @param lower dofs of vertices are along
+     *  their frames */
+    template <typename Dof>
+    Functional
+    rate_of_tie(const PlasticBars::Tie &tie, const Dof &add_velocity)
+    {
+      Functional rate;
+      for (unsigned int end = 0; end < 2; ++end)
+        if (tie.vertices[end] >= 0)
+          add_velocity(
+            tie.vertices[end], (end == 0 ? -1. : 1.) * tie.along, rate);
+      return rate;
+    }
+
+    Functional
+    upper_rate_of_tie(const BoundScene &bound, const PlasticBars::Tie &tie)
+    {
+      return rate_of_tie(
+        tie,
+        [&](const unsigned int v, const Tensor<1, dim> &f, Functional &rate) {
+          rate.add(
+            dof_of_node(
+              bound, bound.bars.node_of_vertex(bound.bars.number_of_vertex(v))),
+            f);
+        });
+    }
+
+    unsigned int
+    owner_of(const BoundScene &bound, const PlasticBars::Tie &tie)
+    {
+      const unsigned int v = std::max(tie.vertices[0], tie.vertices[1]);
+      for (const BarEdge &edge : bound.bars.edges)
+        for (const unsigned int end : bound.triangles.edges[edge.edge].vertices)
+          if (end == v)
+            return edge.cells[0];
+      return 0;
+    }
+
+    /** Adds axial strains and curvatures of all edges, and then the hinges. */
+    void
+    add_upper_bars(const BoundScene &bound, BarCells &cells)
+    {
+      for (const BarChain &chain : bound.bars.chains)
+        {
+          const Interval axial = axial_interval(*chain.structure, bound.units),
+                         moment =
+                           moment_interval(*chain.structure, bound.units);
+          const bool bends = chain.structure->is_plate();
+          for (unsigned int i = 0; i < chain.edges.size(); ++i)
+            {
+              const Step step(bound, chain, i);
+              for (unsigned int end = 0; end < 2; ++end)
+                cells.add(
+                  axial, axial_rate(bound, step, end), step.length / 2.);
+              if (bends)
+                {
+                  Functional curvature;
+                  add_slope(bound, step, 1, 1. / step.length, curvature);
+                  add_slope(bound, step, 0, -1. / step.length, curvature);
+                  cells.add(moment, curvature, step.length);
+                }
+              cells.end_cell(owner_of(bound, step));
+              for (unsigned int end = 0; end < 2; ++end)
+                cells.add(axial, jump_rate(bound, step, end), 1.);
+              cells.end_cell(owner_of(bound, step));
+            }
+          if (!bends)
+            continue;
+          for (unsigned int i = 0; i < chain.vertices.size(); ++i)
+            {
+              cells.add(moment, hinge_rate(bound, chain, i), 1.);
+              cells.end_cell(owner_of(
+                bound,
+                Step(bound,
+                     chain,
+                     std::min<unsigned int>(i, chain.edges.size() - 1))));
+            }
+        }
+      for (const PlasticBars::Tie &tie : bound.bars.ties)
+        {
+          cells.add(axial_interval(*tie.structure, bound.units),
+                    upper_rate_of_tie(bound, tie),
+                    1.);
+          cells.end_cell(owner_of(bound, tie));
+        }
+    }
+
+    /** Dofs of the lower bound and the state of the vertices of structures. */
+    class LowerBars
+    {
+    public:
+      LowerBars(const BoundScene &bound, const BoundProblem &problem)
+        : bound(bound)
+        , bars(bound.bars)
+        , first(first_dof_of_bars(bound, BoundSide::lower))
+        , frame(bars.vertices.size())
+        , n_edges(bars.vertices.size(), 0)
+        , is_tied(bars.vertices.size(), false)
+        , problem(problem)
+      {
+        for (const BarChain &chain : bars.chains)
+          for (unsigned int i = 0; i < chain.edges.size(); ++i)
+            {
+              const Step step(bound, chain, i);
+              for (const unsigned int v : step.vertices)
+                {
+                  const unsigned int k = bars.number_of_vertex(v);
+                  if (n_edges[k]++ == 0)
+                    frame[k] = step.t;
+                }
+            }
+        for (unsigned int k = 0; k < frame.size(); ++k)
+          if (is_held(k, 0) || is_held(k, 1))
+            frame[k] = Point<dim>::unit_vector(0);
+        for (const PlasticBars::Tie &tie : bars.ties)
+          for (const int v : tie.vertices)
+            if (v >= 0)
+              is_tied[bars.number_of_vertex(v)] = true;
+      }
+
+      /** Adds the force f on a vertex. */
+      void
+      add_at_vertex(const unsigned int    vertex,
+                    const Tensor<1, dim> &f,
+                    Functional           &rate) const
+      {
+        const unsigned int    k     = bars.number_of_vertex(vertex);
+        const Tensor<1, dim> &t     = frame[k];
+        const double          along = f * t, across = t[0] * f[1] - t[1] * f[0];
+        // Forces along a straight chain have no component across it but by rounding.
+        if (std::abs(along) > 1e-9 * f.norm())
+          rate.add(first + bars.dof_of_vertex(k), along);
+        if (std::abs(across) > 1e-9 * f.norm())
+          rate.add(first + bars.dof_of_vertex(k) + 1, across);
+      }
+
+      /** Adds the force f on the structure at an end of an edge. */
+      void
+      add_at_end(const Step           &step,
+                 const unsigned int    end,
+                 const Tensor<1, dim> &f,
+                 Functional           &rate) const
+      {
+        rate.add(dim * (bound.triangles.cells.size() +
+                        2 * bars.edges[step.number].edge + step.ends[end]),
+                 f);
+      }
+
+      void
+      add_rotation(const unsigned int chain,
+                   const unsigned int i,
+                   const double       factor,
+                   Functional        &rate) const
+      {
+        rate.add(first + bars.dof_of_rotation(chain, i), factor);
+      }
+
+      /** Whether the axial force is zero at an end of a chain. */
+      bool
+      is_free_end(const BarChain &chain, const unsigned int i) const
+      {
+        if (i > 0 && i + 1 < chain.vertices.size())
+          return false;
+        const unsigned int k = bars.number_of_vertex(chain.vertices[i]);
+        if (n_edges[k] > 1 || is_tied[k])
+          return false;
+        const Step step(bound, chain, i == 0 ? 0 : i - 1);
+        for (unsigned int d = 0; d < dim; ++d)
+          if (std::abs(step.t[d]) > 1e-9 && !is_held(k, d))
+            return true;
+        return false;
+      }
+
+      /** Virtual power of the coefficient j of the axial force of an edge. */
+      Functional
+      axial(const BarChain    &chain,
+            const unsigned int i,
+            const unsigned int j) const
+      {
+        const Step step(bound, chain, i);
+        Functional rate;
+        if (j < 2)
+          add_at_end(step, 0, (j == 0 ? 1. : -1.) * step.t, rate);
+        if (j > 0)
+          add_at_end(step, 1, (j == 1 ? 1. : -1.) * step.t, rate);
+        if (j == 0)
+          add_at_vertex(step.vertices[0], -1. * step.t, rate);
+        if (j == 2)
+          add_at_vertex(step.vertices[1], step.t, rate);
+        return rate;
+      }
+
+      /** Virtual power of the coefficient j of the moment of an edge of a plate. */
+      Functional
+      moment(const unsigned int c,
+             const unsigned int i,
+             const unsigned int j) const
+      {
+        const BarChain  &chain = bars.chains[c];
+        const Step       step(bound, chain, i);
+        const double     by           = 3. / step.length;
+        constexpr double second[2][4] = {{1., -2., 1., 0.}, {0., 1., -2., 1.}};
+        Functional       rate;
+        for (unsigned int end = 0; end < 2; ++end)
+          if (second[end][j] != 0.)
+            add_at_end(step, end, by * second[end][j] * step.n, rate);
+        if (j < 2) // shear force at the beginning
+          add_at_vertex(step.vertices[0], (j == 1 ? by : -by) * step.n, rate);
+        else // and at the end
+          add_at_vertex(step.vertices[1], (j == 2 ? by : -by) * step.n, rate);
+        if (j == 0)
+          add_rotation(c, i, -1., rate);
+        if (j == 3)
+          add_rotation(c, i + 1, 1., rate);
+        return rate;
+      }
+
+      const BoundScene  &bound;
+      const PlasticBars &bars;
+      const unsigned int first;
+
+    private:
+      bool
+      is_held(const unsigned int k, const unsigned int d) const
+      {
+        return problem.is_prescribed[first + bars.dof_of_vertex(k) + d];
+      }
+
+      std::vector<Tensor<1, dim>> frame;   ///< first axis of each vertex
+      std::vector<unsigned int>   n_edges; ///< at each vertex
+      std::vector<bool>           is_tied;
+      const BoundProblem         &problem;
+    };
+
+    /** Adds the tractions on interfaces that are weaker than the soil. */
+    void
+    add_lower_interfaces(const LowerBars &lower, BarCells &cells)
+    {
+      const BoundScene &bound     = lower.bound;
+      const Triangles  &triangles = bound.triangles;
+      for (unsigned int k = 0; k < bound.bars.edges.size(); ++k)
+        if (bound.bars.has_weak_interface(k))
+          for (const int cell : bound.bars.edges[k].cells)
+            if (cell >= 0)
+              {
+                const BarEdge &edge   = bound.bars.edges[k];
+                const auto    &ends   = triangles.edges[edge.edge].vertices;
+                const double   length = triangles.vertices[ends[0]].distance(
+                                        triangles.vertices[ends[1]]) /
+                                      bound.units.length;
+                for (unsigned int end = 0; end < 2; ++end)
+                  {
+                    PassingVelocity    passing;
+                    const unsigned int bar =
+                      dim * (triangles.cells.size() + 2 * edge.edge + end);
+                    for (unsigned int d = 0; d < dim; ++d)
+                      {
+                        passing.add(dof_at_end_of_cell(
+                                      bound, cell, edge.edge, ends[end]) +
+                                      d,
+                                    Point<dim>::unit_vector(d));
+                        passing.add(bar + d, -1. * Point<dim>::unit_vector(d));
+                      }
+                    cells.add(
+                      interface_cone(bound, edge, cell, ends[end]),
+                      passing.strains(coulomb,
+                                      normal_into(triangles, cell, edge.edge)),
+                      passing.dofs,
+                      length / 2.);
+                  }
+                cells.end_cell(cell);
+              }
+    }
+
+    void
+    add_lower_bars(const LowerBars &lower, BarCells &cells)
+    {
+      const BoundScene &bound = lower.bound;
+      for (unsigned int c = 0; c < bound.bars.chains.size(); ++c)
+        {
+          const BarChain &chain = bound.bars.chains[c];
+          const Interval  axial = axial_interval(*chain.structure, bound.units),
+                         moment =
+                           moment_interval(*chain.structure, bound.units);
+          const auto [least, most] = chain.structure->axial_strength();
+          for (unsigned int i = 0; i < chain.edges.size(); ++i)
+            {
+              const Step step(bound, chain, i);
+              for (unsigned int j = 0; j < 3; ++j)
+                if (j != 1 && (least == 0. || most == 0.) &&
+                    lower.is_free_end(chain, j == 0 ? i : i + 1))
+                  cells.skip(); // zero, at the end of the interval
+                else
+                  cells.add(axial,
+                            over_length(lower.axial(chain, i, j), step),
+                            step.length);
+              cells.end_cell(owner_of(bound, step));
+              if (!chain.structure->is_plate())
+                continue;
+              for (unsigned int j = 0; j < 4; ++j)
+                {
+                  cells.add(moment,
+                            over_length(lower.moment(c, i, j), step),
+                            step.length);
+                  if (j > 1)
+                    cells.end_cell(owner_of(bound, step));
+                }
+            }
+        }
+      for (const PlasticBars::Tie &tie : bound.bars.ties)
+        {
+          cells.add(axial_interval(*tie.structure, bound.units),
+                    rate_of_tie(tie,
+                                [&](const unsigned int    v,
+                                    const Tensor<1, dim> &f,
+                                    Functional           &rate) {
+                                  lower.add_at_vertex(v, f, rate);
+                                }),
+                    1.);
+          cells.end_cell(owner_of(bound, tie));
+        }
+    }
+    /** Prescribes velocities of the vertices of structures on sides with prescribed
+     *  velocities. @param dof_of number of the vertex -> its x dof */
+    template <typename DofOfVertex>
+    void
+    hold_vertices(const BoundScene  &bound,
+                  const DofOfVertex &dof_of,
+                  BoundProblem      &problem)
+    {
+      const Triangles &triangles = bound.triangles;
+      for (const auto &condition : bound.scene.dirichlet.list)
+        for (const auto &held : triangles.held_edges(*condition))
+          for (const unsigned int v : triangles.edges[held.edge].vertices)
+            if (const int k = bound.bars.number_of_vertex(v); k >= 0)
+              for_prescribed(*condition,
+                             triangles.vertices[v],
+                             -1. * normal_into(triangles, held.cell, held.edge),
+                             bound.units.velocity,
+                             [&](const unsigned int d, const double value) {
+                               problem.is_prescribed[dof_of(k) + d] = true;
+                               problem.prescribed[dof_of(k) + d]    = value;
+                             });
+    }
+  } // namespace
+
+  unsigned int
+  n_dofs_of_bars(const BoundScene &bound, const BoundSide side)
+  {
+    if (bound.bars.empty())
+      return 0;
+    return side == BoundSide::upper ? bound.bars.n_more_upper_dofs()
+                                    : bound.bars.n_more_lower_dofs();
+  }
+
+  unsigned int
+  dof_of_node(const BoundScene &bound, const unsigned int node)
+  {
+    const unsigned int n_nodes =
+      bound.triangles.vertices.size() + bound.triangles.edges.size();
+    return node < n_nodes ? dim * node
+                          : first_dof_of_bars(bound, BoundSide::upper) +
+                              dim * (node - n_nodes);
+  }
+
+  unsigned int
+  dof_at_end_of_cell(const BoundScene  &bound,
+                     const unsigned int cell,
+                     const unsigned int edge,
+                     const unsigned int vertex)
+  {
+    const unsigned int end =
+      bound.triangles.edges[edge].vertices[0] == vertex ? 0 : 1;
+    if (const int k = bound.bars.number_of_edge(edge);
+        k >= 0 && bound.bars.has_weak_interface(k))
+      return first_dof_of_bars(bound, BoundSide::lower) +
+             bound.bars.dof_of_side(k, bound.bars.side_of(k, cell), end);
+    return dim * (bound.triangles.cells.size() + 2 * edge + end);
+  }
+
+  void
+  add_bars(const BoundScene &bound, const BoundSide side, BoundProblem &problem)
+  {
+    const PlasticBars &bars = bound.bars;
+    if (bars.empty())
+      return;
+    const unsigned int first = first_dof_of_bars(bound, side),
+                       end   = first + n_dofs_of_bars(bound, side);
+    BarCells cells(problem);
+    if (side == BoundSide::upper)
+      {
+        hold_vertices(
+          bound,
+          [&](const unsigned int k) {
+            return dof_of_node(bound, bars.node_of_vertex(k));
+          },
+          problem);
+        add_upper_interfaces(bound, cells);
+        add_upper_bars(bound, cells);
+        return;
+      }
+    hold_vertices(
+      bound,
+      [&](const unsigned int k) { return first + bars.dof_of_vertex(k); },
+      problem);
+    for (unsigned int c = 0; c < bars.chains.size(); ++c)
+      for (const bool at_last : {false, true})
+        if (bars.chains[c].structure->is_plate() &&
+            bars.chains[c].structure->is_clamped(at_last))
+          problem
+            .is_prescribed[first +
+                           bars.dof_of_rotation(
+                             c, at_last ? bars.chains[c].edges.size() : 0)] =
+            true;
+    const LowerBars lower(bound, problem);
+    add_lower_interfaces(lower, cells);
+    add_lower_bars(lower, cells);
+    cells.exclude_unused(first, end);
+  }
+
+  namespace
+  {
+    /** Axial force and moment of an edge of a lower bound, coefficients in Bernstein's
+     *  basis of degrees two and three, in scaled units. */
+    struct ForcesOfEdge
+    {
+      std::array<double, 3> normal = {};
+      std::array<double, 4> moment = {};
+    };
+
+    /** Calls functions for the cells of structures of both bounds, in order. */
+    template <typename OfEdge, typename OfVertex, typename OfTie>
+    void
+    for_bars(const BoundScene &bound,
+             unsigned int      first_upper,
+             unsigned int      first_lower,
+             const OfEdge     &of_edge,
+             const OfVertex   &of_vertex,
+             const OfTie      &of_tie)
+    {
+      for (const BarChain &chain : bound.bars.chains)
+        {
+          const bool         bends = chain.structure->is_plate();
+          const unsigned int begin = first_lower, size = bends ? 9 : 3;
+          for (unsigned int i = 0; i < chain.edges.size(); ++i)
+            {
+              of_edge(chain, i, first_upper, first_lower);
+              first_upper += 6;
+              first_lower += size;
+            }
+          for (unsigned int i = 0; bends && i < chain.vertices.size(); ++i)
+            {
+              // The moment of the edge that begins or, at the last one, ends there.
+              of_vertex(chain,
+                        i,
+                        first_upper,
+                        i + 1 < chain.vertices.size() ? begin + size * i + 3
+                                                      : first_lower - 3);
+              first_upper += 3;
+            }
+        }
+      for (const PlasticBars::Tie &tie : bound.bars.ties)
+        {
+          of_tie(tie, first_upper, first_lower);
+          first_upper += 3;
+          first_lower += 3;
+        }
+    }
+
+    /** Number of cells of the interfaces of structures. */
+    unsigned int
+    n_interface_cells(const BoundScene &bound, const BoundSide side)
+    {
+      unsigned int n = 0;
+      for (unsigned int k = 0; k < bound.bars.edges.size(); ++k)
+        for (const int cell : bound.bars.edges[k].cells)
+          n += cell >= 0 &&
+               (side == BoundSide::upper || bound.bars.has_weak_interface(k));
+      return n;
+    }
+
+    /** First point of structures, with their interfaces, in both problems. */
+    unsigned int
+    first_point_of_bars(const BoundScene &bound)
+    {
+      unsigned int n = bound.triangles.cells.size();
+      for (const Interface &interface : bound.interfaces)
+        n += interface.faces.size();
+      return 3 * n;
+    }
+
+    /** Traction of a triangle at a vertex, normal and tangential to a side with the
+     *  inward normal N, as of an interface. */
+    Eigen::Vector3d
+    traction_at(const BoundScene     &bound,
+                const Bound          &lower,
+                const unsigned int    cell,
+                const unsigned int    vertex,
+                const Tensor<1, dim> &N)
+    {
+      const Mandel s = from_cone_axes(
+        Mandel(lower.s[3 * cell + position_of(bound.triangles, cell, vertex)]));
+      const Tensor<1, dim> t({-(s[0] * N[0] + s[2] / sqrt2 * N[1]),
+                              -(s[2] / sqrt2 * N[0] + s[1] * N[1])});
+      return {t * N, t[1] * N[0] - t[0] * N[1], 0.};
+    }
+  } // namespace
+
+  void
+  add_gap_of_bars(const BoundScene    &bound,
+                  const BoundProblem  &problem,
+                  const Bound         &upper,
+                  const Bound         &lower,
+                  std::vector<double> &gap)
+  {
+    if (bound.bars.empty())
+      return;
+    const Triangles   &triangles  = bound.triangles;
+    const auto         e          = problem.B.rates(upper.q);
+    const unsigned int first      = first_point_of_bars(bound);
+    unsigned int       p          = first;
+    const auto         dissipated = [&](const unsigned int point) {
+      return problem.volume[point] * dissipation(problem.cone[point], e[point]);
+    };
+    for (const BarEdge &edge : bound.bars.edges)
+      for (const int cell : edge.cells)
+        if (cell >= 0)
+          {
+            const auto          &ends = triangles.edges[edge.edge].vertices;
+            const Tensor<1, dim> N    = normal_into(triangles, cell, edge.edge);
+            const double         length = triangles.vertices[ends[0]].distance(
+                                    triangles.vertices[ends[1]]) /
+                                  bound.units.length;
+            for (unsigned int i = 0; i < 3; ++i, ++p)
+              {
+                gap[cell] += dissipated(p);
+                for (unsigned int j = 0; j < 2; ++j)
+                  gap[cell] -=
+                    length * share_of_end[i][j] *
+                    traction_at(bound, lower, cell, ends[j], N).dot(e[p]);
+              }
+          }
+    for_bars(
+      bound,
+      p,
+      first + 3 * n_interface_cells(bound, BoundSide::lower),
+      [&](const BarChain    &chain,
+          const unsigned int i,
+          const unsigned int u,
+          const unsigned int l) {
+        const Step step(bound, chain, i);
+        double    &own = gap[owner_of(bound, step)];
+        own += dissipated(u) + dissipated(u + 1);
+        for (unsigned int j = 0; j < 3; ++j)
+          for (unsigned int end = 0; end < 2; ++end)
+            own -= step.length * share_of_end[j][end] *
+                   lower.s[l + j].dot(e[u + end]);
+        for (unsigned int end = 0; end < 2; ++end)
+          own +=
+            dissipated(u + 3 + end) - lower.s[l + 2 * end].dot(e[u + 3 + end]);
+        if (!chain.structure->is_plate())
+          return;
+        own += dissipated(u + 2);
+        for (unsigned int j = 0; j < 4; ++j)
+          own -= step.length / 4. * lower.s[l + 3 + j].dot(e[u + 2]);
+      },
+      [&](const BarChain    &chain,
+          const unsigned int i,
+          const unsigned int u,
+          const unsigned int l) {
+        const Step step(
+          bound, chain, std::min<unsigned int>(i, chain.edges.size() - 1));
+        gap[owner_of(bound, step)] += dissipated(u) - lower.s[l].dot(e[u]);
+      },
+      [&](const PlasticBars::Tie &tie,
+          const unsigned int      u,
+          const unsigned int      l) {
+        gap[owner_of(bound, tie)] += dissipated(u) - lower.s[l].dot(e[u]);
+      });
+  }
+
+  namespace
+  {
+    /** Value at 0 <= s <= 1 of a polynomial in Bernstein's basis. */
+    template <std::size_t n>
+    double
+    value_of(std::array<double, n> coefficients, const double s)
+    {
+      for (unsigned int order = n - 1; order > 0; --order)
+        for (unsigned int i = 0; i < order; ++i)
+          coefficients[i] += s * (coefficients[i + 1] - coefficients[i]);
+      return coefficients[0];
+    }
+  } // namespace
+
+  std::vector<BarPoint>
+  points_of_bars(const BoundScene &bound,
+                 const Bound      &upper,
+                 const Bound      &lower)
+  {
+    std::vector<BarPoint> all;
+    if (bound.bars.empty())
+      return all;
+    const PlasticBars &bars   = bound.bars;
+    const double       force  = bound.units.stress * bound.units.length;
+    const auto         vertex = [&](const unsigned int v) {
+      return dof_of_node(bound, bars.node_of_vertex(bars.number_of_vertex(v)));
+    };
+    const unsigned int first = first_point_of_bars(bound);
+    double             arc   = 0.;
+    for_bars(
+      bound,
+      first + 3 * n_interface_cells(bound, BoundSide::upper),
+      first + 3 * n_interface_cells(bound, BoundSide::lower),
+      [&](const BarChain    &chain,
+          const unsigned int i,
+          const unsigned int,
+          const unsigned int l) {
+        const Structure &structure = *chain.structure;
+        const Step       step(bound, chain, i);
+        arc                   = i == 0 ? 0. : arc;
+        const double   L      = bound.units.length * step.length;
+        const Interval axial  = axial_interval(structure, bound.units),
+                       moment = moment_interval(structure, bound.units);
+        ForcesOfEdge          forces;
+        std::array<double, 3> shear = {};
+        for (unsigned int j = 0; j < 3; ++j)
+          forces.normal[j] = axial.is_zero ? 0. : axial.force(lower.s[l + j]);
+        for (unsigned int j = 0; structure.is_plate() && j < 4; ++j)
+          forces.moment[j] = moment.force(lower.s[l + 3 + j]);
+        for (unsigned int j = 0; j < 3; ++j)
+          shear[j] =
+            3. / step.length * (forces.moment[j + 1] - forces.moment[j]);
+        const std::array<unsigned int, 3> dofs = {
+          {vertex(step.vertices[0]),
+           dof_of_node(bound, bars.node_of_edge(step.number)),
+           vertex(step.vertices[1])}};
+        for (unsigned int k = 0; k < 3; ++k)
+          {
+            const double s = k / 2.;
+            BarPoint     point;
+            point.structure = &structure;
+            point.arc       = arc + s * L;
+            point.x =
+              bound.triangles.vertices[step.vertices[0]] + s * L * step.t;
+            point.normal = force * value_of(forces.normal, s);
+            point.moment =
+              force * bound.units.length * value_of(forces.moment, s);
+            point.shear = force * value_of(shear, s);
+            for (unsigned int d = 0; d < dim; ++d)
+              point.velocity[d] =
+                value_of(std::array<double, 3>{{upper.q[dofs[0] + d],
+                                                upper.q[dofs[1] + d],
+                                                upper.q[dofs[2] + d]}},
+                         s);
+            const double rates[2] = {axial_rate(bound, step, 0).of(upper.q),
+                                     axial_rate(bound, step, 1).of(upper.q)};
+            point.rate            = (1. - s) * rates[0] + s * rates[1];
+            if (k != 1)
+              point.jump = jump_rate(bound, step, k / 2).of(upper.q);
+            if (structure.is_plate() && k != 1)
+              point.hinge =
+                hinge_rate(bound, chain, k == 0 ? i : i + 1).of(upper.q);
+            all.push_back(point);
+          }
+        arc += L;
+      },
+      [](const BarChain &,
+         const unsigned int,
+         const unsigned int,
+         const unsigned int) {},
+      [&](
+        const PlasticBars::Tie &tie, const unsigned int, const unsigned int l) {
+        const Interval axial = axial_interval(*tie.structure, bound.units);
+        for (unsigned int end = 0; end < 2; ++end)
+          {
+            BarPoint point;
+            point.structure = tie.structure;
+            point.x         = tie.structure->points[end];
+            point.arc       = end * tie.structure->points[0].distance(point.x);
+            point.normal = axial.is_zero ? 0. : force * axial.force(lower.s[l]);
+            for (unsigned int d = 0; tie.vertices[end] >= 0 && d < dim; ++d)
+              point.velocity[d] = upper.q[vertex(tie.vertices[end]) + d];
+            point.rate = upper_rate_of_tie(bound, tie).of(upper.q);
+            all.push_back(point);
+          }
+      });
+    return all;
+  }
+} // namespace geocone::GEOCONE_DIM
