@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -35,6 +36,13 @@ namespace geocone::GEOCONE_DIM
           : triangles.cells.size() + 2 * triangles.edges.size();
       return dim * n_nodes + n_dofs_of_interfaces(bound);
     }
+
+    /** Strength in scaled units, of stress the greatest of strengths and loads and of length
+     *  an eighth of the body's size, above which a structure counts as unlimited in the
+     *  upper bound: rates that are zero instead of small do not lower it. In the lower
+     *  bound an unlimited axial strength is this one, which does not raise it: with free
+     *  axial forces equilibrium is ill-conditioned. */
+    constexpr double unlimited = 100.;
 
     /** Interval of admissible forces of a point as a cone of one component. */
     struct Interval
@@ -71,19 +79,38 @@ namespace geocone::GEOCONE_DIM
       }
     };
 
-    Interval
-    axial_interval(const Structure &structure, const BoundUnits &units)
+    /** Infinite for a strength that counts as unlimited. */
+    double
+    raised(const double strength)
     {
-      const auto [least, most] = structure.axial_strength();
-      const double unit        = units.stress * units.length;
-      return {least / unit, most / unit};
+      return strength < unlimited ? strength
+                                  : std::numeric_limits<double>::infinity();
     }
 
     Interval
-    moment_interval(const Structure &structure, const BoundUnits &units)
+    axial_interval(const Structure  &structure,
+                   const BoundUnits &units,
+                   const BoundSide   side)
     {
-      const double most = structure.moment_capacity() /
-                          (units.stress * units.length * units.length);
+      const auto [least, most] = structure.axial_strength();
+      const double unit        = units.stress * units.length,
+                   compressive = -least / unit, tensile = most / unit;
+      if (side == BoundSide::upper)
+        return {-raised(compressive), raised(tensile)};
+      if (std::min(compressive, tensile) < unlimited)
+        return {-compressive, tensile};
+      return {-unlimited, unlimited};
+    }
+
+    Interval
+    moment_interval(const Structure  &structure,
+                    const BoundUnits &units,
+                    const BoundSide   side)
+    {
+      double most = structure.moment_capacity() /
+                    (units.stress * units.length * units.length);
+      if (side == BoundSide::upper)
+        most = raised(most);
       return {-most, most};
     }
 
@@ -534,9 +561,10 @@ namespace geocone::GEOCONE_DIM
     {
       for (const BarChain &chain : bound.bars.chains)
         {
-          const Interval axial = axial_interval(*chain.structure, bound.units),
-                         moment =
-                           moment_interval(*chain.structure, bound.units);
+          const Interval axial = axial_interval(
+                           *chain.structure, bound.units, BoundSide::upper),
+                         moment = moment_interval(
+                           *chain.structure, bound.units, BoundSide::upper);
           const bool bends = chain.structure->is_plate();
           for (unsigned int i = 0; i < chain.edges.size(); ++i)
             {
@@ -570,9 +598,10 @@ namespace geocone::GEOCONE_DIM
         }
       for (const PlasticBars::Tie &tie : bound.bars.ties)
         {
-          cells.add(axial_interval(*tie.structure, bound.units),
-                    upper_rate_of_tie(bound, tie),
-                    1.);
+          cells.add(
+            axial_interval(*tie.structure, bound.units, BoundSide::upper),
+            upper_rate_of_tie(bound, tie),
+            1.);
           cells.end_cell(owner_of(bound, tie));
         }
     }
@@ -771,9 +800,10 @@ namespace geocone::GEOCONE_DIM
       for (unsigned int c = 0; c < bound.bars.chains.size(); ++c)
         {
           const BarChain &chain = bound.bars.chains[c];
-          const Interval  axial = axial_interval(*chain.structure, bound.units),
-                         moment =
-                           moment_interval(*chain.structure, bound.units);
+          const Interval  axial = axial_interval(
+                           *chain.structure, bound.units, BoundSide::lower),
+                         moment = moment_interval(
+                           *chain.structure, bound.units, BoundSide::lower);
           const auto [least, most] = chain.structure->axial_strength();
           for (unsigned int i = 0; i < chain.edges.size(); ++i)
             {
@@ -801,14 +831,14 @@ namespace geocone::GEOCONE_DIM
         }
       for (const PlasticBars::Tie &tie : bound.bars.ties)
         {
-          cells.add(axial_interval(*tie.structure, bound.units),
-                    rate_of_tie(tie,
-                                [&](const unsigned int    v,
-                                    const Tensor<1, dim> &f,
-                                    Functional           &rate) {
-                                  lower.add_at_vertex(v, f, rate);
-                                }),
-                    1.);
+          cells.add(
+            axial_interval(*tie.structure, bound.units, BoundSide::lower),
+            rate_of_tie(
+              tie,
+              [&](const unsigned int    v,
+                  const Tensor<1, dim> &f,
+                  Functional &rate) { lower.add_at_vertex(v, f, rate); }),
+            1.);
           cells.end_cell(owner_of(bound, tie));
         }
     }
@@ -1112,8 +1142,10 @@ namespace geocone::GEOCONE_DIM
         const Step       step(bound, chain, i);
         arc                   = i == 0 ? 0. : arc;
         const double   L      = bound.units.length * step.length;
-        const Interval axial  = axial_interval(structure, bound.units),
-                       moment = moment_interval(structure, bound.units);
+        const Interval axial  = axial_interval(
+                         structure, bound.units, BoundSide::lower),
+                       moment = moment_interval(
+                         structure, bound.units, BoundSide::lower);
         ForcesOfEdge          forces;
         std::array<double, 3> shear = {};
         for (unsigned int j = 0; j < 3; ++j)
@@ -1163,7 +1195,8 @@ namespace geocone::GEOCONE_DIM
          const unsigned int) {},
       [&](
         const PlasticBars::Tie &tie, const unsigned int, const unsigned int l) {
-        const Interval axial = axial_interval(*tie.structure, bound.units);
+        const Interval axial =
+          axial_interval(*tie.structure, bound.units, BoundSide::lower);
         for (unsigned int end = 0; end < 2; ++end)
           {
             BarPoint point;
