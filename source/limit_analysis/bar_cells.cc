@@ -37,12 +37,11 @@ namespace geocone::GEOCONE_DIM
       return dim * n_nodes + n_dofs_of_interfaces(bound);
     }
 
-    /** Strength in scaled units, of stress the greatest of strengths and loads and of length
-     *  an eighth of the body's size, above which a structure counts as unlimited in the
-     *  upper bound: rates that are zero instead of small do not lower it. In the lower
-     *  bound an unlimited axial strength is this one, which does not raise it: with free
-     *  axial forces equilibrium is ill-conditioned. */
-    constexpr double unlimited = 100.;
+    /** Axial and moment strengths in scaled units from which on a structure counts as
+     *  unlimited (BoundedLoad::choose_units()). Valid for both bounds: rates that are zero
+     *  instead of small do not lower the upper one, and smaller strengths do not raise the
+     *  lower one. With free axial forces its equilibrium would be ill-conditioned. */
+    constexpr double unlimited_force = 100., unlimited_moment = 400.;
 
     /** Interval of admissible forces of a point as a cone of one component. */
     struct Interval
@@ -79,27 +78,23 @@ namespace geocone::GEOCONE_DIM
       }
     };
 
-    /** Infinite for a strength that counts as unlimited. */
-    double
-    raised(const double strength)
-    {
-      return strength < unlimited ? strength
-                                  : std::numeric_limits<double>::infinity();
-    }
-
     Interval
     axial_interval(const Structure  &structure,
                    const BoundUnits &units,
                    const BoundSide   side)
     {
-      const auto [least, most] = structure.axial_strength();
-      const double unit        = units.stress * units.length,
-                   compressive = -least / unit, tensile = most / unit;
+      constexpr double infinite = std::numeric_limits<double>::infinity();
+      const double     unit     = units.stress * units.length;
+      auto [least, most]        = structure.axial_strength();
+      least /= unit;
+      most /= unit;
+      const bool below = -least < unlimited_force,
+                 above = most < unlimited_force;
       if (side == BoundSide::upper)
-        return {-raised(compressive), raised(tensile)};
-      if (std::min(compressive, tensile) < unlimited)
-        return {-compressive, tensile};
-      return {-unlimited, unlimited};
+        return {below ? least : -infinite, above ? most : infinite};
+      if (!below && !above)
+        return {-unlimited_force, unlimited_force};
+      return {least, most};
     }
 
     Interval
@@ -107,10 +102,11 @@ namespace geocone::GEOCONE_DIM
                     const BoundUnits &units,
                     const BoundSide   side)
     {
-      double most = structure.moment_capacity() /
+      constexpr double infinite = std::numeric_limits<double>::infinity();
+      double           most     = structure.moment_capacity() /
                     (units.stress * units.length * units.length);
-      if (side == BoundSide::upper)
-        most = raised(most);
+      if (most < infinite && most > unlimited_moment)
+        most = side == BoundSide::upper ? infinite : unlimited_moment;
       return {-most, most};
     }
 
@@ -676,6 +672,12 @@ namespace geocone::GEOCONE_DIM
         rate.add(first + bars.dof_of_rotation(chain, i), factor);
       }
 
+      bool
+      has_no_force(const unsigned int dof) const
+      {
+        return problem.has_no_force[dof];
+      }
+
       /** Whether the axial force is zero at an end of a chain. */
       bool
       is_free_end(const BarChain &chain, const unsigned int i) const
@@ -771,15 +773,19 @@ namespace geocone::GEOCONE_DIM
                                       bound.units.length;
                 for (unsigned int end = 0; end < 2; ++end)
                   {
+                    const unsigned int soil =
+                      dof_at_end_of_cell(bound, cell, edge.edge, ends[end]);
+                    if (lower.has_no_force(soil))
+                      {
+                        cells.skip(); // soil at its apex
+                        continue;
+                      }
                     PassingVelocity    passing;
                     const unsigned int bar =
                       dim * (triangles.cells.size() + 2 * edge.edge + end);
                     for (unsigned int d = 0; d < dim; ++d)
                       {
-                        passing.add(dof_at_end_of_cell(
-                                      bound, cell, edge.edge, ends[end]) +
-                                      d,
-                                    Point<dim>::unit_vector(d));
+                        passing.add(soil + d, Point<dim>::unit_vector(d));
                         passing.add(bar + d, -1. * Point<dim>::unit_vector(d));
                       }
                     cells.add(

@@ -394,23 +394,36 @@ namespace geocone::GEOCONE_DIM
                            "nothing resists in this scene");
         units.stress = dead / 8.;
       }
-    for (const auto &structure : scene.structures.list)
-      {
-        // Forces in structures exceed the strength of weak soil by orders of magnitude.
-        const double length =
-          structure->points.front().distance(structure->points.back());
-        const auto [least, most] = structure->axial_strength();
-        units.stress             = std::max(units.stress, dead);
-        for (const double one :
-             {-least / length,
-              most / length,
-              structure->moment_capacity() / (length * length)})
-          if (std::isfinite(one))
-            units.stress = std::max(units.stress, one);
-      }
+    if (!scene.structures.list.empty())
+      add_units_of_structures(scene.structures, dead);
     if (is_reaction())
       load_unit =
         units.stress * units.length * std::abs(scene.observation.factor);
+  }
+
+  void
+  BoundedLoad::add_units_of_structures(const Structures &structures,
+                                       const double      dead)
+  {
+    // Forces in structures exceed the strength of weak soil by orders of magnitude. The
+    // largest strengths are as good as unlimited.
+    units.stress      = std::max(units.stress, dead);
+    const double most = 1e3 * units.stress;
+    for (const auto &structure : structures.list)
+      {
+        double length = 0.;
+        for (std::size_t i = 1; i < structure->points.size(); ++i)
+          length += structure->points[i].distance(structure->points[i - 1]);
+        const auto [least, greatest] = structure->axial_strength();
+        for (const double strength :
+             {-least / length,
+              greatest / length,
+              structure->is_plate()
+                ? structure->moment_capacity() / (length * length)
+                : 0.})
+          if (strength < most)
+            units.stress = std::max(units.stress, strength);
+      }
   }
 
   BoundScene

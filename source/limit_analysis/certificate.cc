@@ -165,10 +165,9 @@ namespace geocone::GEOCONE_DIM
             const unsigned int dof  = side.dof + d;
             const double       half = half_length(side.edge);
             is_of_side[dof]         = true;
-            if (!problem.has_no_force[dof])
-              result.error = std::max(
-                result.error,
-                std::abs(side.traction[d] + at_interfaces[dof] / half));
+            result.error =
+              std::max(result.error,
+                       std::abs(side.traction[d] + at_interfaces[dof] / half));
           }
       for (unsigned int e = 0; e < triangles.edges.size(); ++e)
         {

@@ -441,12 +441,15 @@ namespace geocone::GEOCONE_DIM
           is_held[v] = true;
     for (const Interface &interface : interfaces)
       {
-        if (edge_number[interface.held.edge] >= 0)
-          throw InputError("Structures/Names",
-                           "a structure on a side that an obstacle touches or "
-                           "that is held at an angle",
-                           "structures elsewhere where loads are bounded",
-                           "leave one of them out there");
+        for (const Chain &chain : chains)
+          if (std::count(chain.edges.begin(),
+                         chain.edges.end(),
+                         interface.held.edge) > 0)
+            throw InputError(chain.structure->parameter("Points"),
+                             "a side that an obstacle touches, or that slides "
+                             "along a line oblique to x and y",
+                             "lines elsewhere where loads are bounded",
+                             "leave one of them out there");
         for (const unsigned int v :
              triangles.edges[interface.held.edge].vertices)
           is_held[v] = true;

@@ -91,6 +91,10 @@ namespace geocone::GEOCONE_DIM
     prescribed_velocity(const Scene &scene, const Triangles &triangles) const;
     void
     choose_units(const Scene &scene, const Triangles &triangles);
+    /** Raises the unit of stress to that of dead loads and structures.
+     *  @param dead largest dead load (Pa) */
+    void
+    add_units_of_structures(const Structures &structures, const double dead);
 
     /** Selects the strengths of the materials, flow_cones or strengths. */
     void

@@ -12,6 +12,7 @@ from geocone.plots.plates import draw_body
 from geocone.style import COLORS, Skipped, plain, save, subplots, unit_for
 
 LEAST = 0.02  # of the largest rate, from which on a point counts as yielding
+NEAR = 1.7  # times the largest force, up to which strengths are shown
 MOST_NAMES = 12  # curves in a legend
 YIELDS, HINGES = COLORS[1], COLORS[3]
 
@@ -86,7 +87,7 @@ def draw_yielding(axes, bars, model):
             hinges = True
     axes.set_title("where structures yield in the upper bound", fontsize=10)
     if yields or hinges:
-        axes.legend(fontsize=8, loc="best")
+        axes.legend(fontsize=8, loc="upper center", bbox_to_anchor=(0.5, -0.18), ncol=2)
 
 
 def draw_forces(axes, bars, quantity, unit, strengths_of):
@@ -98,13 +99,13 @@ def draw_forces(axes, bars, quantity, unit, strengths_of):
         axes.plot(bar["distance along it"], bar[quantity] / size, color=color, linewidth=1.4,
                   label=plain(bar.name))
         for strength in strengths_of(bar):
-            if strength:
+            if strength and abs(strength) < NEAR * most:
                 axes.plot(bar["distance along it"][[0, -1]], 2 * [strength / size], color=color,
                           linestyle="--", linewidth=0.9)
     axes.axhline(0., color="k", linewidth=0.6)
     axes.set(xlabel="distance along it (m)", ylabel=f"{quantity} ({unit})")
-    axes.set_title(f"{quantity} of the lower bound; dashed: strength", fontsize=10)
-    if len(bars) <= MOST_NAMES:
+    axes.set_title(f"{quantity} of the lower bound", fontsize=10)
+    if 1 < len(bars) <= MOST_NAMES:
         axes.legend(fontsize=7)
 
 
@@ -120,5 +121,5 @@ def draw_run(run, path):
     if plates:
         draw_forces(axes_of[2], plates, "bending moment", "N m/m",
                     lambda bar: (bar.moment, -bar.moment) if bar.moment else ())
-    figure.suptitle(heading(run), fontsize=13)
+    figure.suptitle(heading(run) + "; dashed: strengths", fontsize=13)
     save(figure, run, path)
