@@ -16,13 +16,23 @@ while read -r file; do [ -s "$file" ] || { echo "announced: $file"; exit 1; }; d
 "$root/scripts/plot" cut --animation --apng
 PYTHONPATH=$root/python /usr/bin/python3 - <<'PYTHON'
 import geocone
+import numpy as np
 from geocone.plots.explicit import snapshots_of, taken_away_at
 from PIL import Image
 
-run = geocone.read("cut")
+run, films = geocone.read("cut"), []
 for name in "points.gif", "points_film.png":
     film = Image.open("cut/" + name)
     assert film.n_frames == len(run.times("points")), (name, film.n_frames)
+    assert not films or film.size == films[0].size
+    films.append(film)
+# Pixels of a GIF that do not change are left out of it: all frames are those of the other film.
+for i in range(films[0].n_frames):
+    for film in films:
+        film.seek(i)
+    gif, png = (np.asarray(film.convert("RGB"), dtype=float) for film in films)
+    wrong = np.mean(np.max(np.abs(gif - png), axis=2) > 64.)
+    assert wrong < 1e-3, (i, wrong)
 cut = taken_away_at(run)
 times = [field.time for field in snapshots_of(run, None)]
 assert sum(time < cut for time in times) == 1 and len(times) == 6, (cut, times)
