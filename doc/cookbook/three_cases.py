@@ -103,8 +103,8 @@ def draw_square(axes, run):
     axes.semilogx(s, q, "o-", color=style.BLUE, markersize=4, label="computed, a point per step")
     axes.axhline(5.91, color="black", linestyle="--", linewidth=1.2,
                  label="Gourvenec et al. (2006), 5.91")
-    for x, y, n in zip(s, q, table["iterations (-)"]):
-        up = x == s[-1]  # it is cut short by the end of the run, beside the one before
+    for i, (x, y, n) in enumerate(zip(s, q, table["iterations (-)"])):
+        up = i % 2 == len(s) % 2 and x > 0.1  # steps on the plateau are close together
         axes.annotate(f"{n:.0f}", (x, y), (0, 7 if up else -16), textcoords="offset points",
                       ha="center", fontsize=9, color="#505050")
     axes.plot([], [], " ", label="numbers: iterations of the step")
