@@ -1119,6 +1119,85 @@ namespace geocone::GEOCONE_DIM
           coefficients[i] += s * (coefficients[i + 1] - coefficients[i]);
       return coefficients[0];
     }
+    unsigned int
+    dof_of_vertex(const BoundScene &bound, const unsigned int vertex)
+    {
+      return dof_of_node(
+        bound, bound.bars.node_of_vertex(bound.bars.number_of_vertex(vertex)));
+    }
+
+    /** Axial force and moment of an edge of a lower bound, from its first point of
+     *  structures on. */
+    ForcesOfEdge
+    forces_of_edge(const BoundScene  &bound,
+                   const Structure   &structure,
+                   const Bound       &lower,
+                   const unsigned int first)
+    {
+      const Interval axial =
+                       axial_interval(structure, bound.units, BoundSide::lower),
+                     moment = moment_interval(
+                       structure, bound.units, BoundSide::lower);
+      ForcesOfEdge forces;
+      for (unsigned int j = 0; j < 3 && !axial.is_zero; ++j)
+        forces.normal[j] = axial.force(lower.s[first + j]);
+      for (unsigned int j = 0; j < 4 && structure.is_plate(); ++j)
+        forces.moment[j] = moment.force(lower.s[first + 3 + j]);
+      return forces;
+    }
+
+    /** Appends both ends and the middle of an edge. @param arc at its beginning (m)
+     *  @param first point of the edge in the lower bound */
+    void
+    add_points_of_edge(const BoundScene      &bound,
+                       const BarChain        &chain,
+                       const unsigned int     i,
+                       const double           arc,
+                       const Bound           &upper,
+                       const Bound           &lower,
+                       const unsigned int     first,
+                       std::vector<BarPoint> &all)
+    {
+      const Structure &structure = *chain.structure;
+      const Step       step(bound, chain, i);
+      const double     L = bound.units.length * step.length,
+                   force = bound.units.stress * bound.units.length;
+      const ForcesOfEdge forces =
+        forces_of_edge(bound, structure, lower, first);
+      const double          rates[2] = {axial_rate(bound, step, 0).of(upper.q),
+                                        axial_rate(bound, step, 1).of(upper.q)};
+      std::array<double, 3> shear;
+      for (unsigned int j = 0; j < 3; ++j)
+        shear[j] = 3. / step.length * (forces.moment[j + 1] - forces.moment[j]);
+      const std::array<unsigned int, 3> dofs = {
+        {dof_of_vertex(bound, step.vertices[0]),
+         dof_of_node(bound, bound.bars.node_of_edge(step.number)),
+         dof_of_vertex(bound, step.vertices[1])}};
+      for (unsigned int k = 0; k < 3; ++k)
+        {
+          const double s = k / 2.;
+          BarPoint     point;
+          point.structure = &structure;
+          point.arc       = arc + s * L;
+          point.x = bound.triangles.vertices[step.vertices[0]] + s * L * step.t;
+          point.normal = force * value_of(forces.normal, s);
+          point.moment =
+            force * bound.units.length * value_of(forces.moment, s);
+          point.shear = force * value_of(shear, s);
+          for (unsigned int d = 0; d < dim; ++d)
+            point.velocity[d] =
+              value_of(std::array<double, 3>{{upper.q[dofs[0] + d],
+                                              upper.q[dofs[1] + d],
+                                              upper.q[dofs[2] + d]}},
+                       s);
+          point.rate = (1. - s) * rates[0] + s * rates[1];
+          if (k != 1)
+            point.jump = jump_rate(bound, step, k / 2).of(upper.q);
+          if (structure.is_plate() && k != 1)
+            point.hinge = hinge_rate(bound, chain, i + k / 2).of(upper.q);
+          all.push_back(point);
+        }
+    }
   } // namespace
 
   std::vector<BarPoint>
@@ -1129,11 +1208,6 @@ namespace geocone::GEOCONE_DIM
     std::vector<BarPoint> all;
     if (bound.bars.empty())
       return all;
-    const PlasticBars &bars   = bound.bars;
-    const double       force  = bound.units.stress * bound.units.length;
-    const auto         vertex = [&](const unsigned int v) {
-      return dof_of_node(bound, bars.node_of_vertex(bars.number_of_vertex(v)));
-    };
     const unsigned int first = first_point_of_bars(bound);
     double             arc   = 0.;
     for_bars(
@@ -1144,56 +1218,9 @@ namespace geocone::GEOCONE_DIM
           const unsigned int i,
           const unsigned int,
           const unsigned int l) {
-        const Structure &structure = *chain.structure;
-        const Step       step(bound, chain, i);
-        arc                   = i == 0 ? 0. : arc;
-        const double   L      = bound.units.length * step.length;
-        const Interval axial  = axial_interval(
-                         structure, bound.units, BoundSide::lower),
-                       moment = moment_interval(
-                         structure, bound.units, BoundSide::lower);
-        ForcesOfEdge          forces;
-        std::array<double, 3> shear = {};
-        for (unsigned int j = 0; j < 3; ++j)
-          forces.normal[j] = axial.is_zero ? 0. : axial.force(lower.s[l + j]);
-        for (unsigned int j = 0; structure.is_plate() && j < 4; ++j)
-          forces.moment[j] = moment.force(lower.s[l + 3 + j]);
-        for (unsigned int j = 0; j < 3; ++j)
-          shear[j] =
-            3. / step.length * (forces.moment[j + 1] - forces.moment[j]);
-        const std::array<unsigned int, 3> dofs = {
-          {vertex(step.vertices[0]),
-           dof_of_node(bound, bars.node_of_edge(step.number)),
-           vertex(step.vertices[1])}};
-        for (unsigned int k = 0; k < 3; ++k)
-          {
-            const double s = k / 2.;
-            BarPoint     point;
-            point.structure = &structure;
-            point.arc       = arc + s * L;
-            point.x =
-              bound.triangles.vertices[step.vertices[0]] + s * L * step.t;
-            point.normal = force * value_of(forces.normal, s);
-            point.moment =
-              force * bound.units.length * value_of(forces.moment, s);
-            point.shear = force * value_of(shear, s);
-            for (unsigned int d = 0; d < dim; ++d)
-              point.velocity[d] =
-                value_of(std::array<double, 3>{{upper.q[dofs[0] + d],
-                                                upper.q[dofs[1] + d],
-                                                upper.q[dofs[2] + d]}},
-                         s);
-            const double rates[2] = {axial_rate(bound, step, 0).of(upper.q),
-                                     axial_rate(bound, step, 1).of(upper.q)};
-            point.rate            = (1. - s) * rates[0] + s * rates[1];
-            if (k != 1)
-              point.jump = jump_rate(bound, step, k / 2).of(upper.q);
-            if (structure.is_plate() && k != 1)
-              point.hinge =
-                hinge_rate(bound, chain, k == 0 ? i : i + 1).of(upper.q);
-            all.push_back(point);
-          }
-        arc += L;
+        arc = i == 0 ? 0. : arc;
+        add_points_of_edge(bound, chain, i, arc, upper, lower, l, all);
+        arc += bound.units.length * Step(bound, chain, i).length;
       },
       [](const BarChain &,
          const unsigned int,
@@ -1209,9 +1236,13 @@ namespace geocone::GEOCONE_DIM
             point.structure = tie.structure;
             point.x         = tie.structure->points[end];
             point.arc       = end * tie.structure->points[0].distance(point.x);
-            point.normal = axial.is_zero ? 0. : force * axial.force(lower.s[l]);
+            point.normal    = axial.is_zero
+                                ? 0.
+                                : bound.units.stress * bound.units.length *
+                                 axial.force(lower.s[l]);
             for (unsigned int d = 0; tie.vertices[end] >= 0 && d < dim; ++d)
-              point.velocity[d] = upper.q[vertex(tie.vertices[end]) + d];
+              point.velocity[d] =
+                upper.q[dof_of_vertex(bound, tie.vertices[end]) + d];
             point.rate = upper_rate_of_tie(bound, tie).of(upper.q);
             all.push_back(point);
           }

@@ -330,7 +330,11 @@ namespace geocone::GEOCONE_DIM
             result.s[p] = result.s[problem.point_of_triangle(p)];
           else if (problem.B.is_removed(p))
             result.s[p].setZero(); // it has no part in anything
-          finite  = finite && result.s[p].allFinite();
+          if (!result.s[p].allFinite())
+            {
+              finite = false;
+              result.s[p].setZero();
+            }
           largest = std::max(largest, result.s[p].norm());
           if (const double f = excess(cone, result.s[p]); f > 0.)
             {

@@ -502,13 +502,15 @@ namespace geocone::GEOCONE_DIM
     if (scene.structures.list.empty() || !triangles ||
         bounds.gap.size() != triangles->cells.size())
       return {};
-    const BoundScene bound = bounded_load.on(scene, *triangles);
-    const bool       has_proofs =
+    const bool has_proofs =
       reduces_strength() && reduced.lower && reduced.upper;
-    return points_of_bars(
-      bound,
-      has_proofs ? reduced.upper_proof.bound : bounds.upper.bound,
-      has_proofs ? reduced.lower_proof.bound : bounds.lower.bound);
+    const Bound &upper =
+                  has_proofs ? reduced.upper_proof.bound : bounds.upper.bound,
+                &lower =
+                  has_proofs ? reduced.lower_proof.bound : bounds.lower.bound;
+    if (!upper.certified || !lower.certified)
+      return {};
+    return points_of_bars(bounded_load.on(scene, *triangles), upper, lower);
   }
 
   LoadBracket
