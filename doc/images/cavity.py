@@ -64,7 +64,7 @@ def main():
     axes = figure.add_subplot()
     axes.set_prop_cycle(color=style.COLORS)
     radii = np.linspace(1.01, 2., 60)
-    axes.plot(radii, [pressure(r) for r in radii], "k--", label="exact")
+    axes.plot(radii, [pressure(r) for r in radii], "k--", label="exact (Yu, Houlsby)")
     for label, folder in runs:
         with open(pathlib.Path(folder) / "statistics.csv", encoding="utf-8") as file:
             rows = list(csv.DictReader(file))
@@ -73,7 +73,8 @@ def main():
         axes.plot(a, p, label=label)
         print(label, ", ".join(f"{100. * (np.interp(r, a, p) / pressure(r) - 1.):+.1f} % at {r}"
                                for r in (1.02, 1.05, 1.1, 1.2, 1.35, 1.5, 1.75, 2)))
-    axes.set(xlabel="radius a (m)", ylabel="pressure over $p_0$", xlim=(1., 2.), ylim=(0., None))
+    axes.set(xlabel="radius a (m)", ylabel="pressure over $p_0$ (-)", xlim=(1., 2.),
+             ylim=(0., None), title="cavity in sand, φ = 40°, θ = 10°")
     axes.grid(True)
     axes.legend()
     figure.savefig(ROOT / "doc" / "images" / "cavity.png", dpi=120)
