@@ -18,9 +18,11 @@ namespace geocone::GEOCONE_DIM
     /** Fraction of a cell's size that counts as zero. */
     constexpr double negligible_part = 1e-9;
 
-    /** Filled fraction of the available volume from which a cell counts as
-     *  filled. */
-    constexpr double least_fill = 0.4;
+    /** Filled fractions of the volume of the cells around a vertex, and of each
+     *  of them, from which the vertex is in the body. At a flat surface half of
+     *  them are full and the others to two fifths. Single cells of a body that is
+     *  sheared a lot may be less than half full. */
+    constexpr double least_fill_of_patch = 0.7, least_fill_of_cell = 0.1;
 
     /** Soil fraction of a cell up to which it need not be filled. */
     constexpr double least_part = 0.1;
@@ -174,26 +176,58 @@ namespace geocone::GEOCONE_DIM
       return rooms;
     }
 
-    /** Whether all cells around a vertex that can contain soil are filled. */
+    /** Filled fractions of all cells of this rank and its ghost cells.
+     *  Collective. */
+    std::vector<double>
+    filled_parts(const BackgroundMesh    &mesh,
+                 const std::vector<Room> &rooms,
+                 const MaterialPoints    &points)
+    {
+      const auto                                &tria = mesh.triangulation();
+      LinearAlgebra::distributed::Vector<double> filled(
+        tria.global_active_cell_index_partitioner().lock());
+      for (unsigned int c = 0; c < rooms.size(); ++c)
+        filled[points.cells[c]->global_active_cell_index()] = rooms[c].filled;
+      filled.update_ghost_values();
+      std::vector<double> result(tria.n_active_cells(), 0.);
+      for (const Space::Cell &cell : tria.active_cell_iterators())
+        if (!cell->is_artificial())
+          result[cell->active_cell_index()] =
+            filled[cell->global_active_cell_index()];
+      return result;
+    }
+
+    /** Whether the cells around a vertex that can contain soil are filled. */
     std::vector<bool>
     surrounded_vertices(const BackgroundMesh         &mesh,
                         const std::vector<SoilLimit> &limits,
-                        const std::vector<Room>      &rooms,
-                        const MaterialPoints         &points)
+                        const std::vector<double>    &filled)
     {
-      std::vector<Space::Cell> filled;
-      for (unsigned int c = 0; c < rooms.size(); ++c)
-        if (rooms[c].filled > least_fill)
-          filled.push_back(points.cells[c]);
-      const auto             &tria      = mesh.triangulation();
-      const std::vector<bool> is_filled = mesh.marked_cells(filled);
-      std::vector<bool>       result(tria.n_vertices(), true);
+      const auto         &tria = mesh.triangulation();
+      std::vector<bool>   result(tria.n_vertices(), true);
+      std::vector<double> available(tria.n_vertices(), 0.),
+        taken(tria.n_vertices(), 0.);
       for (const Space::Cell &cell : tria.active_cell_iterators())
-        if (!cell->is_artificial() && !is_filled[cell->active_cell_index()])
-          if (const BoundingBox<dim> box = cell->bounding_box();
-              share(soil_part(box, limits), box) > least_part)
+        if (!cell->is_artificial())
+          {
+            const BoundingBox<dim> box  = cell->bounding_box();
+            const double           soil = share(soil_part(box, limits), box),
+                         part           = filled[cell->active_cell_index()];
+            if (!(soil > least_part))
+              continue;
             for (const unsigned int v : cell->vertex_indices())
-              result[cell->vertex_index(v)] = false;
+              {
+                const unsigned int vertex = cell->vertex_index(v);
+                available[vertex] += soil * box.volume();
+                taken[vertex] += part * soil * box.volume();
+                if (!(part > least_fill_of_cell))
+                  result[vertex] = false;
+              }
+          }
+      for (unsigned int vertex = 0; vertex < result.size(); ++vertex)
+        result[vertex] =
+          result[vertex] &&
+          taken[vertex] >= least_fill_of_patch * available[vertex];
       return result;
     }
 
@@ -201,7 +235,7 @@ namespace geocone::GEOCONE_DIM
     std::optional<Space::Cell>
     sliver_beside(const Space::Cell            &cell,
                   const std::vector<SoilLimit> &limits,
-                  const std::vector<bool>      &has_points)
+                  const std::vector<double>    &filled)
     {
       for (const SoilLimit &limit : limits)
         {
@@ -210,7 +244,7 @@ namespace geocone::GEOCONE_DIM
           if (cell->at_boundary(face))
             continue;
           const Space::Cell other = cell->neighbor(face);
-          if (other->is_artificial() || has_points[other->active_cell_index()])
+          if (other->is_artificial() || filled[other->active_cell_index()] > 0.)
             continue;
           const BoundingBox<dim> box  = other->bounding_box();
           const double           part = share(soil_part(box, limits), box);
@@ -264,9 +298,9 @@ namespace geocone::GEOCONE_DIM
   {
     points.weight.assign(points.volume.begin(), points.volume.end());
     const std::vector<Room> rooms = rooms_of_cells(mesh, limits, points);
-    const std::vector<bool> is_surrounded =
-      surrounded_vertices(mesh, limits, rooms, points);
-    const std::vector<bool> has_points = mesh.marked_cells(points.cells);
+    const std::vector<double> filled = filled_parts(mesh, rooms, points);
+    const std::vector<bool>   is_surrounded =
+      surrounded_vertices(mesh, limits, filled);
     const QGauss<dim>       quadrature(space.degree() / 2 + 1 +
                                  (mesh.is_axisymmetric() ? 1 : 0));
     std::vector<types::global_dof_index> nodes, nodes_beside;
@@ -286,13 +320,12 @@ namespace geocone::GEOCONE_DIM
           std::all_of(vertices.begin(), vertices.end(), [&](const auto v) {
             return is_surrounded[cell->vertex_index(v)];
           });
-        if (room.share > 1. - negligible_part &&
-            !(is_inside && last - first > 1) &&
+        if (room.share > 1. - negligible_part && !is_inside &&
             !(std::abs(room.filled - 1.) < 0.03))
           continue;
         CellIntegrals exact =
           integrate(mesh, space, cell, room.part, quadrature);
-        if (const auto beside = sliver_beside(cell, limits, has_points))
+        if (const auto beside = sliver_beside(cell, limits, filled))
           {
             space.cell_nodes(cell, nodes);
             space.cell_nodes(*beside, nodes_beside);
