@@ -52,7 +52,7 @@ def draw_incline(axes, run):
                   label="exact" if name == "x" else None)
         axes.plot(t[::5], way[::5], "o", color=color, markersize=4, label=f"computed, {name}")
     axes.set(title="a block on an incline, across the mesh", xlabel="t (s)",
-             ylabel="way (mm)", xlim=(0., None), ylim=(0., None))
+             ylabel="displacement (mm)", xlim=(0., None), ylim=(0., None))
     axes.legend()
     n = len(t)
     print(f"incline: {x[-1] / (0.6 * 1e3 * 2.356287 / 8. * (1. + 1. / n)) - 1.:+.1e} of the way of "

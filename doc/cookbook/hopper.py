@@ -203,7 +203,7 @@ def main():
               f"{rate[0] / of_theory[0] - 1.:+.3f}; wall {normal:.0f} N/m, "
               f"{normal / theory.wall(0.3) - 1.:+.3f}, friction {tangential / normal:.3f} of it; "
               f"p at r = {r[1]:.3f}: {p[1]:.0f} Pa, theory {theory.pressure(0.3, r[1]):.0f}")
-    mass.set(xlabel="t (s)", ylabel="sand that has left (%)", xlim=(0., 0.46), ylim=(0., 56.))
+    mass.set(xlabel="t (s)", ylabel="discharged sand (%)", xlim=(0., 0.46), ylim=(0., 56.))
     mass.plot([], [], "k--", label="theory")
     mass.legend()
     stress.set(xlabel="r (m)", ylabel="radial pressure (kPa), t = 0.3 s", xlim=(0.15, 0.62),
