@@ -51,6 +51,32 @@ namespace geocone::GEOCONE_DIM
         ok = corners[0][c] < corners[1][c];
       return ok;
     }
+
+    /** Declares the names of the sides of a polygon and the holes of a plane
+     *  body. */
+    void
+    declare_names_and_holes(dealii::ParameterAcceptor &geometry,
+                            std::vector<std::string>  &side_names,
+                            std::string               &holes)
+    {
+      geometry.add_parameter(
+        "Side names",
+        side_names,
+        "Names of the sides of the polygon for 'Sides' of conditions, instead "
+        "of their numbers: one for each side, in the order of the vertices, "
+        "comma-separated, e.g. base, right, crest, slope, left. A side whose "
+        "number stands in its place has no other name. Empty: numbers.");
+      geometry.add_parameter(
+        "Holes",
+        holes,
+        "Holes of the box or polygon, separated by |: polygons x, y; x, y; "
+        "... [m] or circle(x, y, r), circle(x, y, r, n) with n sides (48) and "
+        "their vertices on the circle. 'hole 0', 'hole 1', ... are all sides "
+        "of one for 'Sides' of conditions, or the name before it: tunnel: "
+        "circle(0, -5, 2). The numbers of their sides follow those of the "
+        "outline, in the order of the holes. For FEM and bounds with an "
+        "unstructured mesh, and for particles.");
+    }
   } // namespace
 
   bool
@@ -296,24 +322,7 @@ namespace geocone::GEOCONE_DIM
                   "vertex i and the next one, and is named i (0, 1, ...) "
                   "unless it has one of the 'Side names'.");
     if (dim == 2)
-      add_parameter(
-        "Side names",
-        side_names,
-        "Names of the sides of the polygon for 'Sides' of conditions, instead "
-        "of their numbers: one for each side, in the order of the vertices, "
-        "comma-separated, e.g. base, right, crest, slope, left. A side whose "
-        "number stands in its place has no other name. Empty: numbers.");
-    if (dim == 2)
-      add_parameter(
-        "Holes",
-        holes_text,
-        "Holes of the box or polygon, separated by |: polygons x, y; x, y; "
-        "... [m] or circle(x, y, r), circle(x, y, r, n) with n sides (48) and "
-        "their vertices on the circle. 'hole 0', 'hole 1', ... are all sides "
-        "of one for 'Sides' of conditions, or the name before it: tunnel: "
-        "circle(0, -5, 2). The numbers of their sides follow those of the "
-        "outline, in the order of the holes. For FEM and bounds with an "
-        "unstructured mesh, and for particles.");
+      declare_names_and_holes(*this, side_names, holes_text);
     add_parameter(
       "Centres", centres, "Centres of the discs x, y; x, y; ... [m].");
     add_parameter("Radii",
