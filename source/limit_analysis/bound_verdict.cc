@@ -68,7 +68,7 @@ namespace geocone
     verdict.load     = power / work;
     const double sum = rate_missed + jump_missed + volume_change + normal_jump +
                        largest_rate + fastest;
-    if (!std::isfinite(power + work + sum) || !(work > 0.))
+    if (!std::isfinite(power + work + sum) || !(work > least_work * fastest))
       verdict.rejection = "its velocities do no work";
     else if (!(verdict.error < tolerated))
       verdict.rejection = format(

@@ -491,7 +491,8 @@ namespace geocone::GEOCONE_DIM
     result.load = power / work;
     if (!result.rejection.empty())
       return result;
-    if (!std::isfinite(result.load) || !(work > 0.))
+    if (!std::isfinite(result.load) ||
+        !(work > least_work * result.q.lpNorm<Eigen::Infinity>()))
       result.rejection = "its velocities do no work";
     else if (!(result.error < rounding))
       result.rejection =

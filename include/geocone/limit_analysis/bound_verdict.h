@@ -60,6 +60,10 @@ namespace geocone
     judge(BoundVerdict &verdict, const double load) const;
   };
 
+  /** Least power of live loads, in scaled units, per largest velocity of an upper bound:
+   *  a smaller one is a rounding error of its sum. */
+  constexpr double least_work = 1e-12;
+
   /** Comparison of the velocities of an upper bound with admissible flow.
    *  Values that are not numbers lead to a rejection. */
   struct VelocityCheck
