@@ -346,7 +346,7 @@ namespace geocone
                            std::to_string(first_number) +
                            ": 'end' without a subsection\n  remedy:  take it "
                            "out, or begin the section");
-        lines.push_back({line, file_name, first_number});
+        lines.push_back({line, file_name, first_number, depth > 0});
       }
     if (open_sections != 0)
       throw InputError("file " + shown_name + ": " +
@@ -545,7 +545,8 @@ namespace geocone
                                   set.value,
                                   "",
                                   others->second.at(set.name),
-                                  set.former_name};
+                                  set.former_name,
+                                  set.line->is_included};
                 continue;
               }
             if (path == "Geometry/Run gmsh script")
@@ -572,8 +573,12 @@ namespace geocone
           }
         set_value(
           set.sections, set.name, set.value, entry->second, set.line->place());
-        settings[path] = {
-          path, set.value, entry->second.default_value, "", set.former_name};
+        settings[path] = {path,
+                          set.value,
+                          entry->second.default_value,
+                          "",
+                          set.former_name,
+                          set.line->is_included};
       }
     if (mass_unit() != 1.)
       convert_defaults(

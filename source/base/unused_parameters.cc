@@ -148,6 +148,9 @@ namespace geocone
     };
     for (const ParameterFile::Setting &setting : settings)
       {
+        // Files that several scenes include set what some of them need.
+        if (setting.is_included)
+          continue;
         if (!setting.of_other.empty())
           {
             add(setting.path, setting.of_other);

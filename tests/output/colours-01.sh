@@ -6,7 +6,7 @@ rm -rf "$folder" && mkdir -p "$folder" && cd "$folder"
 import os, pty, subprocess, sys
 program, file = sys.argv[1:]
 call = [program, "--dry-run", file, "--set"]
-refused, warned = "Materials/soil/Cohesion = soft", "Mesh/Growth factor = 1.3"  # is not used
+refused, warned = "Materials/soil/Cohesion = soft", "Mesh/Growth factor = 1.4"  # is not used
 red, yellow = b"\x1b[1;31merror: \x1b[0m", b"\x1b[1;33mwarning: \x1b[0m"
 
 def shown(setting, **variables):

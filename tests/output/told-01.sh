@@ -7,7 +7,8 @@ run() {
     --set 'Output/Report for tests = none' --set 'Loading/push/Duration = 0.02' "$@" 2>err
 }
 run --output a --set 'Material point method/Transfer = APIC' \
-  --set 'Explicit/Courant number = 0.2' --set 'Materials/soil/Type = Tresca'
+  --set 'Explicit/Courant number = 0.2' --set 'Materials/soil/Type = Tresca' \
+  --set 'Materials/soil/Friction angle = 30'
 [ "$(wc -l <err)" = 1 ]
 grep -q '^warning: set, but not used by this run: ' err
 for name in 'Material point method/Transfer (needs Discretisation/Method = MPM or explicit MPM)' \

@@ -45,6 +45,7 @@ namespace geocone
       std::string default_value;
       std::string of_other;    ///< kind of object with this parameter
       std::string former_name; ///< outdated name used in the file; empty: none
+      bool        is_included; ///< set by an included file
     };
 
     /** An empty parameter file: all parameters have their default values. */
@@ -138,6 +139,7 @@ namespace geocone
       std::string text;
       std::string file;
       int         number;
+      bool        is_included = false; ///< in a file of an `include` line
 
       /** File name and line number, for error messages. */
       std::string

@@ -38,8 +38,8 @@ namespace geocone
   /**
    * Returns a warning that lists all parameters that have been set but are not
    * used. A parameter is listed if its value differs from the default and the
-   * selected method, mesh, material law etc. does not use it. Empty if there
-   * are none. To be called after ParameterFile::parse().
+   * selected method, mesh, material law etc. does not use it; parameters of included
+   * files are not. Empty if there are none. To be called after ParameterFile::parse().
    */
   std::string
   unused_parameters(const std::vector<ParameterFile::Setting> &settings);
