@@ -6,7 +6,8 @@ program=$1 root=$2 folder=$3
 . "$root/tests/fails.sh"
 rm -rf "$folder" && mkdir -p "$folder" && cd "$folder"
 "$program" "$root/prm/contact/incline.prm" --quiet --output run \
-  --set 'Discretisation/Method = MPM' --set 'Loading/slide/Duration = 0.1' \
+  --set 'Discretisation/Method = MPM' --set 'Mesh/Box = 0, 0; 0.6, 0.2' \
+  --set 'Particles/Layout = sub-cells' --set 'Loading/slide/Duration = 0.1' \
   --set 'Loading/slide/Output every = 5' --set 'Reference/Quantity =' \
   --set 'Output/Pictures = false'
 "$root/scripts/plot" run > said
