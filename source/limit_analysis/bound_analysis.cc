@@ -165,12 +165,12 @@ namespace geocone::GEOCONE_DIM
     scene.contacts.refuse(where(),
                           is_plane ? "let one of the bodies be an obstacle"
                                    : "mesh the bodies as one");
+    scene.structures.prepare_rigid(scene.geometry, where());
     if (!is_possible_with_structures())
       scene.structures.refuse(where(),
                               "bound the load or the factor of safety instead, "
                               "with 'Analysis/Kind' = limit load or strength "
                               "reduction");
-    scene.structures.prepare_rigid(scene.geometry, where());
     scene.observation.prepare(
       scene.supports(), scene.materials, scene.gravity, false);
     for (const auto &condition : scene.dirichlet.list)

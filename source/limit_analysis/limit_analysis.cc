@@ -554,7 +554,7 @@ namespace geocone::GEOCONE_DIM
     if (const std::string text = text_of(gradients, bounded());
         !text.empty() && limit_output.verbosity >= 1)
       log.print(text);
-    if (!best.is_associated && is_plane)
+    if (!best.is_associated && is_plane && scene.structures.list.empty())
       log.print("for the incremental load beside both: 'Analysis/Kind' = steps "
                 "with 'Mesh/Type' = from the bounds");
   }

@@ -66,9 +66,11 @@ namespace geocone::GEOCONE_DIM
       "Ends of the bars [m]: two points of an anchor or strut, two "
       "or more of a geogrid; or corners of a plate, which is closed "
       "if the last one is the first.");
-    add_parameter("Axial stiffness",
-                  stiffness,
-                  "Axial stiffness EA per metre of thickness [N/m], > 0.");
+    add_parameter(
+      "Axial stiffness",
+      stiffness,
+      "Axial stiffness EA per metre of thickness [N/m], > 0 in steps; "
+      "bounds need none.");
     add_parameter("Tensile strength",
                   tensile_text,
                   "Greatest tensile force per metre of thickness [N/m], >= 0, "
@@ -85,7 +87,8 @@ namespace geocone::GEOCONE_DIM
     add_parameter("Bending stiffness",
                   bending,
                   "Bending stiffness EI of a plate per metre of thickness "
-                  "[N m], > 0; of a wide plate E stands for E/(1 - nu^2).");
+                  "[N m], > 0 in steps; of a wide plate E stands for "
+                  "E/(1 - nu^2). Bounds need none.");
     add_parameter("Moment capacity",
                   capacity_text,
                   "Greatest bending moment of a plate per metre of thickness "
