@@ -3,6 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
+#include <geocone/base/quoted_names.h>
 #include <geocone/scene/holes.h>
 #include <geocone/scene/side_names.h>
 
@@ -106,7 +107,8 @@ namespace geocone::GEOCONE_DIM
       const std::size_t colon = text.find(':');
       if (colon == std::string::npos)
         return {"hole " + std::to_string(number), polygon_of(text)};
-      const std::string name = dealii::Utilities::trim(text.substr(0, colon));
+      const std::string name = unquoted(
+        {dealii::Utilities::trim(text.substr(0, colon))}, parameter)[0];
       check_side_name(name, parameter, "hole " + std::to_string(number));
       return {name,
               polygon_of(dealii::Utilities::trim(text.substr(colon + 1)))};

@@ -41,8 +41,8 @@ run bounds tests/limit_load/column-01.prm 'Geometry/Side names = foot, 1, head, 
 
 # All sides of a hole, and sides of particles, of which some keep their numbers.
 run hole tests/meshes/opening.prm 'Geometry/Holes = circle(0, 0, 1, 24)'
-run opening tests/meshes/opening.prm 'Geometry/Holes = opening: circle(0, 0, 1, 24)' \
-  'Tractions/pressure/Sides = opening'
+run opening tests/meshes/opening.prm 'Geometry/Holes = "opening, round": circle(0, 0, 1, 24)' \
+  'Tractions/pressure/Sides = "opening, round"'
 cmp hole/statistics.csv opening/statistics.csv
 run bore tests/mpm/bore-segments-01.prm
 run named tests/mpm/bore-segments-01.prm \
