@@ -40,6 +40,11 @@ namespace geocone
     for (std::string line; std::getline(in, line);)
       if (line.compare(0, 13, "MemAvailable:") == 0)
         available = std::strtod(line.c_str() + 13, nullptr) / 1024.; // from kB
+    // Of the container, which hides files of others but not the machine's memory.
+    double allowed = 0., used = 0.;
+    if (std::ifstream("/sys/fs/cgroup/memory.max") >> allowed &&
+        std::ifstream("/sys/fs/cgroup/memory.current") >> used)
+      available = std::min(available, (allowed - used) / 1048576.);
     rlimit limit;
     if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)
       available = std::min(available, limit.rlim_cur / 1048576.);

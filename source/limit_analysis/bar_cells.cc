@@ -71,6 +71,13 @@ namespace geocone::GEOCONE_DIM
           cone = {0., 1.};
       }
 
+      /** Whether one strength is finite and the other one is not. */
+      bool
+      is_one_sided() const
+      {
+        return cone.a != 0.;
+      }
+
       double
       force(const Eigen::Vector3d &s) const
       {
@@ -78,10 +85,14 @@ namespace geocone::GEOCONE_DIM
       }
     };
 
+    /** Axial forces within the strength. @param ends_are_held whether velocities at both
+     *  ends are prescribed: forces of a bar of which one strength is unlimited may then
+     *  grow beyond all bounds in equilibrium with themselves */
     Interval
     axial_interval(const Structure  &structure,
                    const BoundUnits &units,
-                   const BoundSide   side)
+                   const BoundSide   side,
+                   const bool        ends_are_held = false)
     {
       constexpr double infinite = std::numeric_limits<double>::infinity();
       const double     unit     = units.stress * units.length;
@@ -92,9 +103,10 @@ namespace geocone::GEOCONE_DIM
                  above = most < unlimited_force;
       if (side == BoundSide::upper)
         return {below ? least : -infinite, above ? most : infinite};
-      if (!below && !above)
-        return {-unlimited_force, unlimited_force};
-      return {least, most};
+      if (below != above && !ends_are_held)
+        return {least, most};
+      return {below ? least : std::min(-unlimited_force, most - 1.),
+              above ? most : std::max(unlimited_force, least + 1.)};
     }
 
     Interval
@@ -257,6 +269,9 @@ namespace geocone::GEOCONE_DIM
         ends = {{forward ? 0u : 1u, forward ? 1u : 0u}};
         t = triangles.vertices[vertices[1]] - triangles.vertices[vertices[0]];
         length = t.norm() / bound.units.length;
+        if (!chain.structure
+               ->is_plate()) // straight, whatever rounds its vertices
+          t = chain.structure->points[1] - chain.structure->points[0];
         t /= t.norm();
         n = Tensor<1, dim>({-t[1], t[0]});
       }
@@ -551,16 +566,44 @@ namespace geocone::GEOCONE_DIM
       return 0;
     }
 
+    /** Whether the velocities of both ends of a chain are prescribed along it. */
+    bool
+    is_held_at_both_ends(const BoundScene   &bound,
+                         const BarChain     &chain,
+                         const BoundProblem &problem)
+    {
+      for (const bool at_last : {false, true})
+        {
+          const Step step(bound, chain, at_last ? chain.edges.size() - 1 : 0);
+          const unsigned int dof =
+            dof_of_node(bound,
+                        bound.bars.node_of_vertex(
+                          bound.bars.number_of_vertex(step.vertices[at_last])));
+          for (unsigned int d = 0; d < dim; ++d)
+            if (std::abs(step.t[d]) > 1e-9 && !problem.is_prescribed[dof + d])
+              return false;
+        }
+      return true;
+    }
+
     /** Adds axial strains and curvatures of all edges, and then the hinges. */
     void
-    add_upper_bars(const BoundScene &bound, BarCells &cells)
+    add_upper_bars(const BoundScene   &bound,
+                   const BoundProblem &problem,
+                   BarCells           &cells)
     {
       for (const BarChain &chain : bound.bars.chains)
         {
-          const Interval axial = axial_interval(
-                           *chain.structure, bound.units, BoundSide::upper),
-                         moment = moment_interval(
-                           *chain.structure, bound.units, BoundSide::upper);
+          Interval axial =
+            axial_interval(*chain.structure, bound.units, BoundSide::upper);
+          // Rates of one sign whose sum is given: none, along a straight chain; else
+          // the bound is strict all the same.
+          if (axial.is_one_sided() &&
+              is_held_at_both_ends(bound, chain, problem))
+            axial = Interval(-std::numeric_limits<double>::infinity(),
+                             std::numeric_limits<double>::infinity());
+          const Interval moment =
+            moment_interval(*chain.structure, bound.units, BoundSide::upper);
           const bool bends = chain.structure->is_plate();
           for (unsigned int i = 0; i < chain.edges.size(); ++i)
             {
@@ -806,8 +849,10 @@ namespace geocone::GEOCONE_DIM
       for (unsigned int c = 0; c < bound.bars.chains.size(); ++c)
         {
           const BarChain &chain = bound.bars.chains[c];
-          const Interval  axial = axial_interval(
-                           *chain.structure, bound.units, BoundSide::lower),
+          const Interval  axial = axial_interval(*chain.structure,
+                                                bound.units,
+                                                BoundSide::lower,
+                                                chain.ends_are_held),
                          moment = moment_interval(
                            *chain.structure, bound.units, BoundSide::lower);
           const auto [least, most] = chain.structure->axial_strength();
@@ -924,7 +969,7 @@ namespace geocone::GEOCONE_DIM
           },
           problem);
         add_upper_interfaces(bound, cells);
-        add_upper_bars(bound, cells);
+        add_upper_bars(bound, problem, cells);
         return;
       }
     hold_vertices(
@@ -1050,6 +1095,10 @@ namespace geocone::GEOCONE_DIM
     const auto         dissipated = [&](const unsigned int point) {
       return problem.volume[point] * dissipation(problem.cone[point], e[point]);
     };
+    // Volumes have the sizes of the rates, which are of order one.
+    const auto power = [&](const unsigned int point, const unsigned int force) {
+      return problem.volume[point] * lower.s[force].dot(e[point]);
+    };
     for (const BarEdge &edge : bound.bars.edges)
       for (const int cell : edge.cells)
         if (cell >= 0)
@@ -1081,16 +1130,14 @@ namespace geocone::GEOCONE_DIM
         own += dissipated(u) + dissipated(u + 1);
         for (unsigned int j = 0; j < 3; ++j)
           for (unsigned int end = 0; end < 2; ++end)
-            own -= step.length * share_of_end[j][end] *
-                   lower.s[l + j].dot(e[u + end]);
+            own -= 2. * share_of_end[j][end] * power(u + end, l + j);
         for (unsigned int end = 0; end < 2; ++end)
-          own +=
-            dissipated(u + 3 + end) - lower.s[l + 2 * end].dot(e[u + 3 + end]);
+          own += dissipated(u + 3 + end) - power(u + 3 + end, l + 2 * end);
         if (!chain.structure->is_plate())
           return;
         own += dissipated(u + 2);
         for (unsigned int j = 0; j < 4; ++j)
-          own -= step.length / 4. * lower.s[l + 3 + j].dot(e[u + 2]);
+          own -= power(u + 2, l + 3 + j) / 4.;
       },
       [&](const BarChain    &chain,
           const unsigned int i,
@@ -1098,12 +1145,12 @@ namespace geocone::GEOCONE_DIM
           const unsigned int l) {
         const Step step(
           bound, chain, std::min<unsigned int>(i, chain.edges.size() - 1));
-        gap[owner_of(bound, step)] += dissipated(u) - lower.s[l].dot(e[u]);
+        gap[owner_of(bound, step)] += dissipated(u) - power(u, l);
       },
       [&](const PlasticBars::Tie &tie,
           const unsigned int      u,
           const unsigned int      l) {
-        gap[owner_of(bound, tie)] += dissipated(u) - lower.s[l].dot(e[u]);
+        gap[owner_of(bound, tie)] += dissipated(u) - power(u, l);
       });
   }
 
@@ -1130,18 +1177,20 @@ namespace geocone::GEOCONE_DIM
      *  structures on. */
     ForcesOfEdge
     forces_of_edge(const BoundScene  &bound,
-                   const Structure   &structure,
+                   const BarChain    &chain,
                    const Bound       &lower,
                    const unsigned int first)
     {
-      const Interval axial =
-                       axial_interval(structure, bound.units, BoundSide::lower),
+      const Interval axial  = axial_interval(*chain.structure,
+                                            bound.units,
+                                            BoundSide::lower,
+                                            chain.ends_are_held),
                      moment = moment_interval(
-                       structure, bound.units, BoundSide::lower);
+                       *chain.structure, bound.units, BoundSide::lower);
       ForcesOfEdge forces;
       for (unsigned int j = 0; j < 3 && !axial.is_zero; ++j)
         forces.normal[j] = axial.force(lower.s[first + j]);
-      for (unsigned int j = 0; j < 4 && structure.is_plate(); ++j)
+      for (unsigned int j = 0; j < 4 && chain.structure->is_plate(); ++j)
         forces.moment[j] = moment.force(lower.s[first + 3 + j]);
       return forces;
     }
@@ -1160,10 +1209,9 @@ namespace geocone::GEOCONE_DIM
     {
       const Structure &structure = *chain.structure;
       const Step       step(bound, chain, i);
-      const double     L = bound.units.length * step.length,
-                   force = bound.units.stress * bound.units.length;
-      const ForcesOfEdge forces =
-        forces_of_edge(bound, structure, lower, first);
+      const double     L           = bound.units.length * step.length,
+                   force           = bound.units.stress * bound.units.length;
+      const ForcesOfEdge    forces = forces_of_edge(bound, chain, lower, first);
       const double          rates[2] = {axial_rate(bound, step, 0).of(upper.q),
                                         axial_rate(bound, step, 1).of(upper.q)};
       std::array<double, 3> shear;

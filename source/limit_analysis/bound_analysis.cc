@@ -293,6 +293,16 @@ namespace geocone::GEOCONE_DIM
   void
   BoundAnalysis::add_level(BoundLevel level, TimePoint &now)
   {
+    constexpr double rounding = 1e-6;
+    if (level.certified() &&
+        level.upper - level.lower <
+          -rounding * std::max(std::abs(level.upper), std::abs(level.lower)))
+      throw RunError(
+        format("the certified upper bound, %.8g, is below the certified lower "
+               "one, %.8g: one of their proofs is wrong\n  remedy:  please "
+               "report this parameter file",
+               level.upper,
+               level.lower));
     level.memory = peak_memory_of_rank();
     level.number = limit_output.all_records().size() + 1;
     limit_output.add_record(level);

@@ -408,7 +408,7 @@ namespace geocone::GEOCONE_DIM
     // Forces in structures exceed the strength of weak soil by orders of magnitude. The
     // largest strengths are as good as unlimited.
     units.stress      = std::max(units.stress, dead);
-    const double most = 1e3 * units.stress;
+    const double most = 1e2 * units.stress;
     for (const auto &structure : structures.list)
       {
         double length = 0.;

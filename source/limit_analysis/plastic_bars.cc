@@ -175,6 +175,10 @@ namespace geocone::GEOCONE_DIM
                 holds_all   = holds_all || chain.structure->is_plate();
                 is_straight = is_straight &&
                               std::abs(cross(t, tie.along)) < 1e-6 * t.norm();
+                // A geogrid carries nothing across itself, not even the rounding of
+                // given points.
+                if (is_straight && !chain.structure->is_plate())
+                  tie.along = (t * tie.along > 0. ? 1. : -1.) * t / t.norm();
               }
         const std::string where = format("(%g, %g)", x[0], x[1]);
         if (tie.vertices[end] < 0 && is_in_body(triangles, x, near))
@@ -411,11 +415,12 @@ namespace geocone::GEOCONE_DIM
         for (const unsigned int e : chain.edges)
           for (unsigned int end = 0; end < 2; ++end)
             {
-              const unsigned int v = triangles.edges[e].vertices[end];
-              const unsigned int k = vertex_number[v];
-              if (int &jump = edges[edge_number[e]].jumps[end];
-                  jump < 0 && !is_bonded[k] && (n_forces[k] > 1 || is_held[v]))
-                jump = n_jumps++;
+              const unsigned int v    = triangles.edges[e].vertices[end];
+              const unsigned int k    = vertex_number[v];
+              BarEdge           &edge = edges[edge_number[e]];
+              if (edge.jumps[end] < 0 && !edge.is_held && !is_bonded[k] &&
+                  (n_forces[k] > 1 || is_held[v]))
+                edge.jumps[end] = n_jumps++;
             }
       }
   }
@@ -437,23 +442,25 @@ namespace geocone::GEOCONE_DIM
     std::vector<bool> is_held(triangles.vertices.size(), false);
     for (const auto &condition : scene.dirichlet.list)
       for (const auto &held : triangles.held_edges(*condition))
-        for (const unsigned int v : triangles.edges[held.edge].vertices)
-          is_held[v] = true;
+        {
+          for (const unsigned int v : triangles.edges[held.edge].vertices)
+            is_held[v] = true;
+          if (const int k = number_of_edge(held.edge); k >= 0)
+            edges[k].is_held = true;
+        }
     for (const Interface &interface : interfaces)
-      {
+      for (const unsigned int v : triangles.edges[interface.held.edge].vertices)
         for (const Chain &chain : chains)
-          if (std::count(chain.edges.begin(),
-                         chain.edges.end(),
-                         interface.held.edge) > 0)
+          if (std::count(chain.vertices.begin(), chain.vertices.end(), v) > 0)
             throw InputError(chain.structure->parameter("Points"),
-                             "a side that an obstacle touches, or that slides "
-                             "along a line oblique to x and y",
-                             "lines elsewhere where loads are bounded",
-                             "leave one of them out there");
-        for (const unsigned int v :
-             triangles.edges[interface.held.edge].vertices)
-          is_held[v] = true;
-      }
+                             "a point on a side that an obstacle touches, or "
+                             "that slides along a line oblique to x and y",
+                             "points elsewhere where loads are bounded",
+                             "such a side would not hold it: leave one of them "
+                             "out there, or turn the scene");
+    for (Chain &chain : chains)
+      chain.ends_are_held =
+        is_held[chain.vertices.front()] && is_held[chain.vertices.back()];
     divide(triangles, is_frictional, is_held);
   }
 } // namespace geocone::GEOCONE_DIM

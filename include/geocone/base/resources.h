@@ -5,6 +5,7 @@
 #define geocone_base_resources_h
 
 #include <future>
+#include <system_error>
 
 namespace geocone
 {
@@ -36,8 +37,17 @@ namespace geocone
   void
   run_both(const First &first, const Second &second)
   {
-    std::future<void> other = std::async(
-      has_room_for_two() ? std::launch::async : std::launch::deferred, second);
+    std::future<void> other;
+    try
+      {
+        other = std::async(has_room_for_two() ? std::launch::async :
+                                                std::launch::deferred,
+                           second);
+      }
+    catch (const std::system_error &) // no more threads for this user
+      {
+        other = std::async(std::launch::deferred, second);
+      }
     first(); // if it throws, the destructor of `other` waits for the thread
     other.get();
   }

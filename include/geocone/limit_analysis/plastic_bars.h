@@ -18,7 +18,7 @@ namespace geocone::GEOCONE_DIM
    * such an edge is separated from it by interfaces: in the upper bound both sides
    * have velocities of their own, and so does the structure; in the lower bound the
    * tractions on both sides differ by the load on the structure
-   * (doc/theory/limit_analysis_structures.md).
+   * (doc/theory/bounds_structures.md).
    */
   class PlasticBars
   {
@@ -29,6 +29,7 @@ namespace geocone::GEOCONE_DIM
       const Structure          *structure = nullptr;
       std::vector<unsigned int> vertices; ///< in order; first again if closed
       std::vector<unsigned int> edges;    ///< between them
+      bool ends_are_held = false; ///< velocities at both ends are prescribed
 
       bool
       is_closed() const
@@ -55,6 +56,9 @@ namespace geocone::GEOCONE_DIM
       /** Strength of the interfaces relative to the soil's; the smallest one of
        *  the chains. */
       double interface_strength = 1.;
+
+      /** Whether the velocity of the whole edge is prescribed. */
+      bool is_held = false;
 
       /** Number of the axial jump of the velocity at each end of the edge of the mesh,
        *  or -1. */
