@@ -449,15 +449,29 @@ namespace geocone::GEOCONE_DIM
             edges[k].is_held = true;
         }
     for (const Interface &interface : interfaces)
-      for (const unsigned int v : triangles.edges[interface.held.edge].vertices)
-        for (const Chain &chain : chains)
-          if (std::count(chain.vertices.begin(), chain.vertices.end(), v) > 0)
+      for (const Chain &chain : chains)
+        {
+          const auto &ends = triangles.edges[interface.held.edge].vertices;
+          const auto  has  = [&](const unsigned int v) {
+            return std::count(chain.vertices.begin(), chain.vertices.end(), v);
+          };
+          if (interface.obstacle < 0 && has(ends[0]) + has(ends[1]) > 0)
             throw InputError(chain.structure->parameter("Points"),
-                             "a point on a side that an obstacle touches, or "
-                             "that slides along a line oblique to x and y",
+                             "a point on a side that slides along a line "
+                             "oblique to x and y",
                              "points elsewhere where loads are bounded",
                              "such a side would not hold it: leave one of them "
                              "out there, or turn the scene");
+          if (std::count(chain.edges.begin(),
+                         chain.edges.end(),
+                         interface.held.edge) > 0)
+            throw InputError(chain.structure->parameter("Points"),
+                             "a side that an obstacle touches",
+                             "lines elsewhere where loads are bounded",
+                             "leave one of them out there");
+          for (const unsigned int v : ends)
+            is_held[v] = true;
+        }
     for (Chain &chain : chains)
       chain.ends_are_held =
         is_held[chain.vertices.front()] && is_held[chain.vertices.back()];
