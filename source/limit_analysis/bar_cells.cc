@@ -331,43 +331,23 @@ namespace geocone::GEOCONE_DIM
               edge.interface_strength * soil.k / (sqrt2 * cos_phi)};
     }
 
+    /** Position of a vertex or an edge among those of a triangle. */
+    unsigned int
+    position_in(const std::array<unsigned int, 3> &of_cell,
+                const unsigned int                 one)
+    {
+      return std::find(of_cell.begin(), of_cell.end(), one) - of_cell.begin();
+    }
+
     /** Unit normal of an edge into a triangle beside it. */
     Tensor<1, dim>
     normal_into(const Triangles   &triangles,
                 const unsigned int cell,
                 const unsigned int edge)
     {
-      for (unsigned int i = 0; i < 3; ++i)
-        if (triangles.edges_of_cell[cell][i] == edge)
-          {
-            const Tensor<1, dim> g = triangles.gradients(cell)[i];
-            return g / g.norm();
-          }
-      return {};
-    }
-
-    /** Position of a vertex in a triangle. */
-    unsigned int
-    position_of(const Triangles   &triangles,
-                const unsigned int cell,
-                const unsigned int vertex)
-    {
-      unsigned int i = 0;
-      while (triangles.cells[cell][i] != vertex)
-        ++i;
-      return i;
-    }
-
-    /** Position of an edge in a triangle, as of a node. */
-    unsigned int
-    position_of_edge(const Triangles   &triangles,
-                     const unsigned int cell,
-                     const unsigned int edge)
-    {
-      unsigned int i = 0;
-      while (triangles.edges_of_cell[cell][i] != edge)
-        ++i;
-      return i + 3;
+      const Tensor<1, dim> g = triangles.gradients(
+        cell)[position_in(triangles.edges_of_cell[cell], edge)];
+      return g / g.norm();
     }
 
     /** Velocity of the soil beside an edge relative to the structure, coefficients in
@@ -385,9 +365,10 @@ namespace geocone::GEOCONE_DIM
         return dof_of_node(bound, bars.node_of_cell(triangles, cell, i));
       };
       const std::array<unsigned int, 2> soil = {
-        {node(position_of(triangles, cell, ends[0])),
-         node(position_of(triangles, cell, ends[1]))}};
-      const unsigned int middle = node(position_of_edge(triangles, cell, edge));
+        {node(position_in(triangles.cells[cell], ends[0])),
+         node(position_in(triangles.cells[cell], ends[1]))}};
+      const unsigned int middle =
+        node(3 + position_in(triangles.edges_of_cell[cell], edge));
       std::array<PassingVelocity, 3> all;
       const auto                     add =
         [&](const unsigned int i, const unsigned int dof, const double factor) {
@@ -1071,8 +1052,8 @@ namespace geocone::GEOCONE_DIM
                 const unsigned int    vertex,
                 const Tensor<1, dim> &N)
     {
-      const Mandel s = from_cone_axes(
-        Mandel(lower.s[3 * cell + position_of(bound.triangles, cell, vertex)]));
+      const Mandel         s = from_cone_axes(Mandel(
+        lower.s[3 * cell + position_in(bound.triangles.cells[cell], vertex)]));
       const Tensor<1, dim> t({-(s[0] * N[0] + s[2] / sqrt2 * N[1]),
                               -(s[2] / sqrt2 * N[0] + s[1] * N[1])});
       return {t * N, t[1] * N[0] - t[0] * N[1], 0.};

@@ -449,6 +449,9 @@ namespace geocone::GEOCONE_DIM
             edges[k].is_held = true;
         }
     for (const Interface &interface : interfaces)
+      for (const unsigned int v : triangles.edges[interface.held.edge].vertices)
+        is_held[v] = true;
+    for (const Interface &interface : interfaces)
       for (const Chain &chain : chains)
         {
           const auto &ends = triangles.edges[interface.held.edge].vertices;
@@ -469,8 +472,6 @@ namespace geocone::GEOCONE_DIM
                              "a side that an obstacle touches",
                              "lines elsewhere where loads are bounded",
                              "leave one of them out there");
-          for (const unsigned int v : ends)
-            is_held[v] = true;
         }
     for (Chain &chain : chains)
       chain.ends_are_held =
