@@ -38,6 +38,7 @@ TOPICS = {"safety": "Factor of safety", "seepage": "Seepage", "bounds": "Bounds"
           "extremes": "Least and most", "size": "Size", "cost": "Cost"}
 # Topics and numbers that are folded away: they describe the computation.
 COMPUTATION = ("newton", "quality", "size", "cost", "state", "energy", "friction_memory")
+OF_SOLVER = ("penetration_max", "natural_map_error_max")  # numbers of contact, likewise
 OF_BOUNDS = ("unit", "lower", "upper", "middle", "gap", "certified")  # those that are results
 # Captions of pictures, in the order in which a reader wants to see them.
 CAPTIONS = {
@@ -105,7 +106,8 @@ def is_shown(topic, name, value, results):
 
 def is_result(topic, name):
     """Whether a number of the summary is a result, not one of the computation."""
-    return topic not in COMPUTATION and (topic != "bounds" or name in OF_BOUNDS)
+    return (topic not in COMPUTATION and name not in OF_SOLVER and
+            (topic != "bounds" or name in OF_BOUNDS))
 
 
 def numbers_of(run, results=True):
