@@ -16,6 +16,12 @@ namespace geocone::GEOCONE_DIM
      *  to 0.25 work in one layer of cells; 0.03 and 0.4 cycle). */
     constexpr double rho_with_edges = 5.;
 
+    /** Number of updates without a halved residual after which a point is
+     *  solved by the return map, and the residual over the stress below which
+     *  it counts as solved. */
+    constexpr unsigned int patience = 5;
+    constexpr double       solved   = 1e-9;
+
     /** Derivative of the projection with respect to |z_t| through the cone, by
      *  a difference quotient. @param strain the size of elastic strains */
     template <typename ConeOf, typename Project>
@@ -49,6 +55,8 @@ namespace geocone::GEOCONE_DIM
     for (unsigned int i = 0; i < materials.size(); ++i)
       {
         cones.push_back(materials[i].initial_cone());
+        if (!cones.back())
+          progress.resize(start.size());
         // A law may have a history without a cone.
         varies.push_back(materials[i].has_history() && cones.back());
         compliance.push_back(materials[i].elasticity().stiffness().inverse());
@@ -71,7 +79,7 @@ namespace geocone::GEOCONE_DIM
           elasticity.strain(Mandel(s - points.stress[p])) - strain[p];
         mode[p] = cones[points.material[p]]
                     ? update_on_cone(p, elasticity, s, z, error, largest_k)
-                    : update_with_edges(p, elasticity, s, z, error);
+                    : update_with_edges(p, elasticity, s, z, strain[p], error);
         if (mode[p] == Mode::elastic)
           {
             // J = I, for which the linear law is solved at once.
@@ -139,8 +147,12 @@ namespace geocone::GEOCONE_DIM
                                 const Elasticity  &elasticity,
                                 const Mandel      &s,
                                 const Mandel      &z,
+                                const Mandel      &strain,
                                 Error             &error)
   {
+    Progress &own = progress[p];
+    if (own.since == patience)
+      return map_back(p, strain);
     const unsigned int material = points.material[p];
     const double       rho_p    = rho_with_edges * (rho * elasticity.two_G);
     const auto         at       = materials[material].project_natural_map(
@@ -152,6 +164,14 @@ namespace geocone::GEOCONE_DIM
     if (at->mode == Mode::elastic)
       return at->mode;
 
+    const double size = R.norm();
+    own.since =
+      size < own.least / 2. || size < solved * s.norm() ? 0 : own.since + 1;
+    if (own.since == 0)
+      own.least = size;
+    if (own.since == patience)
+      return map_back(p, strain);
+
     const MandelMatrix B = rho_p * at->slope * at->psi_slope,
                        A = MandelMatrix::Identity() - at->slope +
                            B * compliance[material];
@@ -159,5 +179,23 @@ namespace geocone::GEOCONE_DIM
     iterate[p]         = s - factors.solve(R);
     slope[p]           = factors.solve(B);
     return at->mode;
+  }
+
+  Mode
+  NaturalMap::map_back(const unsigned int p, const Mandel &strain)
+  {
+    Mode      mode = Mode::elastic;
+    Increment increment;
+    increment.strain    = dealii::ArrayView<const Mandel>(&strain, 1);
+    increment.stress_n  = dealii::ArrayView<const Mandel>(&points.stress[p], 1);
+    increment.history_n = points.history_of(p);
+    increment.n_history = points.n_history();
+    increment.step      = step;
+    Response response;
+    response.stress  = dealii::ArrayView<Mandel>(&iterate[p], 1);
+    response.mode    = dealii::ArrayView<Mode>(&mode, 1);
+    response.tangent = dealii::ArrayView<MandelMatrix>(&slope[p], 1);
+    materials[points.material[p]].update(increment, response);
+    return mode;
   }
 } // namespace geocone::GEOCONE_DIM

@@ -8,6 +8,7 @@
 #include <geocone/points/material_points.h>
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -24,7 +25,9 @@ namespace geocone::GEOCONE_DIM
    * tangent T = A^-1 rho J Psi' for v alone. z always belongs to (v, s), and s
    * satisfies the momentum balance after each full step. If |z_t| hardens the
    * cone, rho J Psi' has the further term - dP_C/d|z_t| (z_t/|z_t|)'. Points of
-   * materials without a cone have s = s_n + D e.
+   * materials without a cone have s = s_n + D e. For laws with edges these
+   * local steps may alternate between a plane and an edge for ever, whatever e
+   * is; such points are solved by the return map of the law.
    */
   class NaturalMap
   {
@@ -96,13 +99,28 @@ namespace geocone::GEOCONE_DIM
                    double            &largest_k);
 
     /** As update_on_cone(), by the projection of a law whose yield surface has
-     *  edges; elastic for laws without one. */
+     *  edges; elastic for laws without one. A point whose residual stalls is
+     *  mapped back() from then on. @param strain increment e */
     Mode
     update_with_edges(const unsigned int p,
                       const Elasticity  &elasticity,
                       const Mandel      &s,
                       const Mandel      &z,
+                      const Mandel      &strain,
                       Error             &error);
+
+    /** Solves the law of a point by its return map, for the strain increment
+     *  e. */
+    Mode
+    map_back(const unsigned int p, const Mandel &strain);
+
+    /** Progress of the residual of a point: its least norm (Pa), and the number
+     *  of updates since it was halved. */
+    struct Progress
+    {
+      double       least = std::numeric_limits<double>::infinity();
+      unsigned int since = 0;
+    };
 
     const MaterialPoints                &points;
     const Materials                     &materials;
@@ -114,6 +132,7 @@ namespace geocone::GEOCONE_DIM
     std::vector<Mandel>                  iterate;
     std::vector<MandelMatrix>            slope;
     std::vector<Mandel>                  last_strain; ///< empty before update()
+    std::vector<Progress> progress; ///< by point; empty without laws with edges
   };
 } // namespace geocone::GEOCONE_DIM
 
