@@ -1,7 +1,7 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-#include <geocone/limit_analysis/bar_cells.h>
+#include <geocone/limit_analysis/bar_rows.h>
 #include <geocone/limit_analysis/interface_cells.h>
 
 #include <algorithm>
@@ -17,14 +17,6 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    using BarChain = PlasticBars::Chain;
-    using BarEdge  = PlasticBars::BarEdge;
-
-    /** Integrals over an edge of Bernstein's functions of degree two times those of
-     *  degree one, over its length. */
-    constexpr double share_of_end[3][2] = {
-      {1. / 4., 1. / 12.}, {1. / 6., 1. / 6.}, {1. / 12., 1. / 4.}};
-
     /** First dof of structures. */
     unsigned int
     first_dof_of_bars(const BoundScene &bound, const BoundSide side)
@@ -42,123 +34,43 @@ namespace geocone::GEOCONE_DIM
      *  instead of small do not lower the upper one, and smaller strengths do not raise the
      *  lower one. With free axial forces its equilibrium would be ill-conditioned. */
     constexpr double unlimited_force = 100., unlimited_moment = 400.;
+  } // namespace
 
-    /** Interval of admissible forces of a point as a cone of one component. */
-    struct Interval
-    {
-      PointCone cone;
-      int       component = 0;  ///< of the stress of the point
-      double    sign      = 1.; ///< force = sign times component + shift
-      double    shift     = 0.;
-      bool      is_zero   = false; ///< no force other than zero
+  Interval
+  axial_interval(const Structure  &structure,
+                 const BoundUnits &units,
+                 const BoundSide   side,
+                 const bool        ends_are_held)
+  {
+    constexpr double infinite = std::numeric_limits<double>::infinity();
+    const double     unit     = units.stress * units.length;
+    auto [least, most]        = structure.axial_strength();
+    least /= unit;
+    most /= unit;
+    const bool below = -least < unlimited_force, above = most < unlimited_force;
+    if (side == BoundSide::upper)
+      return {below ? least : -infinite, above ? most : infinite};
+    if (below != above && !ends_are_held)
+      return {least, most};
+    return {below ? least : std::min(-unlimited_force, most - 1.),
+            above ? most : std::max(unlimited_force, least + 1.)};
+  }
 
-      Interval(const double least, const double most)
-      {
-        const bool below = std::isfinite(least), above = std::isfinite(most);
-        if (below && above)
-          {
-            cone      = {0., (most - least) / 2.};
-            component = 1;
-            shift     = (most + least) / 2.;
-            is_zero   = !(most > least);
-          }
-        else if (below || above)
-          {
-            cone = {1., below ? -least : most};
-            sign = below ? 1. : -1.;
-          }
-        else
-          cone = {0., 1.};
-      }
+  Interval
+  moment_interval(const Structure  &structure,
+                  const BoundUnits &units,
+                  const BoundSide   side)
+  {
+    constexpr double infinite = std::numeric_limits<double>::infinity();
+    double           most     = structure.moment_capacity() /
+                  (units.stress * units.length * units.length);
+    if (most < infinite && most > unlimited_moment)
+      most = side == BoundSide::upper ? infinite : unlimited_moment;
+    return {-most, most};
+  }
 
-      /** Whether one strength is finite and the other one is not. */
-      bool
-      is_one_sided() const
-      {
-        return cone.a != 0.;
-      }
-
-      double
-      force(const Eigen::Vector3d &s) const
-      {
-        return sign * s[component] + shift;
-      }
-    };
-
-    /** Axial forces within the strength. @param ends_are_held whether velocities at both
-     *  ends are prescribed: forces of a bar of which one strength is unlimited may then
-     *  grow beyond all bounds in equilibrium with themselves */
-    Interval
-    axial_interval(const Structure  &structure,
-                   const BoundUnits &units,
-                   const BoundSide   side,
-                   const bool        ends_are_held = false)
-    {
-      constexpr double infinite = std::numeric_limits<double>::infinity();
-      const double     unit     = units.stress * units.length;
-      auto [least, most]        = structure.axial_strength();
-      least /= unit;
-      most /= unit;
-      const bool below = -least < unlimited_force,
-                 above = most < unlimited_force;
-      if (side == BoundSide::upper)
-        return {below ? least : -infinite, above ? most : infinite};
-      if (below != above && !ends_are_held)
-        return {least, most};
-      return {below ? least : std::min(-unlimited_force, most - 1.),
-              above ? most : std::max(unlimited_force, least + 1.)};
-    }
-
-    Interval
-    moment_interval(const Structure  &structure,
-                    const BoundUnits &units,
-                    const BoundSide   side)
-    {
-      constexpr double infinite = std::numeric_limits<double>::infinity();
-      double           most     = structure.moment_capacity() /
-                    (units.stress * units.length * units.length);
-      if (most < infinite && most > unlimited_moment)
-        most = side == BoundSide::upper ? infinite : unlimited_moment;
-      return {-most, most};
-    }
-
-    /** Rate as a linear function of dofs. */
-    class Functional
-    {
-    public:
-      void
-      add(const unsigned int dof, const double factor)
-      {
-        for (auto &[known, value] : entries)
-          if (known == dof)
-            {
-              value += factor;
-              return;
-            }
-        entries.emplace_back(dof, factor);
-      }
-
-      /** Adds the component of a velocity. @param dof its first one */
-      void
-      add(const unsigned int dof, const Tensor<1, dim> &factor)
-      {
-        for (unsigned int d = 0; d < dim; ++d)
-          if (factor[d] != 0.)
-            add(dof + d, factor[d]);
-      }
-
-      double
-      of(const Eigen::VectorXd &q) const
-      {
-        double sum = 0.;
-        for (const auto &[dof, factor] : entries)
-          sum += factor * q[dof];
-        return sum;
-      }
-
-      std::vector<std::pair<unsigned int, double>> entries;
-    };
-
+  namespace
+  {
     /** Appends cells of structures to a problem. */
     class BarCells
     {
@@ -250,33 +162,51 @@ namespace geocone::GEOCONE_DIM
       unsigned int      n_points = 0;
     };
 
-    /** Edge of a chain, in its direction. */
-    struct Step
-    {
-      unsigned int                number;   ///< of the edge in PlasticBars
-      std::array<unsigned int, 2> vertices; ///< of the mesh
-      std::array<unsigned int, 2> ends;     ///< of the edge of the mesh
-      double                      length;   ///< scaled
-      Tensor<1, dim>              t, n;     ///< along and to the left
+  } // namespace
 
-      Step(const BoundScene &bound, const BarChain &chain, const unsigned int i)
-      {
-        const Triangles &triangles = bound.triangles;
-        number                     = bound.bars.number_of_edge(chain.edges[i]);
-        vertices = {{chain.vertices[i], chain.vertices[i + 1]}};
-        const bool forward =
-          triangles.edges[chain.edges[i]].vertices[0] == vertices[0];
-        ends = {{forward ? 0u : 1u, forward ? 1u : 0u}};
-        t = triangles.vertices[vertices[1]] - triangles.vertices[vertices[0]];
-        length = t.norm() / bound.units.length;
-        if (!chain.structure
-               ->is_plate()) // straight, whatever rounds its vertices
-          t = chain.structure->points[1] - chain.structure->points[0];
-        t /= t.norm();
-        n = Tensor<1, dim>({-t[1], t[0]});
-      }
-    };
+  Step::Step(const BoundScene  &bound,
+             const BarChain    &chain,
+             const unsigned int i)
+  {
+    const Triangles &triangles = bound.triangles;
+    number                     = bound.bars.number_of_edge(chain.edges[i]);
+    vertices                   = {{chain.vertices[i], chain.vertices[i + 1]}};
+    const bool forward =
+      triangles.edges[chain.edges[i]].vertices[0] == vertices[0];
+    ends   = {{forward ? 0u : 1u, forward ? 1u : 0u}};
+    t      = triangles.vertices[vertices[1]] - triangles.vertices[vertices[0]];
+    length = t.norm() / bound.units.length;
+    if (!chain.structure->is_plate()) // straight, whatever rounds its vertices
+      t = chain.structure->points[1] - chain.structure->points[0];
+    t /= t.norm();
+    n = Tensor<1, dim>({-t[1], t[0]});
+  }
 
+  unsigned int
+  owner_of(const BoundScene &bound, const Step &step)
+  {
+    return bound.bars.edges[step.number].cells[0];
+  }
+
+  unsigned int
+  position_in(const std::array<unsigned int, 3> &of_cell,
+              const unsigned int                 one)
+  {
+    return std::find(of_cell.begin(), of_cell.end(), one) - of_cell.begin();
+  }
+
+  Tensor<1, dim>
+  normal_into(const Triangles   &triangles,
+              const unsigned int cell,
+              const unsigned int edge)
+  {
+    const Tensor<1, dim> g = triangles.gradients(
+      cell)[position_in(triangles.edges_of_cell[cell], edge)];
+    return g / g.norm();
+  }
+
+  namespace
+  {
     /** Dof of the axial jump at an end of an edge of chains, if there is one: the velocity
      *  of the edge there less that of the vertex, along along_mesh(). */
     std::optional<unsigned int>
@@ -310,12 +240,6 @@ namespace geocone::GEOCONE_DIM
       return rate;
     }
 
-    unsigned int
-    owner_of(const BoundScene &bound, const Step &step)
-    {
-      return bound.bars.edges[step.number].cells[0];
-    }
-
     /** Coulomb's cone of an interface at an end of an edge: tan(phi) and c of the soil
      *  beside it, times the strength of the interface. */
     PointCone
@@ -329,25 +253,6 @@ namespace geocone::GEOCONE_DIM
       const double    cos_phi = std::sqrt(1. - soil.a * soil.a);
       return {edge.interface_strength * soil.a / cos_phi,
               edge.interface_strength * soil.k / (sqrt2 * cos_phi)};
-    }
-
-    /** Position of a vertex or an edge among those of a triangle. */
-    unsigned int
-    position_in(const std::array<unsigned int, 3> &of_cell,
-                const unsigned int                 one)
-    {
-      return std::find(of_cell.begin(), of_cell.end(), one) - of_cell.begin();
-    }
-
-    /** Unit normal of an edge into a triangle beside it. */
-    Tensor<1, dim>
-    normal_into(const Triangles   &triangles,
-                const unsigned int cell,
-                const unsigned int edge)
-    {
-      const Tensor<1, dim> g = triangles.gradients(
-        cell)[position_in(triangles.edges_of_cell[cell], edge)];
-      return g / g.norm();
     }
 
     /** Velocity of the soil beside an edge relative to the structure, coefficients in
@@ -458,57 +363,55 @@ namespace geocone::GEOCONE_DIM
       return step.ends[0] == 0 ? 1. : -1.;
     }
 
-    /** Rate of axial strain at an end of an edge. */
-    Functional
-    axial_rate(const BoundScene  &bound,
-               const Step        &step,
-               const unsigned int end)
-    {
-      const PlasticBars &bars = bound.bars;
-      const double       sign = end == 0 ? 1. : -1.;
-      Functional         rate;
-      rate.add(dof_of_node(bound, bars.node_of_edge(step.number)),
-               sign * 2. / step.length * step.t);
-      rate.add(dof_of_node(bound,
-                           bars.node_of_vertex(
-                             bars.number_of_vertex(step.vertices[end]))),
-               -sign * 2. / step.length * step.t);
-      if (const auto jump = dof_of_jump(bound, step.number, step.ends[end]))
-        rate.add(*jump, -sign * 2. / step.length * direction_of(step));
-      return rate;
-    }
+  } // namespace
 
-    /** Rate by which a bar lengthens at the vertex at an end of an edge. */
-    Functional
-    jump_rate(const BoundScene &bound, const Step &step, const unsigned int end)
-    {
-      Functional rate;
-      if (const auto jump = dof_of_jump(bound, step.number, step.ends[end]))
-        rate.add(*jump, (end == 0 ? 1. : -1.) * direction_of(step));
-      return rate;
-    }
+  Functional
+  axial_rate(const BoundScene &bound, const Step &step, const unsigned int end)
+  {
+    const PlasticBars &bars = bound.bars;
+    const double       sign = end == 0 ? 1. : -1.;
+    Functional         rate;
+    rate.add(dof_of_node(bound, bars.node_of_edge(step.number)),
+             sign * 2. / step.length * step.t);
+    rate.add(
+      dof_of_node(
+        bound, bars.node_of_vertex(bars.number_of_vertex(step.vertices[end]))),
+      -sign * 2. / step.length * step.t);
+    if (const auto jump = dof_of_jump(bound, step.number, step.ends[end]))
+      rate.add(*jump, -sign * 2. / step.length * direction_of(step));
+    return rate;
+  }
 
-    /** Jump of the rotation rate at a vertex of a plate. Empty at free ends. */
-    Functional
-    hinge_rate(const BoundScene  &bound,
-               const BarChain    &chain,
-               const unsigned int i)
-    {
-      const unsigned int n = chain.edges.size();
-      Functional         jump;
-      const bool         closed   = chain.is_closed();
-      const bool         at_first = i == 0, at_last = i == n;
-      if ((closed && at_last) || (!closed && (at_first || at_last) &&
-                                  !chain.structure->is_clamped(at_last)))
-        return jump;
-      if (!at_first || closed)
-        add_slope(
-          bound, {bound, chain, at_first ? n - 1 : i - 1}, 1, -1., jump);
-      if (!at_last)
-        add_slope(bound, {bound, chain, i}, 0, 1., jump);
+  Functional
+  jump_rate(const BoundScene &bound, const Step &step, const unsigned int end)
+  {
+    Functional rate;
+    if (const auto jump = dof_of_jump(bound, step.number, step.ends[end]))
+      rate.add(*jump, (end == 0 ? 1. : -1.) * direction_of(step));
+    return rate;
+  }
+
+  Functional
+  hinge_rate(const BoundScene  &bound,
+             const BarChain    &chain,
+             const unsigned int i)
+  {
+    const unsigned int n = chain.edges.size();
+    Functional         jump;
+    const bool         closed   = chain.is_closed();
+    const bool         at_first = i == 0, at_last = i == n;
+    if ((closed && at_last) || (!closed && (at_first || at_last) &&
+                                !chain.structure->is_clamped(at_last)))
       return jump;
-    }
+    if (!at_first || closed)
+      add_slope(bound, {bound, chain, at_first ? n - 1 : i - 1}, 1, -1., jump);
+    if (!at_last)
+      add_slope(bound, {bound, chain, i}, 0, 1., jump);
+    return jump;
+  }
 
+  namespace
+  {
     /** Rate of the length of an anchor or strut. @param lower dofs of vertices are along
      *  their frames */
     template <typename Dof>
@@ -523,30 +426,34 @@ namespace geocone::GEOCONE_DIM
       return rate;
     }
 
-    Functional
-    upper_rate_of_tie(const BoundScene &bound, const PlasticBars::Tie &tie)
-    {
-      return rate_of_tie(
-        tie,
-        [&](const unsigned int v, const Tensor<1, dim> &f, Functional &rate) {
-          rate.add(
-            dof_of_node(
-              bound, bound.bars.node_of_vertex(bound.bars.number_of_vertex(v))),
-            f);
-        });
-    }
+  } // namespace
 
-    unsigned int
-    owner_of(const BoundScene &bound, const PlasticBars::Tie &tie)
-    {
-      const unsigned int v = std::max(tie.vertices[0], tie.vertices[1]);
-      for (const BarEdge &edge : bound.bars.edges)
-        for (const unsigned int end : bound.triangles.edges[edge.edge].vertices)
-          if (end == v)
-            return edge.cells[0];
-      return 0;
-    }
+  Functional
+  upper_rate_of_tie(const BoundScene &bound, const PlasticBars::Tie &tie)
+  {
+    return rate_of_tie(
+      tie,
+      [&](const unsigned int v, const Tensor<1, dim> &f, Functional &rate) {
+        rate.add(
+          dof_of_node(
+            bound, bound.bars.node_of_vertex(bound.bars.number_of_vertex(v))),
+          f);
+      });
+  }
 
+  unsigned int
+  owner_of(const BoundScene &bound, const PlasticBars::Tie &tie)
+  {
+    const unsigned int v = std::max(tie.vertices[0], tie.vertices[1]);
+    for (const BarEdge &edge : bound.bars.edges)
+      for (const unsigned int end : bound.triangles.edges[edge.edge].vertices)
+        if (end == v)
+          return edge.cells[0];
+    return 0;
+  }
+
+  namespace
+  {
     /** Whether the velocities of both ends of a chain are prescribed along it. */
     bool
     is_held_at_both_ends(const BoundScene   &bound,
@@ -970,312 +877,5 @@ namespace geocone::GEOCONE_DIM
     add_lower_interfaces(lower, cells);
     add_lower_bars(lower, cells);
     cells.exclude_unused(first, end);
-  }
-
-  namespace
-  {
-    /** Axial force and moment of an edge of a lower bound, coefficients in Bernstein's
-     *  basis of degrees two and three, in scaled units. */
-    struct ForcesOfEdge
-    {
-      std::array<double, 3> normal = {};
-      std::array<double, 4> moment = {};
-    };
-
-    /** Calls functions for the cells of structures of both bounds, in order. */
-    template <typename OfEdge, typename OfVertex, typename OfTie>
-    void
-    for_bars(const BoundScene &bound,
-             unsigned int      first_upper,
-             unsigned int      first_lower,
-             const OfEdge     &of_edge,
-             const OfVertex   &of_vertex,
-             const OfTie      &of_tie)
-    {
-      for (const BarChain &chain : bound.bars.chains)
-        {
-          const bool         bends = chain.structure->is_plate();
-          const unsigned int begin = first_lower, size = bends ? 9 : 3;
-          for (unsigned int i = 0; i < chain.edges.size(); ++i)
-            {
-              of_edge(chain, i, first_upper, first_lower);
-              first_upper += 6;
-              first_lower += size;
-            }
-          for (unsigned int i = 0; bends && i < chain.vertices.size(); ++i)
-            {
-              // The moment of the edge that begins or, at the last one, ends there.
-              of_vertex(chain,
-                        i,
-                        first_upper,
-                        i + 1 < chain.vertices.size() ? begin + size * i + 3
-                                                      : first_lower - 3);
-              first_upper += 3;
-            }
-        }
-      for (const PlasticBars::Tie &tie : bound.bars.ties)
-        {
-          of_tie(tie, first_upper, first_lower);
-          first_upper += 3;
-          first_lower += 3;
-        }
-    }
-
-    /** Number of cells of the interfaces of structures. */
-    unsigned int
-    n_interface_cells(const BoundScene &bound, const BoundSide side)
-    {
-      unsigned int n = 0;
-      for (unsigned int k = 0; k < bound.bars.edges.size(); ++k)
-        for (const int cell : bound.bars.edges[k].cells)
-          n += cell >= 0 &&
-               (side == BoundSide::upper || bound.bars.has_weak_interface(k));
-      return n;
-    }
-
-    /** First point of structures, with their interfaces, in both problems. */
-    unsigned int
-    first_point_of_bars(const BoundScene &bound)
-    {
-      unsigned int n = bound.triangles.cells.size();
-      for (const Interface &interface : bound.interfaces)
-        n += interface.faces.size();
-      return 3 * n;
-    }
-
-    /** Traction of a triangle at a vertex, normal and tangential to a side with the
-     *  inward normal N, as of an interface. */
-    Eigen::Vector3d
-    traction_at(const BoundScene     &bound,
-                const Bound          &lower,
-                const unsigned int    cell,
-                const unsigned int    vertex,
-                const Tensor<1, dim> &N)
-    {
-      const Mandel         s = from_cone_axes(Mandel(
-        lower.s[3 * cell + position_in(bound.triangles.cells[cell], vertex)]));
-      const Tensor<1, dim> t({-(s[0] * N[0] + s[2] / sqrt2 * N[1]),
-                              -(s[2] / sqrt2 * N[0] + s[1] * N[1])});
-      return {t * N, t[1] * N[0] - t[0] * N[1], 0.};
-    }
-  } // namespace
-
-  void
-  add_gap_of_bars(const BoundScene    &bound,
-                  const BoundProblem  &problem,
-                  const Bound         &upper,
-                  const Bound         &lower,
-                  std::vector<double> &gap)
-  {
-    if (bound.bars.empty())
-      return;
-    const Triangles   &triangles  = bound.triangles;
-    const auto         e          = problem.B.rates(upper.q);
-    const unsigned int first      = first_point_of_bars(bound);
-    unsigned int       p          = first;
-    const auto         dissipated = [&](const unsigned int point) {
-      return problem.volume[point] * dissipation(problem.cone[point], e[point]);
-    };
-    // Volumes have the sizes of the rates, which are of order one.
-    const auto power = [&](const unsigned int point, const unsigned int force) {
-      return problem.volume[point] * lower.s[force].dot(e[point]);
-    };
-    for (const BarEdge &edge : bound.bars.edges)
-      for (const int cell : edge.cells)
-        if (cell >= 0)
-          {
-            const auto          &ends = triangles.edges[edge.edge].vertices;
-            const Tensor<1, dim> N    = normal_into(triangles, cell, edge.edge);
-            const double         length = triangles.vertices[ends[0]].distance(
-                                    triangles.vertices[ends[1]]) /
-                                  bound.units.length;
-            for (unsigned int i = 0; i < 3; ++i, ++p)
-              {
-                gap[cell] += dissipated(p);
-                for (unsigned int j = 0; j < 2; ++j)
-                  gap[cell] -=
-                    length * share_of_end[i][j] *
-                    traction_at(bound, lower, cell, ends[j], N).dot(e[p]);
-              }
-          }
-    for_bars(
-      bound,
-      p,
-      first + 3 * n_interface_cells(bound, BoundSide::lower),
-      [&](const BarChain    &chain,
-          const unsigned int i,
-          const unsigned int u,
-          const unsigned int l) {
-        const Step step(bound, chain, i);
-        double    &own = gap[owner_of(bound, step)];
-        own += dissipated(u) + dissipated(u + 1);
-        for (unsigned int j = 0; j < 3; ++j)
-          for (unsigned int end = 0; end < 2; ++end)
-            own -= 2. * share_of_end[j][end] * power(u + end, l + j);
-        for (unsigned int end = 0; end < 2; ++end)
-          own += dissipated(u + 3 + end) - power(u + 3 + end, l + 2 * end);
-        if (!chain.structure->is_plate())
-          return;
-        own += dissipated(u + 2);
-        for (unsigned int j = 0; j < 4; ++j)
-          own -= power(u + 2, l + 3 + j) / 4.;
-      },
-      [&](const BarChain    &chain,
-          const unsigned int i,
-          const unsigned int u,
-          const unsigned int l) {
-        const Step step(
-          bound, chain, std::min<unsigned int>(i, chain.edges.size() - 1));
-        gap[owner_of(bound, step)] += dissipated(u) - power(u, l);
-      },
-      [&](const PlasticBars::Tie &tie,
-          const unsigned int      u,
-          const unsigned int      l) {
-        gap[owner_of(bound, tie)] += dissipated(u) - power(u, l);
-      });
-  }
-
-  namespace
-  {
-    /** Value at 0 <= s <= 1 of a polynomial in Bernstein's basis. */
-    template <std::size_t n>
-    double
-    value_of(std::array<double, n> coefficients, const double s)
-    {
-      for (unsigned int order = n - 1; order > 0; --order)
-        for (unsigned int i = 0; i < order; ++i)
-          coefficients[i] += s * (coefficients[i + 1] - coefficients[i]);
-      return coefficients[0];
-    }
-    unsigned int
-    dof_of_vertex(const BoundScene &bound, const unsigned int vertex)
-    {
-      return dof_of_node(
-        bound, bound.bars.node_of_vertex(bound.bars.number_of_vertex(vertex)));
-    }
-
-    /** Axial force and moment of an edge of a lower bound, from its first point of
-     *  structures on. */
-    ForcesOfEdge
-    forces_of_edge(const BoundScene  &bound,
-                   const BarChain    &chain,
-                   const Bound       &lower,
-                   const unsigned int first)
-    {
-      const Interval axial  = axial_interval(*chain.structure,
-                                            bound.units,
-                                            BoundSide::lower,
-                                            chain.ends_are_held),
-                     moment = moment_interval(
-                       *chain.structure, bound.units, BoundSide::lower);
-      ForcesOfEdge forces;
-      for (unsigned int j = 0; j < 3 && !axial.is_zero; ++j)
-        forces.normal[j] = axial.force(lower.s[first + j]);
-      for (unsigned int j = 0; j < 4 && chain.structure->is_plate(); ++j)
-        forces.moment[j] = moment.force(lower.s[first + 3 + j]);
-      return forces;
-    }
-
-    /** Appends both ends and the middle of an edge. @param arc at its beginning (m)
-     *  @param first point of the edge in the lower bound */
-    void
-    add_points_of_edge(const BoundScene      &bound,
-                       const BarChain        &chain,
-                       const unsigned int     i,
-                       const double           arc,
-                       const Bound           &upper,
-                       const Bound           &lower,
-                       const unsigned int     first,
-                       std::vector<BarPoint> &all)
-    {
-      const Structure &structure = *chain.structure;
-      const Step       step(bound, chain, i);
-      const double     L           = bound.units.length * step.length,
-                   force           = bound.units.stress * bound.units.length;
-      const ForcesOfEdge    forces = forces_of_edge(bound, chain, lower, first);
-      const double          rates[2] = {axial_rate(bound, step, 0).of(upper.q),
-                                        axial_rate(bound, step, 1).of(upper.q)};
-      std::array<double, 3> shear;
-      for (unsigned int j = 0; j < 3; ++j)
-        shear[j] = 3. / step.length * (forces.moment[j + 1] - forces.moment[j]);
-      const std::array<unsigned int, 3> dofs = {
-        {dof_of_vertex(bound, step.vertices[0]),
-         dof_of_node(bound, bound.bars.node_of_edge(step.number)),
-         dof_of_vertex(bound, step.vertices[1])}};
-      for (unsigned int k = 0; k < 3; ++k)
-        {
-          const double s = k / 2.;
-          BarPoint     point;
-          point.structure = &structure;
-          point.arc       = arc + s * L;
-          point.x = bound.triangles.vertices[step.vertices[0]] + s * L * step.t;
-          point.normal = force * value_of(forces.normal, s);
-          point.moment =
-            force * bound.units.length * value_of(forces.moment, s);
-          point.shear = force * value_of(shear, s);
-          for (unsigned int d = 0; d < dim; ++d)
-            point.velocity[d] =
-              value_of(std::array<double, 3>{{upper.q[dofs[0] + d],
-                                              upper.q[dofs[1] + d],
-                                              upper.q[dofs[2] + d]}},
-                       s);
-          point.rate = (1. - s) * rates[0] + s * rates[1];
-          if (k != 1)
-            point.jump = jump_rate(bound, step, k / 2).of(upper.q);
-          if (structure.is_plate() && k != 1)
-            point.hinge = hinge_rate(bound, chain, i + k / 2).of(upper.q);
-          all.push_back(point);
-        }
-    }
-  } // namespace
-
-  std::vector<BarPoint>
-  points_of_bars(const BoundScene &bound,
-                 const Bound      &upper,
-                 const Bound      &lower)
-  {
-    std::vector<BarPoint> all;
-    if (bound.bars.empty())
-      return all;
-    const unsigned int first = first_point_of_bars(bound);
-    double             arc   = 0.;
-    for_bars(
-      bound,
-      first + 3 * n_interface_cells(bound, BoundSide::upper),
-      first + 3 * n_interface_cells(bound, BoundSide::lower),
-      [&](const BarChain    &chain,
-          const unsigned int i,
-          const unsigned int,
-          const unsigned int l) {
-        arc = i == 0 ? 0. : arc;
-        add_points_of_edge(bound, chain, i, arc, upper, lower, l, all);
-        arc += bound.units.length * Step(bound, chain, i).length;
-      },
-      [](const BarChain &,
-         const unsigned int,
-         const unsigned int,
-         const unsigned int) {},
-      [&](
-        const PlasticBars::Tie &tie, const unsigned int, const unsigned int l) {
-        const Interval axial =
-          axial_interval(*tie.structure, bound.units, BoundSide::lower);
-        for (unsigned int end = 0; end < 2; ++end)
-          {
-            BarPoint point;
-            point.structure = tie.structure;
-            point.x         = tie.structure->points[end];
-            point.arc       = end * tie.structure->points[0].distance(point.x);
-            point.normal    = axial.is_zero
-                                ? 0.
-                                : bound.units.stress * bound.units.length *
-                                 axial.force(lower.s[l]);
-            for (unsigned int d = 0; tie.vertices[end] >= 0 && d < dim; ++d)
-              point.velocity[d] =
-                upper.q[dof_of_vertex(bound, tie.vertices[end]) + d];
-            point.rate = upper_rate_of_tie(bound, tie).of(upper.q);
-            all.push_back(point);
-          }
-      });
-    return all;
   }
 } // namespace geocone::GEOCONE_DIM
