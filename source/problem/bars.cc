@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace geocone::GEOCONE_DIM
 {
@@ -118,6 +119,32 @@ namespace geocone::GEOCONE_DIM
                        "move it into the body",
                        100. * near));
           }
+    return warnings;
+  }
+
+  std::vector<std::string>
+  warn_of_moved_plates(const Structures              &structures,
+                       const std::vector<PlateState> &plates,
+                       const BackgroundMesh          &mesh)
+  {
+    std::vector<std::string> warnings;
+    if (plates.empty())
+      return warnings;
+    double size = std::numeric_limits<double>::infinity();
+    for (const auto &cell : mesh.triangulation().active_cell_iterators())
+      size = std::min(size, side_length(cell->measure()));
+    for (unsigned int i = 0; i < plates.size(); ++i)
+      if (plates[i].acts)
+        if (const double moved =
+              plates[i].largest(size_of_displacement).displacement.norm();
+            moved > size / 2.)
+          warnings.push_back(
+            "the plate '" + structures.plates()[i]->name +
+            format("' has moved by %.3g m, %.2g cells, but its points stay in "
+                   "the grid, which is accurate to half a cell: take larger "
+                   "cells, or Discretisation/Method = FEM",
+                   moved,
+                   moved / size));
     return warnings;
   }
 
@@ -234,7 +261,26 @@ namespace geocone::GEOCONE_DIM
       }
     plate.displacement.resize(n + 1);
     plate.velocity.resize(n + 1);
+    if (structure.interacts())
+      pair_forces(plate);
     plates.push_back(std::move(plate));
+  }
+
+  void
+  Bars::pair_forces(Plate &plate) const
+  {
+    const unsigned int n = plate.n_segments();
+    const bool is_closed = bars[plate.first_segment].structure->is_closed();
+    for (unsigned int i = 0; i < n + (is_closed ? 0 : 1); ++i)
+      if (plate.bending[i])
+        {
+          if (i > 0 || is_closed)
+            plate.interacting.push_back(
+              {{*plate.bending[i], plate.first_segment + (i + n - 1) % n}});
+          if (i < n)
+            plate.interacting.push_back(
+              {{*plate.bending[i], plate.first_segment + i}});
+        }
   }
 
   void
@@ -254,8 +300,8 @@ namespace geocone::GEOCONE_DIM
       if (n_missing[i] > 0.)
         throw RunError(
           "the structure '" + bars[i].structure->name +
-          "' is tied to a removed part of the body in the stage '" + stage +
-          "'\n  remedy:  leave the stage out of '" +
+          "' is tied to a part of the body that is not there in the stage '" +
+          stage + "'\n  remedy:  leave the stage out of '" +
           bars[i].structure->parameter("Active in") + "', or move its points");
   }
 
@@ -286,8 +332,8 @@ namespace geocone::GEOCONE_DIM
               }
             bar.acts = acts;
           }
-        check_body();
       }
+    check_body();
     if (is_new || !of_problem.turned_nodes.empty())
       set_rows();
   }
@@ -349,13 +395,14 @@ namespace geocone::GEOCONE_DIM
         if (!bar.acts)
           continue;
         bar.rate = rates[i];
-        const double trial =
+        bar.force =
           bar.elastic_force(bar.n.elongation + h * bar.rate - bar.n.plastic);
-        bar.force   = bar.admissible(trial);
-        bar.elastic = bar.force == trial;
+      }
+    return_to_strength();
+    for (const Bar &bar : bars)
+      if (bar.acts)
         for (const auto &[dof, value] : bar.row)
           part.local_element(dof) += bar.force * value;
-      }
     auto rate = rates.begin() + bars.size();
     for (Plate &plate : plates)
       for (Tensor<1, dim> &velocity : plate.velocity)
@@ -364,13 +411,83 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
+  Bars::return_to_strength()
+  {
+    yielding.clear();
+    for (Bar &bar : bars)
+      {
+        bar.is_coupled = false;
+        if (!bar.acts || bar.structure->interacts())
+          continue;
+        const double trial = bar.force;
+        bar.force          = bar.admissible(trial);
+        bar.elastic        = bar.force == trial;
+      }
+    for (const Plate &plate : plates)
+      if (!plate.interacting.empty() && bars[plate.first_segment].acts)
+        return_to_strength(plate);
+  }
+
+  void
+  Bars::return_to_strength(const Plate &plate)
+  {
+    // The bars of a plate follow each other.
+    const unsigned int first = plate.first_segment;
+    unsigned int       end   = first + plate.n_segments();
+    for (const auto &bending : plate.bending)
+      if (bending)
+        end = std::max(end, *bending + 1);
+    std::vector<PlateForce> forces;
+    for (unsigned int i = first; i < end; ++i)
+      forces.push_back({bars[i].force / bars[i].strength(),
+                        bars[i].strength() * bars[i].strength() / bars[i].k});
+    auto pairs = plate.interacting;
+    for (auto &[m, n] : pairs)
+      {
+        m -= first;
+        n -= first;
+      }
+    for (unsigned int i = first; i < end; ++i)
+      bars[i].elastic = true;
+    for (YieldingForces &group : return_to_interaction(forces, pairs))
+      {
+        Yielding one;
+        for (const unsigned int k : group.forces)
+          {
+            Bar         &bar   = bars[first + k];
+            const double trial = bar.force;
+            bar.force          = forces[k].value * bar.strength();
+            bar.elastic        = bar.force == trial;
+            bar.is_coupled     = true;
+            one.bars.push_back(first + k);
+          }
+        one.stiffness = std::move(group.derivative);
+        for (unsigned int k = 0; k < one.bars.size(); ++k)
+          for (unsigned int l = 0; l < one.bars.size(); ++l)
+            one.stiffness(k, l) *= bars[one.bars[k]].strength() /
+                                   bars[one.bars[l]].strength() *
+                                   bars[one.bars[l]].k;
+        yielding.push_back(std::move(one));
+      }
+  }
+
+  void
   Bars::apply_tangent(Vector &dst, const Vector &dv) const
   {
     const std::vector<double> rates = products(dv);
     for (unsigned int i = 0; i < bars.size(); ++i)
-      if (bars[i].acts && bars[i].elastic)
+      if (bars[i].acts && bars[i].elastic && !bars[i].is_coupled)
         for (const auto &[dof, value] : bars[i].row)
           dst.local_element(dof) += bars[i].k * h * rates[i] * value;
+    for (const Yielding &one : yielding)
+      for (unsigned int k = 0; k < one.bars.size(); ++k)
+        {
+          double force = 0.;
+          for (unsigned int l = 0; l < one.bars.size(); ++l)
+            force += one.stiffness(k, l) * h * rates[one.bars[l]];
+          for (const auto &[dof, value] : bars[one.bars[k]].row)
+            dst.local_element(dof) += force * value;
+        }
   }
 
   void
@@ -402,10 +519,9 @@ namespace geocone::GEOCONE_DIM
                   SparseMatrix          &matrix) const
   {
     for (const Bar &bar : bars)
-      if (bar.acts && bar.is_assembled_here &&
-          (bar.elastic || elastic_blend > 0.))
+      if (bar.acts && bar.is_assembled_here && bar.tangent(elastic_blend) > 0.)
         {
-          const double size = bar.k * h * (bar.elastic ? 1. : elastic_blend);
+          const double size = bar.tangent(elastic_blend) * h;
           for (const auto &[i, a] : bar.assembled)
             if (const int row = constraints->free_row[i]; row >= 0)
               for (const auto &[j, b] : bar.assembled)
@@ -417,25 +533,36 @@ namespace geocone::GEOCONE_DIM
   LowRank
   Bars::low_rank(const double elastic_blend) const
   {
+    // Coupled bars differ from elastic ones, which are assembled or below.
     std::vector<unsigned int> those;
     for (unsigned int i = 0; i < bars.size(); ++i)
-      if (bars[i].acts && !bars[i].is_assembled &&
-          (bars[i].elastic || elastic_blend > 0.))
+      if (bars[i].acts &&
+          (bars[i].is_coupled ||
+           (!bars[i].is_assembled && bars[i].tangent(elastic_blend) > 0.)))
         those.push_back(i);
-    LowRank update;
-    update.U = update.W =
-      Eigen::MatrixXd::Zero(constraints->n_owned_rows, those.size());
+    Eigen::MatrixXd stiffness =
+      Eigen::MatrixXd::Zero(those.size(), those.size());
+    std::vector<unsigned int> column_of(bars.size());
     for (unsigned int column = 0; column < those.size(); ++column)
       {
-        const Bar   &bar  = bars[those[column]];
-        const double size = bar.k * h * (bar.elastic ? 1. : elastic_blend);
-        for (const auto &[dof, value] : bar.row)
-          if (const int row = constraints->free_row[dof]; row >= 0)
-            {
-              update.U(row, column) = size * value;
-              update.W(row, column) = value;
-            }
+        const Bar &bar           = bars[those[column]];
+        column_of[those[column]] = column;
+        if (!bar.is_assembled)
+          stiffness(column, column) = bar.tangent(elastic_blend);
       }
+    for (const Yielding &one : yielding)
+      for (unsigned int k = 0; k < one.bars.size(); ++k)
+        for (unsigned int l = 0; l < one.bars.size(); ++l)
+          stiffness(column_of[one.bars[k]], column_of[one.bars[l]]) +=
+            (1. - elastic_blend) *
+            (one.stiffness(k, l) - (k == l ? bars[one.bars[k]].k : 0.));
+    LowRank update;
+    update.W = Eigen::MatrixXd::Zero(constraints->n_owned_rows, those.size());
+    for (unsigned int column = 0; column < those.size(); ++column)
+      for (const auto &[dof, value] : bars[those[column]].row)
+        if (const int row = constraints->free_row[dof]; row >= 0)
+          update.W(row, column) = value;
+    update.U = update.W * (h * stiffness);
     return update;
   }
 

@@ -15,12 +15,13 @@ namespace geocone::GEOCONE_DIM
   namespace
   {
     const UsedWhere used_structures[] = {
-      {"Structures/*", "Discretisation/Method", {"FEM"}},
+      {"Structures/*", "Discretisation/Method", {"FEM", "MPM"}},
       {"Structures/*/Pre-stress",
        "Structures/*/Type",
        {"anchor", "strut", "geogrid"}},
       {"Structures/*/Bending stiffness", "Structures/*/Type", {"plate"}},
       {"Structures/*/Moment capacity", "Structures/*/Type", {"plate"}},
+      {"Structures/*/Interaction", "Structures/*/Type", {"plate"}},
       {"Structures/*/Spacing", "Structures/*/Type", {"plate"}},
       {"Structures/*/Clamped ends", "Structures/*/Type", {"plate"}},
       {"Structures/*/Interface strength",
@@ -93,6 +94,13 @@ namespace geocone::GEOCONE_DIM
                   capacity_text,
                   "Greatest bending moment of a plate per metre of thickness "
                   "[N], > 0, at which it forms plastic hinges, or unlimited.");
+    interaction.declare(
+      *this,
+      "Interaction",
+      ": of the axial force N and the moment M of a plate that yields. none: "
+      "each has its own strength; parabolic: |M|/Mp + (N/Np)^2 <= 1 with "
+      "associated flow, exact for a rectangular section, with the moment "
+      "capacity Mp and equal tensile and compressive strengths Np.");
     add_parameter(
       "Spacing",
       spacing_text,
@@ -200,6 +208,14 @@ namespace geocone::GEOCONE_DIM
         tensile > 0. ? compressive_text : tensile_text,
         "a strength > 0 N/m of a plate, or unlimited",
         "raise it, or take a geogrid");
+    if (interacts() && !(std::isfinite(capacity) && std::isfinite(tensile) &&
+                         tensile == compressive))
+      throw InputError(parameter("Interaction"),
+                       interaction.word(),
+                       "none, unless 'Moment capacity', 'Tensile strength' and "
+                       "'Compressive strength' are finite and both strengths "
+                       "are equal",
+                       "give all three of them");
     if (is_closed() && (points.size() < 4 || clamped != Ends::none))
       throw InputError(parameter(points.size() < 4 ? "Points" : "Clamped ends"),
                        points.size() < 4 ? "a plate there and back"

@@ -18,3 +18,5 @@ refused "Spacing" -1
 refused "Pre-stress" 10
 refused "Points" "0, 0; 0, 5"
 refused "Points" "0, 0; 0, 4; 1, 2; 0, 0" "Clamped ends"
+refused "Interaction" parabolic
+refused "Interaction" linear

@@ -7,6 +7,7 @@
 #include <geocone/base/state_row.h>
 #include <geocone/conditions/constraints.h>
 #include <geocone/contact/low_rank.h>
+#include <geocone/problem/plate_strength.h>
 #include <geocone/problem/term.h>
 #include <geocone/scene/structures.h>
 
@@ -110,7 +111,8 @@ namespace geocone::GEOCONE_DIM
    *
    * The bending at a node of a plate follows the same law: b.v is the rate of
    * rotation between the adjacent segments, N the moment, and k is EI divided by
-   * the mean length of the two segments.
+   * the mean length of the two segments. If the axial force reduces the moment
+   * capacity of a plate, its forces are projected together.
    *
    * The derivative h k b b' for elastic bars couples nodes that share no cell.
    * It is assembled for the bars of chains, which are short; for long bars, or if
@@ -226,11 +228,29 @@ namespace geocone::GEOCONE_DIM
       double   rate    = 0.; ///< b.v in the last residual() call (m/s)
       bool     elastic = true;
 
+      /** Whether the force yields together with others (yielding). */
+      bool is_coupled = false;
+
       double
       admissible(const double trial) const
       {
         return bends ? structure->admissible_moment(trial)
                      : structure->admissible(trial);
+      }
+
+      double
+      strength() const
+      {
+        return bends ? structure->moment_capacity()
+                     : structure->axial_strength()[1];
+      }
+
+      /** Tangent stiffness, without couplings: of coupled bars the elastic one.
+       *  @param elastic_blend as in linearise() */
+      double
+      tangent(const double elastic_blend) const
+      {
+        return k * (elastic || is_coupled ? 1. : elastic_blend);
       }
 
       double
@@ -264,6 +284,9 @@ namespace geocone::GEOCONE_DIM
       std::vector<dealii::Point<dim>> points;
       unsigned int                    first_segment = 0; ///< bar of segment 0
       std::vector<std::optional<unsigned int>> bending; ///< bar of each point
+
+      /** Bending and segments beside each point whose forces interact. */
+      std::vector<std::array<unsigned int, 2>> interacting;
 
       /** Displacements of the plate points at t_n (m), and velocities of these
        *  points at the state of the last call to residual() (m/s). */
@@ -312,6 +335,26 @@ namespace geocone::GEOCONE_DIM
     void
     set_rows();
 
+    /** Lists the pairs of a moment and an axial force that interact. */
+    void
+    pair_forces(Plate &plate) const;
+
+    /** Computes the forces within the strength from elastic ones. */
+    void
+    return_to_strength();
+
+    /** The same for a plate whose axial forces and moments interact. */
+    void
+    return_to_strength(const Plate &plate);
+
+    /** Bars that yield together in the last residual() call, and the derivative
+     *  of their forces by their elongations. */
+    struct Yielding
+    {
+      std::vector<unsigned int> bars;
+      Eigen::MatrixXd           stiffness;
+    };
+
     /** Scalar products b.x of the coefficient vector b of each bar and a dof
      *  vector x, summed over the ranks. Collective. */
     std::vector<double>
@@ -327,6 +370,7 @@ namespace geocone::GEOCONE_DIM
     const Constraints *constraints = nullptr;
     std::vector<Bar>   bars; ///< bars of plates at the end of the list
     std::vector<Plate> plates;
+    std::vector<Yielding> yielding;
     std::string        stage; ///< stage of the last step
     double             h = 0.;
   };
@@ -335,6 +379,13 @@ namespace geocone::GEOCONE_DIM
    *  close to its boundary. Such an end is fixed, which may not be intended. */
   std::vector<std::string>
   warn_of_fixed_ends(const Structures &structures, const BackgroundMesh &mesh);
+
+  /** Returns warnings about plates that have moved by more than half a cell in a grid
+   *  through which the body moves: their points stay where they were. */
+  std::vector<std::string>
+  warn_of_moved_plates(const Structures              &structures,
+                       const std::vector<PlateState> &plates,
+                       const BackgroundMesh          &mesh);
 } // namespace geocone::GEOCONE_DIM
 
 #endif

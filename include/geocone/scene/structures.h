@@ -43,6 +43,13 @@ namespace geocone::GEOCONE_DIM
       both
     };
 
+    /** Strength of a plate under an axial force N and a moment M. */
+    enum class Interaction
+    {
+      none,     ///< |N| <= N_p and |M| <= M_p
+      parabolic ///< |M|/M_p + (N/N_p)^2 <= 1
+    };
+
     explicit Structure(const std::string &name);
 
     /** Checks the parameters. @param stages names of all stages
@@ -84,6 +91,14 @@ namespace geocone::GEOCONE_DIM
     {
       return clamped == Ends::both ||
              clamped == (at_last ? Ends::last : Ends::first);
+    }
+
+    /** Returns true if the axial force reduces the moment capacity. The axial
+     *  strengths N_t = N_c = N_p and the moment capacity are then finite. */
+    bool
+    interacts() const
+    {
+      return is_plate() && interaction == Interaction::parabolic;
     }
 
     /** Returns the type of the structure as a word, e.g. "anchor". */
@@ -164,6 +179,8 @@ namespace geocone::GEOCONE_DIM
                                          {"first", Ends::first},
                                          {"last", Ends::last},
                                          {"both", Ends::both}}};
+    Choice<Interaction>      interaction = {
+           {{"none", Interaction::none}, {"parabolic", Interaction::parabolic}}};
     std::string tensile_text = "unlimited", compressive_text = "automatic";
     double      tensile = 0., compressive = 0.; ///< strengths N_t, N_c (N/m)
     std::string capacity_text = "unlimited", spacing_text = "automatic";
