@@ -69,6 +69,47 @@ namespace geocone::GEOCONE_DIM
     return {-most, most};
   }
 
+  std::vector<StrengthPart>
+  strength_parts(const Structure  &structure,
+                 const BoundUnits &units,
+                 const BoundSide   side)
+  {
+    if (!structure.interacts())
+      return {};
+    const double unit     = units.stress * units.length;
+    double       Np       = structure.axial_strength()[1] / unit,
+           Mp             = structure.moment_capacity() / (unit * units.length);
+    const unsigned int  n = n_strength_parts(side);
+    std::vector<double> x; // N/Np and M/Mp of the corners
+    std::vector<double> y;
+    if (side == BoundSide::lower)
+      for (unsigned int i = 0; i <= n; ++i)
+        {
+          x.push_back(-1. + 2. * i / n);
+          y.push_back(1. - x[i] * x[i]);
+        }
+    else // of tangents, the first and last one at the ends
+      for (unsigned int i = 0; i <= n; ++i)
+        {
+          const double before = -1. + 2. * (std::max(i, 1u) - 1.) / (n - 1.),
+                       after  = -1. + 2. * std::min(i, n - 1) / (n - 1.);
+          x.push_back((before + after) / 2.);
+          y.push_back(1. - before * after);
+        }
+    if (side == BoundSide::lower)
+      {
+        Np = std::min(Np, unlimited_force);
+        Mp = std::min(Mp, unlimited_moment);
+      }
+    else if (Np >= unlimited_force || Mp > unlimited_moment)
+      return {};
+    std::vector<StrengthPart> parts;
+    for (unsigned int i = 0; i < n; ++i)
+      parts.push_back(
+        {Np * (x[i + 1] - x[i]) / 2., Mp * (y[i + 1] - y[i]) / 2.});
+    return parts;
+  }
+
   namespace
   {
     /** Appends cells of structures to a problem. */
@@ -101,6 +142,26 @@ namespace geocone::GEOCONE_DIM
             dofs.push_back(dof);
           }
         add(interval.cone, B, dofs, V);
+      }
+
+      /** Adds cells of an axial force and a moment that interact.
+       *  @param owner triangle */
+      void
+      add(const std::vector<StrengthPart> &parts,
+          const Functional                &axial,
+          const Functional                &moment,
+          const double                     volume,
+          const unsigned int               owner)
+      {
+        for (const StrengthPart &part : parts)
+          {
+            Functional rate;
+            rate.add(axial, part.axial / part.size());
+            rate.add(moment, part.moment / part.size());
+            add(part.interval(), rate, volume);
+            if (n_points % 3 == 0)
+              end_cell(owner);
+          }
       }
 
       /** Adds a point, unless its rate is zero whatever the velocities are. */
@@ -205,32 +266,29 @@ namespace geocone::GEOCONE_DIM
     return g / g.norm();
   }
 
+  std::optional<unsigned int>
+  dof_of_jump(const BoundScene  &bound,
+              const unsigned int number,
+              const unsigned int end)
+  {
+    const int jump = bound.bars.edges[number].jumps[end];
+    if (jump < 0)
+      return std::nullopt;
+    return first_dof_of_bars(bound, BoundSide::upper) +
+           dim * bound.bars.n_more_nodes() + jump;
+  }
+
+  Tensor<1, dim>
+  along_mesh(const Triangles &triangles, const unsigned int edge)
+  {
+    const auto          &ends = triangles.edges[edge].vertices;
+    const Tensor<1, dim> t =
+      triangles.vertices[ends[1]] - triangles.vertices[ends[0]];
+    return t / t.norm();
+  }
+
   namespace
   {
-    /** Dof of the axial jump at an end of an edge of chains, if there is one: the velocity
-     *  of the edge there less that of the vertex, along along_mesh(). */
-    std::optional<unsigned int>
-    dof_of_jump(const BoundScene  &bound,
-                const unsigned int number,
-                const unsigned int end)
-    {
-      const int jump = bound.bars.edges[number].jumps[end];
-      if (jump < 0)
-        return std::nullopt;
-      return first_dof_of_bars(bound, BoundSide::upper) +
-             dim * bound.bars.n_more_nodes() + jump;
-    }
-
-    /** Unit vector along an edge of the mesh. */
-    Tensor<1, dim>
-    along_mesh(const Triangles &triangles, const unsigned int edge)
-    {
-      const auto          &ends = triangles.edges[edge].vertices;
-      const Tensor<1, dim> t =
-        triangles.vertices[ends[1]] - triangles.vertices[ends[0]];
-      return t / t.norm();
-    }
-
     /** The functional over the length of an edge. */
     Functional
     over_length(Functional rate, const Step &step)
@@ -366,6 +424,29 @@ namespace geocone::GEOCONE_DIM
   } // namespace
 
   Functional
+  curvature_rate(const BoundScene &bound, const Step &step)
+  {
+    Functional rate;
+    add_slope(bound, step, 1, 1. / step.length, rate);
+    add_slope(bound, step, 0, -1. / step.length, rate);
+    return rate;
+  }
+
+  std::array<std::optional<Step>, 2>
+  steps_at(const BoundScene &bound, const BarChain &chain, const unsigned int i)
+  {
+    const unsigned int                 n = chain.edges.size();
+    std::array<std::optional<Step>, 2> steps;
+    if (chain.is_closed() && i == n)
+      return steps;
+    if (i > 0 || chain.is_closed())
+      steps[0] = Step(bound, chain, (i + n - 1) % n);
+    if (i < n)
+      steps[1] = Step(bound, chain, i);
+    return steps;
+  }
+
+  Functional
   axial_rate(const BoundScene &bound, const Step &step, const unsigned int end)
   {
     const PlasticBars &bars = bound.bars;
@@ -474,55 +555,100 @@ namespace geocone::GEOCONE_DIM
       return true;
     }
 
+    /** Triangle of a vertex of a chain. */
+    unsigned int
+    owner_of(const BoundScene  &bound,
+             const BarChain    &chain,
+             const unsigned int i)
+    {
+      return owner_of(
+        bound,
+        Step(bound, chain, std::min<unsigned int>(i, chain.edges.size() - 1)));
+    }
+
+    /** Adds a plate whose axial force and moment interact: edges, and then vertices. At a
+     *  vertex half of the rotation is that of each edge: a sum of dissipations is not
+     *  less than the power of the forces on both sides of it. */
+    void
+    add_upper_plate(const BoundScene                &bound,
+                    const BarChain                  &chain,
+                    const std::vector<StrengthPart> &parts,
+                    BarCells                        &cells)
+    {
+      for (unsigned int i = 0; i < chain.edges.size(); ++i)
+        {
+          const Step step(bound, chain, i);
+          for (unsigned int end = 0; end < 2; ++end)
+            cells.add(parts,
+                      axial_rate(bound, step, end),
+                      curvature_rate(bound, step),
+                      step.length / 2.,
+                      owner_of(bound, step));
+        }
+      for (unsigned int i = 0; i < chain.vertices.size(); ++i)
+        {
+          const auto steps = steps_at(bound, chain, i);
+          Functional rotation;
+          rotation.add(hinge_rate(bound, chain, i),
+                       steps[0] && steps[1] ? 0.5 : 1.);
+          for (unsigned int side = 0; side < 2; ++side)
+            cells.add(parts,
+                      steps[side] ? jump_rate(bound, *steps[side], 1 - side)
+                                  : Functional(),
+                      steps[side] ? rotation : Functional(),
+                      1.,
+                      owner_of(bound, chain, i));
+        }
+    }
+
     /** Adds axial strains and curvatures of all edges, and then the hinges. */
+    void
+    add_upper_chain(const BoundScene   &bound,
+                    const BarChain     &chain,
+                    const BoundProblem &problem,
+                    BarCells           &cells)
+    {
+      Interval axial =
+        axial_interval(*chain.structure, bound.units, BoundSide::upper);
+      // Rates of one sign whose sum is given: none, along a straight chain; else
+      // the bound is strict all the same.
+      if (axial.is_one_sided() && is_held_at_both_ends(bound, chain, problem))
+        axial = Interval(-std::numeric_limits<double>::infinity(),
+                         std::numeric_limits<double>::infinity());
+      const Interval moment =
+        moment_interval(*chain.structure, bound.units, BoundSide::upper);
+      const bool bends = chain.structure->is_plate();
+      for (unsigned int i = 0; i < chain.edges.size(); ++i)
+        {
+          const Step step(bound, chain, i);
+          for (unsigned int end = 0; end < 2; ++end)
+            cells.add(axial, axial_rate(bound, step, end), step.length / 2.);
+          if (bends)
+            cells.add(moment, curvature_rate(bound, step), step.length);
+          cells.end_cell(owner_of(bound, step));
+          for (unsigned int end = 0; end < 2; ++end)
+            cells.add(axial, jump_rate(bound, step, end), 1.);
+          cells.end_cell(owner_of(bound, step));
+        }
+      for (unsigned int i = 0; bends && i < chain.vertices.size(); ++i)
+        {
+          cells.add(moment, hinge_rate(bound, chain, i), 1.);
+          cells.end_cell(owner_of(bound, chain, i));
+        }
+    }
+
     void
     add_upper_bars(const BoundScene   &bound,
                    const BoundProblem &problem,
                    BarCells           &cells)
     {
       for (const BarChain &chain : bound.bars.chains)
-        {
-          Interval axial =
-            axial_interval(*chain.structure, bound.units, BoundSide::upper);
-          // Rates of one sign whose sum is given: none, along a straight chain; else
-          // the bound is strict all the same.
-          if (axial.is_one_sided() &&
-              is_held_at_both_ends(bound, chain, problem))
-            axial = Interval(-std::numeric_limits<double>::infinity(),
-                             std::numeric_limits<double>::infinity());
-          const Interval moment =
-            moment_interval(*chain.structure, bound.units, BoundSide::upper);
-          const bool bends = chain.structure->is_plate();
-          for (unsigned int i = 0; i < chain.edges.size(); ++i)
-            {
-              const Step step(bound, chain, i);
-              for (unsigned int end = 0; end < 2; ++end)
-                cells.add(
-                  axial, axial_rate(bound, step, end), step.length / 2.);
-              if (bends)
-                {
-                  Functional curvature;
-                  add_slope(bound, step, 1, 1. / step.length, curvature);
-                  add_slope(bound, step, 0, -1. / step.length, curvature);
-                  cells.add(moment, curvature, step.length);
-                }
-              cells.end_cell(owner_of(bound, step));
-              for (unsigned int end = 0; end < 2; ++end)
-                cells.add(axial, jump_rate(bound, step, end), 1.);
-              cells.end_cell(owner_of(bound, step));
-            }
-          if (!bends)
-            continue;
-          for (unsigned int i = 0; i < chain.vertices.size(); ++i)
-            {
-              cells.add(moment, hinge_rate(bound, chain, i), 1.);
-              cells.end_cell(owner_of(
-                bound,
-                Step(bound,
-                     chain,
-                     std::min<unsigned int>(i, chain.edges.size() - 1))));
-            }
-        }
+        if (const auto parts =
+              strength_parts(*chain.structure, bound.units, BoundSide::upper);
+            parts.empty())
+          add_upper_chain(bound, chain, problem, cells);
+        else
+          add_upper_plate(bound, chain, parts, cells);
       for (const PlasticBars::Tie &tie : bound.bars.ties)
         {
           cells.add(
@@ -531,6 +657,13 @@ namespace geocone::GEOCONE_DIM
             1.);
           cells.end_cell(owner_of(bound, tie));
         }
+    }
+
+    /** Number of conditions on the degree of axial forces in the lower bound. */
+    unsigned int
+    n_cubic_dofs(const BarChain &chain)
+    {
+      return chain.structure->interacts() ? chain.edges.size() : 0;
     }
 
     /** Dofs of the lower bound and the state of the vertices of structures. */
@@ -546,6 +679,12 @@ namespace geocone::GEOCONE_DIM
         , is_tied(bars.vertices.size(), false)
         , problem(problem)
       {
+        unsigned int next = first + bars.n_more_lower_dofs();
+        for (const BarChain &chain : bars.chains)
+          {
+            first_cubic.push_back(next);
+            next += n_cubic_dofs(chain);
+          }
         for (const BarChain &chain : bars.chains)
           for (unsigned int i = 0; i < chain.edges.size(); ++i)
             {
@@ -644,6 +783,25 @@ namespace geocone::GEOCONE_DIM
         return rate;
       }
 
+      /** Virtual power of the coefficient j of the axial force of an edge in the basis of
+       *  degree three, with the condition that its degree is two. */
+      Functional
+      cubic_axial(const unsigned int c,
+                  const unsigned int i,
+                  const unsigned int j) const
+      {
+        constexpr double third[4] = {1., -3., 3., -1.};
+        const Step       step(bound, bars.chains[c], i);
+        Functional       rate;
+        add_at_end(step, j / 2, (j % 2 == 0 ? 1.5 : -1.5) * step.t, rate);
+        if (j == 0)
+          add_at_vertex(step.vertices[0], -1. * step.t, rate);
+        if (j == 3)
+          add_at_vertex(step.vertices[1], step.t, rate);
+        rate.add(first_cubic[c] + i, third[j]);
+        return rate;
+      }
+
       /** Virtual power of the coefficient j of the moment of an edge of a plate. */
       Functional
       moment(const unsigned int c,
@@ -680,8 +838,9 @@ namespace geocone::GEOCONE_DIM
         return problem.is_prescribed[first + bars.dof_of_vertex(k) + d];
       }
 
-      std::vector<Tensor<1, dim>> frame;   ///< first axis of each vertex
-      std::vector<unsigned int>   n_edges; ///< at each vertex
+      std::vector<unsigned int>   first_cubic; ///< dof of each chain
+      std::vector<Tensor<1, dim>> frame;       ///< first axis of each vertex
+      std::vector<unsigned int>   n_edges;     ///< at each vertex
       std::vector<bool>           is_tied;
       const BoundProblem         &problem;
     };
@@ -744,9 +903,19 @@ namespace geocone::GEOCONE_DIM
                          moment = moment_interval(
                            *chain.structure, bound.units, BoundSide::lower);
           const auto [least, most] = chain.structure->axial_strength();
+          const auto parts =
+            strength_parts(*chain.structure, bound.units, BoundSide::lower);
           for (unsigned int i = 0; i < chain.edges.size(); ++i)
             {
               const Step step(bound, chain, i);
+              for (unsigned int j = 0; j < 4 && !parts.empty(); ++j)
+                cells.add(parts,
+                          over_length(lower.cubic_axial(c, i, j), step),
+                          over_length(lower.moment(c, i, j), step),
+                          step.length,
+                          owner_of(bound, step));
+              if (!parts.empty())
+                continue;
               for (unsigned int j = 0; j < 3; ++j)
                 if (j != 1 && (least == 0. || most == 0.) &&
                     lower.is_free_end(chain, j == 0 ? i : i + 1))
@@ -810,8 +979,23 @@ namespace geocone::GEOCONE_DIM
   {
     if (bound.bars.empty())
       return 0;
-    return side == BoundSide::upper ? bound.bars.n_more_upper_dofs()
-                                    : bound.bars.n_more_lower_dofs();
+    if (side == BoundSide::upper)
+      return bound.bars.n_more_upper_dofs();
+    unsigned int n = bound.bars.n_more_lower_dofs();
+    for (const BarChain &chain : bound.bars.chains)
+      n += n_cubic_dofs(chain);
+    return n;
+  }
+
+  unsigned int
+  n_lower_columns(const BoundScene &bound)
+  {
+    return std::any_of(
+             bound.bars.chains.begin(),
+             bound.bars.chains.end(),
+             [](const BarChain &chain) { return n_cubic_dofs(chain) > 0; })
+             ? 10
+             : 6;
   }
 
   unsigned int

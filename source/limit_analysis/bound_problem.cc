@@ -715,7 +715,7 @@ namespace geocone::GEOCONE_DIM
     const unsigned int n_nodes   = n_cells + 2 * triangles.edges.size();
     BoundProblem       problem =
       begin_problem(bound,
-                    6,
+                    n_lower_columns(bound),
                     dim * n_nodes + n_dofs_of_interfaces(bound) +
                       n_dofs_of_bars(bound, BoundSide::lower));
     const auto end_dof = [&](const unsigned int cell,

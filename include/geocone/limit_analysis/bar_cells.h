@@ -17,6 +17,11 @@ namespace geocone::GEOCONE_DIM
   unsigned int
   n_dofs_of_bars(const BoundScene &bound, const BoundSide side);
 
+  /** Returns the largest number of dofs of a point in the lower bound: more than six where
+   *  the axial force and the moment of a plate interact. */
+  unsigned int
+  n_lower_columns(const BoundScene &bound);
+
   /** Returns the x dof of a node of quadratic velocities
    *  (PlasticBars::node_of_cell()). */
   unsigned int

@@ -6,8 +6,10 @@
 
 #include <geocone/limit_analysis/bar_cells.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -78,6 +80,44 @@ namespace geocone::GEOCONE_DIM
                   const BoundUnits &units,
                   const BoundSide   side);
 
+  /** Part of the strength of a plate whose axial force and moment interact: the forces
+   *  N = axial s and M = moment s with |s| <= 1, in scaled units. */
+  struct StrengthPart
+  {
+    double axial, moment;
+
+    /** Interval of the larger one of both. */
+    Interval
+    interval() const
+    {
+      return {-size(), size()};
+    }
+
+    double
+    size() const
+    {
+      return std::max(std::abs(axial), std::abs(moment));
+    }
+  };
+
+  /** Number of parts of a strength, a multiple of the points of a cell. Even and odd, so
+   *  that a moment without axial force has its strength Mp in both bounds. */
+  constexpr unsigned int
+  n_strength_parts(const BoundSide side)
+  {
+    return side == BoundSide::lower ? 18 : 21;
+  }
+
+  /** Parts of the strength |M|/Mp + (N/Np)^2 <= 1. The sums of one force of each part are a
+   *  polygon with twice as many corners, symmetric to the origin: inscribed in the lower
+   *  bound and circumscribed in the upper one, within 0.4 % of Mp. Empty if the forces of
+   *  a structure do not interact or, in the upper bound, one strength counts as
+   *  unlimited. */
+  std::vector<StrengthPart>
+  strength_parts(const Structure  &structure,
+                 const BoundUnits &units,
+                 const BoundSide   side);
+
   /** Rate as a linear function of dofs. */
   class Functional
   {
@@ -101,6 +141,14 @@ namespace geocone::GEOCONE_DIM
       for (unsigned int d = 0; d < dim; ++d)
         if (factor[d] != 0.)
           add(dof + d, factor[d]);
+    }
+
+    void
+    add(const Functional &other, const double factor)
+    {
+      for (const auto &[dof, value] : other.entries)
+        if (factor != 0.)
+          add(dof, factor * value);
     }
 
     double
@@ -136,6 +184,17 @@ namespace geocone::GEOCONE_DIM
   owner_of(const BoundScene &bound, const PlasticBars::Tie &tie);
   /** @} */
 
+  /** Dof of the axial jump at an end of an edge of chains, if there is one: the velocity
+   *  of the edge there less that of the vertex, along along_mesh(). */
+  std::optional<unsigned int>
+  dof_of_jump(const BoundScene  &bound,
+              const unsigned int number,
+              const unsigned int end);
+
+  /** Unit vector along an edge of the mesh. */
+  dealii::Tensor<1, dim>
+  along_mesh(const Triangles &triangles, const unsigned int edge);
+
   /** Position of a vertex or an edge among those of a triangle. */
   unsigned int
   position_in(const std::array<unsigned int, 3> &of_cell,
@@ -151,6 +210,10 @@ namespace geocone::GEOCONE_DIM
   Functional
   axial_rate(const BoundScene &bound, const Step &step, const unsigned int end);
 
+  /** Rate of the curvature of an edge of a plate. */
+  Functional
+  curvature_rate(const BoundScene &bound, const Step &step);
+
   /** Rate by which a bar lengthens at the vertex at an end of an edge. */
   Functional
   jump_rate(const BoundScene &bound, const Step &step, const unsigned int end);
@@ -160,6 +223,13 @@ namespace geocone::GEOCONE_DIM
   hinge_rate(const BoundScene  &bound,
              const BarChain    &chain,
              const unsigned int i);
+
+  /** Edges beside a vertex of a chain: before it and after it, if there are any. The first
+   *  vertex of a closed chain has both, its last one, the same again, has none. */
+  std::array<std::optional<Step>, 2>
+  steps_at(const BoundScene  &bound,
+           const BarChain    &chain,
+           const unsigned int i);
 
   /** Rate of the length of an anchor or strut in the upper bound. */
   Functional
