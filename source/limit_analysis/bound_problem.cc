@@ -3,7 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/cone/second_order_cone.h>
-#include <geocone/limit_analysis/bar_cells.h>
+#include <geocone/limit_analysis/bar_rows.h>
 #include <geocone/limit_analysis/bound_problem.h>
 #include <geocone/limit_analysis/interface_cells.h>
 #include <geocone/materials/retention.h>
@@ -287,6 +287,7 @@ namespace geocone::GEOCONE_DIM
       unsigned int dof; ///< of its x component, followed by y
       Point<dim>   of_velocity, of_traction; ///< points of evaluation
       double       part;                     ///< share of the edge's length
+      std::optional<unsigned int> jump = {}; ///< axial, of a structure
     };
 
     /** The x dof of w at an end of an edge, in the lower problem. */
@@ -338,10 +339,12 @@ namespace geocone::GEOCONE_DIM
                                bars.number_of_vertex(ends[0]))),
                              last  = dof(bars.node_of_vertex(
                                bars.number_of_vertex(ends[1])));
-          return {{first, a, a, 1. / 6.},
-                  {last, b, b, 1. / 6.},
-                  {first, a, middle, 1. / 6.},
-                  {last, b, middle, 1. / 6.},
+          const auto first_jump    = dof_of_jump(bound, k, 0),
+                     last_jump     = dof_of_jump(bound, k, 1);
+          return {{first, a, a, 1. / 6., first_jump},
+                  {last, b, b, 1. / 6., last_jump},
+                  {first, a, middle, 1. / 6., first_jump},
+                  {last, b, middle, 1. / 6., last_jump},
                   {dof(bars.node_of_edge(k)), middle, middle, 1. / 3.}};
         }
       const auto dof = [&](const unsigned int i) {
@@ -610,6 +613,9 @@ namespace geocone::GEOCONE_DIM
               bound.units.stress);
             for (unsigned int d = 0; d < dim; ++d)
               F[node.dof + d] += node.part * length * t[d];
+            if (node.jump)
+              F[*node.jump] +=
+                node.part * length * (t * along_mesh(triangles, held.edge));
           }
       }
   }
