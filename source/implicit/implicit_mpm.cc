@@ -30,8 +30,11 @@ namespace geocone::GEOCONE_DIM
     mesh  = &mesh_;
     space = &space_;
     check_parameters();
-    scene->structures.refuse("Discretisation/Method = MPM",
-                             "set Discretisation/Method = FEM");
+    if (!scene->structures.list.empty())
+      {
+        check_structures();
+        bars = std::make_unique<Bars>(scene->structures, *mesh, *space);
+      }
     ScaledLoads::check(*scene);
     check_axisymmetric_body(*scene);
 
@@ -230,6 +233,8 @@ namespace geocone::GEOCONE_DIM
     }
     if (absorbing->exists())
       problem->add(*absorbing);
+    if (bars)
+      problem->add(*bars);
     if (!bodies) // else contacts are not known yet
       system->set_pattern(*problem, timer);
     has_pattern = !bodies;

@@ -6,6 +6,8 @@
 #include <geocone/base/unused_parameters.h>
 #include <geocone/implicit/implicit_mpm.h>
 
+#include <deal.II/base/mpi.h>
+
 namespace geocone::GEOCONE_DIM
 {
   using namespace dealii;
@@ -140,6 +142,29 @@ namespace geocone::GEOCONE_DIM
                        "in places, and so would be masses: set Basis = "
                        "automatic, or '" +
                          section + "Consistent mass part' = 1");
+  }
+
+  void
+  ImplicitMPM::check_structures() const
+  {
+    const std::string what   = "structures with MPM",
+                      remedy = "leave out 'Structures/Names'";
+    scene->refuse_contact(what, remedy);
+    if (!integration.is_backward_euler())
+      throw InputError("Material point method/Integration",
+                       integration.word(),
+                       "backward Euler with structures",
+                       "take it, or " + remedy);
+    if (!grid_follows.empty())
+      throw InputError(FollowingGrid::parameter,
+                       grid_follows,
+                       "nothing with structures, which have places in the grid",
+                       "leave it out, or " + remedy);
+    if (const unsigned int n = Utilities::MPI::n_mpi_processes(
+          mesh->triangulation().get_communicator());
+        n > 1)
+      scene->structures.refuse("MPM on " + std::to_string(n) + " ranks",
+                               "take one rank, or Discretisation/Method = FEM");
   }
 
   void

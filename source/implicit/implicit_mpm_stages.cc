@@ -83,6 +83,8 @@ namespace geocone::GEOCONE_DIM
     StateRow row;
     moving->state(row);
     obstacles->state(row);
+    if (bars)
+      bars->state(row);
     archive.write_row("sides", row);
   }
 
@@ -118,6 +120,8 @@ namespace geocone::GEOCONE_DIM
     StateRow row = archive.read_row("sides");
     moving->state(row);
     obstacles->state(row);
+    if (bars)
+      bars->state(row);
     Vector mass(velocity_L);
     load_nodes(archive, "had mass", *mesh, *space, mass);
     had_mass.resize(mass.locally_owned_size());

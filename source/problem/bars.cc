@@ -302,7 +302,9 @@ namespace geocone::GEOCONE_DIM
           "the structure '" + bars[i].structure->name +
           "' is tied to a part of the body that is not there in the stage '" +
           stage + "'\n  remedy:  leave the stage out of '" +
-          bars[i].structure->parameter("Active in") + "', or move its points");
+          bars[i].structure->parameter("Active in") +
+          "', or move its points; where particles have moved away from it, "
+          "take larger cells, or Discretisation/Method = FEM");
   }
 
   void

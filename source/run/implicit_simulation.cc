@@ -317,6 +317,10 @@ namespace geocone::GEOCONE_DIM
                               kinematics.displacement,
                               stepper->has_moving_points(),
                               t));
+    if (stepper->has_moving_points())
+      for (const std::string &warning :
+           warn_of_moved_plates(scene.structures, present.last.plates, mesh))
+        log.warn(warning);
   }
 
   void

@@ -1,5 +1,6 @@
 # A run with bars goes on with the same bits from a checkpoint while a bar yields, before one is
-# removed, and after one was slack, and one with a plate while it has hinges; statistics.csv has the
+# removed, and after one was slack, and one with a plate while it has hinges, beside
+# finite elements and particles; statistics.csv has the
 # columns of each bar.
 program=$1 root=$2 folder=$3
 rm -rf "$folder" && mkdir -p "$folder" && cd "$folder"
@@ -20,4 +21,5 @@ resumed pull_out
 resumed stages
 resumed geogrid
 resumed plate_hinges
+resumed particles
 head -1 geogrid.csv | grep -q "axial force grid 1 (N/m).*elongation grid 2 (m).*yields grid 2 (-)"

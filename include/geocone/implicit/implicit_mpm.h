@@ -176,6 +176,11 @@ namespace geocone::GEOCONE_DIM
     void
     follow_side();
 
+    /** Rejects options that are not available beside structures.
+     *  @throws InputError */
+    void
+    check_structures() const;
+
     /** Rejects contact options that are not available for particles.
      *  @throws InputError */
     void
