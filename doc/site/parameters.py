@@ -14,7 +14,7 @@ from pathlib import Path
 SEE = {
     "Analysis": ["theory/limit_analysis", "cookbook/limit_load", "cookbook/safety",
                  "cookbook/reliability"],
-    "Random fields": ["theory/limit_analysis", "cookbook/reliability"],
+    "Random fields": ["theory/reliability", "cookbook/reliability"],
     "Discretisation": ["theory/finite_elements", "theory/locking", "theory/material_points",
                        "comparison"],
     "Geometry": ["your_own_scene", "cookbook/round_bodies", "cookbook/three_dimensions"],

@@ -73,9 +73,9 @@ namespace geocone::GEOCONE_DIM
           Powers::OfMaterial &to = powers.materials[m];
           to.cohesion += per_unit * std::sqrt(square) * y;
           to.growing += V * y * (cone.k - bound.cones[m].k);
-          // da = cos^3(phi) d tan(phi), and k is a constant times cos(phi).
-          to.tan_phi += V * y * (s[p][0] - cone.k * cone.a / square) *
-                        std::pow(square, 1.5) / by;
+          if (cone.a > 0.)
+            to.tan_phi += V * y * by_log_tan_phi(cone, s[p][0]) *
+                          std::sqrt(square) / (cone.a * by);
           to.tension += per_unit * cut_off;
         }
     }
@@ -326,6 +326,13 @@ namespace geocone::GEOCONE_DIM
       return to.all;
     }
   } // namespace
+
+  double
+  by_log_tan_phi(const PointCone &cone, const double s_n)
+  {
+    // da = cos^3(phi) d tan(phi), and k is a constant times cos(phi).
+    return cone.a * ((1. - cone.a * cone.a) * s_n - cone.a * cone.k);
+  }
 
   std::vector<Gradient>
   gradients_of_load(const BoundScene  &given,

@@ -190,6 +190,16 @@ namespace geocone::GEOCONE_DIM
     return std::max(1. - variation * normal_quantile(tail), 1e-6);
   }
 
+  double
+  RandomField::log_slope(const double z) const
+  {
+    if (distribution == Distribution::lognormal)
+      return std::sqrt(std::log1p(variation * variation));
+    const double kept = normal_distribution(1. / variation),
+                 x    = normal_quantile(kept * normal_distribution(-z));
+    return variation * kept * std::exp((x * x - z * z) / 2.) / factor(z);
+  }
+
   void
   RandomField::prepare_on(const Triangles &triangles)
   {
@@ -217,14 +227,22 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
-  RandomField::sample(const std::vector<std::uint32_t> &key,
-                      std::vector<double>              &factors) const
+  RandomField::set_factors(const Eigen::Ref<const Eigen::VectorXd> &numbers,
+                           std::vector<double> &factors) const
   {
-    const std::vector<double> numbers = normal_numbers(key, rank());
-    const Eigen::VectorXd     z =
-      root * Eigen::Map<const Eigen::VectorXd>(numbers.data(), numbers.size());
+    const Eigen::VectorXd z = root * numbers;
     for (unsigned int i = 0; i < cells.size(); ++i)
       factors[cells[i]] = factor(z[i]);
+  }
+
+  Eigen::VectorXd
+  RandomField::gradient(const Eigen::Ref<const Eigen::VectorXd> &numbers,
+                        const std::vector<double> &elasticity) const
+  {
+    Eigen::VectorXd by_z = root * numbers;
+    for (unsigned int i = 0; i < cells.size(); ++i)
+      by_z[i] = elasticity[cells[i]] * log_slope(by_z[i]);
+    return root.transpose() * by_z;
   }
 
   RandomFields::RandomFields(const ParameterFile &file)
@@ -273,16 +291,55 @@ namespace geocone::GEOCONE_DIM
       field->factorise(triangles);
   }
 
+  unsigned int
+  RandomFields::rank() const
+  {
+    unsigned int sum = 0;
+    for (const auto &field : list)
+      sum += field->rank();
+    return sum;
+  }
+
+  Eigen::VectorXd
+  RandomFields::numbers_of(const unsigned int number) const
+  {
+    Eigen::VectorXd numbers(rank());
+    unsigned int    first = 0;
+    for (unsigned int i = 0; i < list.size(); ++i)
+      for (const double one :
+           normal_numbers({seed, number, i}, list[i]->rank()))
+        numbers[first++] = one;
+    return numbers;
+  }
+
   RandomFactors
-  RandomFields::sample(const unsigned int number) const
+  RandomFields::factors(const Eigen::VectorXd &numbers) const
   {
     RandomFactors factors;
-    for (unsigned int i = 0; i < list.size(); ++i)
+    unsigned int  first = 0;
+    for (const auto &field : list)
       {
-        auto &of = factors.of(list[i]->property());
+        auto &of = factors.of(field->property());
         of.resize(n_cells, 1.);
-        list[i]->sample({seed, number, i}, of);
+        field->set_factors(numbers.segment(first, field->rank()), of);
+        first += field->rank();
       }
     return factors;
+  }
+
+  Eigen::VectorXd
+  RandomFields::gradient(const Eigen::VectorXd &numbers,
+                         RandomFactors          elasticity) const
+  {
+    Eigen::VectorXd gradient(rank());
+    unsigned int    first = 0;
+    for (const auto &field : list)
+      {
+        const unsigned int n       = field->rank();
+        gradient.segment(first, n) = field->gradient(
+          numbers.segment(first, n), elasticity.of(field->property()));
+        first += n;
+      }
+    return gradient;
   }
 } // namespace geocone::GEOCONE_DIM

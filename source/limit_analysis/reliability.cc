@@ -21,13 +21,12 @@ namespace geocone::GEOCONE_DIM
   namespace
   {
     const UsedWhere used_reliability[] = {
+      {"Analysis/Sampling", "Analysis/Kind", {"reliability"}},
       {"Analysis/Samples", "Analysis/Kind", {"reliability"}},
       {"Analysis/Confidence", "Analysis/Kind", {"reliability"}}};
 
     /** Samples of a step, on any number of ranks. */
     constexpr unsigned int batch = 16;
-
-    constexpr std::size_t most_mechanisms = 100;
 
     /** Marks the triangles with most of a refinement indicator, a third at most.
      *  @return empty if there is nothing to be refined */
@@ -57,24 +56,6 @@ namespace geocone::GEOCONE_DIM
     }
   } // namespace
 
-  FailureProbability::FailureProbability(
-    const std::vector<SampleRecord> &samples, const double confidence)
-    : n_samples(samples.size())
-  {
-    for (const SampleRecord &sample : samples)
-      {
-        n_failed += sample.verdict < 0;
-        n_undecided += sample.verdict == 0;
-      }
-    if (n_samples == 0)
-      return;
-    const unsigned int most = n_failed + n_undecided;
-    lower                   = double(n_failed) / n_samples;
-    upper                   = double(most) / n_samples;
-    limits = {{clopper_pearson(n_failed, n_samples, confidence)[0],
-               clopper_pearson(most, n_samples, confidence)[1]}};
-  }
-
   void
   ReliabilityOutput::prepare(const RunOptions &options)
   {
@@ -86,6 +67,7 @@ namespace geocone::GEOCONE_DIM
     };
     add("sample (-)", &SampleRecord::number);
     add("verdict (-)", &SampleRecord::verdict);
+    add("weight (-)", &SampleRecord::weight);
     for (const auto &[column, member] :
          {std::pair<const char *, double SampleRecord::*>(
             "lower bound of the load factor (-)", &SampleRecord::lower),
@@ -124,12 +106,19 @@ namespace geocone::GEOCONE_DIM
     , fields(file)
   {
     declare_parameters(bounded_load);
+    sampling.declare(*this,
+                     "Sampling",
+                     ". Of the random fields. Monte Carlo: by their "
+                     "distribution. Importance: nine samples of ten around the "
+                     "design point, which gradients of the bounds find, with "
+                     "weights; small probabilities need few samples.");
     add_parameter(
       "Samples", n_samples, "Number of samples of the random fields [-].");
     add_parameter("Confidence",
                   confidence,
-                  "Probability [-] with which the binomial limits of the "
-                  "probability of failure include it, at least.");
+                  "Probability [-] with which the limits of the probability "
+                  "of failure include it: at least this with Monte Carlo "
+                  "sampling, about this with importance sampling.");
   }
 
   void
@@ -150,7 +139,8 @@ namespace geocone::GEOCONE_DIM
       throw InputError("Analysis/Samples",
                        n_samples,
                        "1 to 10000000",
-                       "100 over the probability of failure give it to 20 %");
+                       "100 over the probability of failure give it to 20 % by "
+                       "Monte Carlo sampling");
     if (!(confidence > 0. && confidence < 1.))
       throw InputError(
         "Analysis/Confidence", confidence, "> 0, < 1", "0.95 is usual");
@@ -215,17 +205,71 @@ namespace geocone::GEOCONE_DIM
   }
 
   bool
-  Reliability::fails_by_earlier(const RandomFactors &factors,
-                                SampleRecord        &record) const
+  Reliability::is_decided_by_earlier(const RandomFactors &factors,
+                                     SampleRecord        &record) const
   {
+    using Kind = SampleVerdict::Kind;
     for (const Mechanism &mechanism : mechanisms)
       if (const double load = mechanism.bound(factors); load < 1.)
         {
-          record.verdict = static_cast<int>(SampleVerdict::Kind::fails);
+          record.verdict = static_cast<int>(Kind::fails);
           record.upper   = load;
           return true;
         }
+    for (const StressField &field : stresses)
+      if (const double load = field.bound(factors); load >= 1.)
+        {
+          record.verdict = static_cast<int>(Kind::stands);
+          record.lower   = load;
+          return true;
+        }
     return false;
+  }
+
+  LimitState
+  Reliability::limit_state(const Eigen::VectorXd &numbers)
+  {
+    LoadResponse response =
+      first->sampled.respond(fields.factors(numbers), tolerance);
+    if (response.mechanism)
+      mechanisms.add({std::move(*response.mechanism)});
+    if (response.stresses)
+      stresses.add({std::move(*response.stresses)});
+    log.print(format("  design point: index %.4g, load factor %.5g",
+                     numbers.norm(),
+                     response.load));
+    return {std::log(response.load),
+            fields.gradient(numbers, std::move(response.elasticity))};
+  }
+
+  void
+  Reliability::find_design_point()
+  {
+    try
+      {
+        design = design_point(fields.rank(), [&](const Eigen::VectorXd &u) {
+          return limit_state(u);
+        });
+      }
+    catch (const Stopped &)
+      {} // all ranks are together here
+    stop_if_asked(comm);
+    // Ranks of different machines may round differently.
+    StateRow of_first;
+    of_first(design, mechanisms, stresses);
+    StateRow row(dealii::Utilities::MPI::broadcast(comm, of_first.values()));
+    row(design, mechanisms, stresses);
+    if (design.mean_fails())
+      log.warn(format("the body with mean properties fails (load factor %.4g): "
+                      "samples are those of Monte Carlo",
+                      design.load_factor));
+    else if (!design.converged)
+      log.warn(format("the design point was not found: load factor %.4g after "
+                      "%u iterations, at the reliability index %.4g; the "
+                      "limits hold, but may be wide",
+                      design.load_factor,
+                      design.iterations,
+                      design.index()));
   }
 
   std::vector<bool>
@@ -242,7 +286,9 @@ namespace geocone::GEOCONE_DIM
     record.upper   = std::fmin(record.upper, verdict.upper);
     record.verdict = static_cast<int>(verdict.kind);
     if (verdict.mechanism)
-      sample.found.push_back(std::move(*verdict.mechanism));
+      sample.mechanism = {std::move(*verdict.mechanism)};
+    if (verdict.stresses)
+      sample.stresses = {std::move(*verdict.stresses)};
     return largest(std::move(verdict.refinement_indicator));
   }
 
@@ -250,12 +296,14 @@ namespace geocone::GEOCONE_DIM
   Reliability::solve(const unsigned int number) const
   {
     dealii::Timer       time;
-    const RandomFactors factors = fields.sample(number);
-    const unsigned int  n_first = first->triangles.cells.size();
-    Sample              sample;
+    const Eigen::VectorXd numbers = numbers_of(number);
+    const RandomFactors   factors = fields.factors(numbers);
+    const unsigned int    n_first = first->triangles.cells.size();
+    Sample                sample;
     sample.record.number = number;
+    sample.record.weight = density().weight(numbers);
     sample.record.cells  = n_first;
-    if (!fails_by_earlier(factors, sample.record))
+    if (!is_decided_by_earlier(factors, sample.record))
       {
         NestedMesh          nested = *first_mesh;
         std::optional<Body> refined;
@@ -276,7 +324,9 @@ namespace geocone::GEOCONE_DIM
   Simulation::StepOutcome
   Reliability::advance(TimePoint &now)
   {
-    namespace mpi              = dealii::Utilities::MPI;
+    namespace mpi = dealii::Utilities::MPI;
+    if (sampling == Sampling::importance && design.numbers.size() == 0)
+      find_design_point();
     const unsigned int first   = now.in_stage * batch + 1,
                        last    = std::min(first + batch - 1, n_samples),
                        n_ranks = mpi::n_mpi_processes(comm);
@@ -306,11 +356,8 @@ namespace geocone::GEOCONE_DIM
     for (Sample &sample : samples)
       {
         reliability_output.add_record(sample.record);
-        for (Mechanism &mechanism : sample.found)
-          if (mechanisms.size() < most_mechanisms)
-            mechanisms.push_back(std::move(mechanism));
-          else
-            mechanisms[oldest++ % most_mechanisms] = std::move(mechanism);
+        mechanisms.add(std::move(sample.mechanism));
+        stresses.add(std::move(sample.stresses));
       }
     now.time = last;
     return last == n_samples ? StepOutcome::stage : StepOutcome::well;
@@ -333,12 +380,13 @@ namespace geocone::GEOCONE_DIM
   {
     const auto              &records = reliability_output.all_records();
     const FailureProbability found   = probability();
-    unsigned int             finest = 0, refined = 0;
+    unsigned int             finest = 0, refined = 0, without = 0;
     double                   cpu = 0.;
     for (const SampleRecord &record : records)
       {
         finest = std::max(finest, record.cells);
         refined += record.cells > first->triangles.cells.size();
+        without += record.is_without_solution();
         cpu += record.cpu_seconds;
       }
     Json json;
@@ -346,16 +394,25 @@ namespace geocone::GEOCONE_DIM
                            {"cells", first->triangles.cells.size()},
                            {"cells_finest", finest}};
     json["reliability"] = {
+      {"sampling", sampling.word()},
       {"samples", found.n_samples},
       {"failed", found.n_failed},
       {"undecided", found.n_undecided},
       {"refined", refined},
+      {"without_solution", without},
       {"lower", found.lower},
       {"upper", found.upper},
       {"confidence", confidence},
       {"limit_lower", found.limits[0]},
       {"limit_upper", found.limits[1]},
       {"cpu_s_per_sample", records.empty() ? 0. : cpu / records.size()}};
+    if (sampling == Sampling::importance)
+      json["reliability"].update(
+        {{"reliability_index", design.index()},
+         {"design_point_load_factor", design.load_factor},
+         {"design_point_found", design.converged},
+         {"mean_weight", found.mean_weight},
+         {"effective_failed", found.effective_failed}});
     json["cost"] = {{"total_s", total.wall_time()},
                     {"cpu_s", total.cpu_time()}};
     return json;
@@ -380,6 +437,13 @@ namespace geocone::GEOCONE_DIM
       log.warn(format("%u samples are undecided; raise 'Analysis/Maximum "
                       "cells' or 'Maximum levels', or take smaller cells",
                       found.n_undecided));
+    constexpr double few = 20.;
+    if (!density().is_normal() && found.effective_failed < few)
+      log.warn(format("the failed samples have the weight of %.1f equal ones: "
+                      "the limits are asymptotic and need %g or more; take "
+                      "more samples",
+                      found.effective_failed,
+                      few));
     if (!reliability_output.writes_fields())
       return;
     // The first sample that fails by a mechanism of its own on the first mesh.
@@ -393,7 +457,7 @@ namespace geocone::GEOCONE_DIM
   Reliability::write_sample(const unsigned int number)
   {
     const Body         &on      = *first;
-    const RandomFactors factors = fields.sample(number);
+    const RandomFactors factors = fields.factors(numbers_of(number));
     const bool is_first = dealii::Utilities::MPI::this_mpi_process(comm) == 0;
     Eigen::VectorXd q;
     try

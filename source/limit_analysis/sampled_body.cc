@@ -1,8 +1,10 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <geocone/limit_analysis/gradients.h>
 #include <geocone/limit_analysis/sampled_body.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -81,7 +83,6 @@ namespace geocone::GEOCONE_DIM
     const BoundProblem &problem = above.problem;
     Mechanism           mechanism;
     mechanism.dissipation.assign(n_first, 0.);
-    mechanism.weight.assign(n_first, 0.);
     const auto rates = problem.B.rates(q);
     for (unsigned int p = 0; p < problem.n_points(); ++p)
       {
@@ -92,6 +93,14 @@ namespace geocone::GEOCONE_DIM
                            : mechanism.other_dissipation) += power;
       }
     mechanism.other_loads = above.other_loads.dot(q);
+    mechanism.weight      = work_of_weight(q);
+    return mechanism;
+  }
+
+  std::vector<double>
+  SampledBody::work_of_weight(const VectorXd &q) const
+  {
+    std::vector<double> work(n_first, 0.);
     // A unit force in one cell changes few entries.
     const Triangles   &triangles = mean.triangles;
     const unsigned int first     = dim * triangles.vertices.size();
@@ -102,10 +111,45 @@ namespace geocone::GEOCONE_DIM
           triangles.area(c) / (mean.units.length * mean.units.length);
         for (const unsigned int edge : triangles.edges_of_cell[c])
           for (unsigned int d = 0; d < dim; ++d)
-            mechanism.weight[parent[c]] +=
+            work[parent[c]] +=
               weight[d] * area / 3. * q[first + dim * edge + d];
       }
-    return mechanism;
+    return work;
+  }
+
+  std::optional<Mechanism>
+  SampledBody::mechanism_of(const RandomFactors &factors,
+                            const Bound         &upper) const
+  {
+    if (!upper.certified || !factors.tan_phi.empty())
+      return std::nullopt;
+    return mechanism_of(upper.q);
+  }
+
+  std::optional<StressField>
+  SampledBody::stresses_of(const RandomFactors &factors,
+                           const Bound         &lower) const
+  {
+    const BoundProblem &problem = below.problem;
+    if (!lower.certified || !(lower.load > 0.) || !factors.tan_phi.empty() ||
+        !factors.unit_weight.empty() || !problem.can_be_scaled() ||
+        problem.first_cut_point() < problem.n_points())
+      return std::nullopt;
+    StressField field;
+    field.required.assign(n_first, 0.);
+    for (unsigned int p = 0; p < problem.n_points(); ++p)
+      {
+        if (problem.B.is_removed(p))
+          continue;
+        const PointCone   &cone = problem.cone[p];
+        const unsigned int c    = p / 3;
+        double            &most =
+          c < parent.size() ? field.required[parent[c]] : field.of_others;
+        most = std::max(most,
+                        (lower.s[p].tail<2>().norm() - cone.a * lower.s[p][0]) /
+                          (cone.k * lower.load));
+      }
+    return field;
   }
 
   double
@@ -121,6 +165,15 @@ namespace geocone::GEOCONE_DIM
                      : std::numeric_limits<double>::infinity();
   }
 
+  double
+  StressField::bound(const RandomFactors &factors) const
+  {
+    double most = of_others;
+    for (unsigned int c = 0; c < required.size(); ++c)
+      most = std::max(most, required[c] / factor_at(factors.cohesion, c));
+    return most > 0. ? (1. - rounding_strength) / most : 0.;
+  }
+
   SampleVerdict
   SampledBody::judge(const RandomFactors &factors, const double tolerance) const
   {
@@ -133,7 +186,8 @@ namespace geocone::GEOCONE_DIM
       verdict.lower = lower.bound.load;
     if (verdict.lower >= 1.)
       {
-        verdict.kind = Kind::stands;
+        verdict.kind     = Kind::stands;
+        verdict.stresses = stresses_of(factors, lower.bound);
         return verdict;
       }
     const BoundProblem problem = of_sample(above, BoundSide::upper, factors);
@@ -142,16 +196,66 @@ namespace geocone::GEOCONE_DIM
     verdict.factorisations += upper.solution.factorisations;
     if (upper.bound.certified)
       verdict.upper = upper.bound.load;
+    verdict.mechanism = mechanism_of(factors, upper.bound);
     if (verdict.upper < 1.)
-      {
-        verdict.kind = Kind::fails;
-        if (factors.tan_phi.empty())
-          verdict.mechanism = mechanism_of(upper.bound.q);
-      }
+      verdict.kind = Kind::fails;
     else
       verdict.refinement_indicator = uneven_gap(
         mean, gap_of_cells(problem, upper.bound, lower.bound), lower);
     return verdict;
+  }
+
+  RandomFactors
+  SampledBody::elasticity(const BoundProblem          &problem,
+                          const RandomFactors         &factors,
+                          const CertifiedBounds::Side &upper) const
+  {
+    RandomFactors elasticity;
+    elasticity.cohesion.assign(n_first, 0.);
+    elasticity.tan_phi.assign(n_first, 0.);
+    elasticity.unit_weight = work_of_weight(upper.bound.q);
+    const auto rates       = problem.B.rates(upper.bound.q);
+    double     power       = 0.;
+    for (unsigned int p = 0; p < problem.n_points(); ++p)
+      {
+        const PointCone &cone = problem.cone[p];
+        const double     V    = problem.volume[p];
+        power += V * dissipation(cone, rates[p]);
+        if (p >= 3 * parent.size() || cone.is_cut() || problem.B.is_removed(p))
+          continue;
+        const double y = V * dissipation({cone.a, 1.}, rates[p]);
+        elasticity.cohesion[parent[p / 3]] += y * cone.k;
+        elasticity.tan_phi[parent[p / 3]] +=
+          y * by_log_tan_phi(cone, upper.solution.s[p][0]);
+      }
+    for (unsigned int c = 0; c < n_first; ++c)
+      {
+        elasticity.cohesion[c] /= power;
+        elasticity.tan_phi[c] /= power;
+        elasticity.unit_weight[c] *=
+          -factor_at(factors.unit_weight, c) * upper.bound.load / power;
+      }
+    return elasticity;
+  }
+
+  LoadResponse
+  SampledBody::respond(const RandomFactors &factors,
+                       const double         tolerance) const
+  {
+    constexpr double   none    = std::numeric_limits<double>::quiet_NaN();
+    const BoundProblem problem = of_sample(above, BoundSide::upper, factors);
+    const CertifiedBounds::Side upper = certified_upper(
+                                  mean, problem, tolerance, none),
+                                lower = certified_lower(
+                                  mean,
+                                  of_sample(below, BoundSide::lower, factors),
+                                  tolerance,
+                                  none);
+    return {std::sqrt(upper.bound.load * lower.bound.load),
+            elasticity(problem, factors, upper),
+            upper.solution.factorisations + lower.solution.factorisations,
+            mechanism_of(factors, upper.bound),
+            stresses_of(factors, lower.bound)};
   }
 
   VectorXd

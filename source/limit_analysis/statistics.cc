@@ -47,6 +47,33 @@ namespace geocone
          : boost::math::ibetac_inv(events + 1., others, tail, in_double)}};
   }
 
+  std::array<double, 2>
+  mean_limits(const std::vector<double> &values, const double confidence)
+  {
+    const double n    = values.size();
+    double       mean = 0., second = 0., third = 0.;
+    for (const double value : values)
+      mean += value / n;
+    for (const double value : values)
+      {
+        const double left = value - mean;
+        second += left * left / n;
+        third += left * left * left / n;
+      }
+    if (!(second > 0.))
+      return {{mean, mean}};
+    const double deviation = std::sqrt(second * n / (n - 1.)),
+                 l         = third / (std::pow(second, 1.5) * std::sqrt(n));
+    const auto t_of        = [l](const double z) {
+      return std::abs(l) < 1e-6
+                      ? z
+                      : 3. / l * (std::cbrt(1. + l * (z - l / 6.)) - 1.);
+    };
+    const double z     = normal_quantile((1. + confidence) / 2.),
+                 error = deviation / std::sqrt(n);
+    return {{mean - error * t_of(z), mean - error * t_of(-z)}};
+  }
+
   std::vector<double>
   normal_numbers(const std::vector<std::uint32_t> &key, const unsigned int n)
   {

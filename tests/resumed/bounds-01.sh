@@ -1,7 +1,7 @@
 # Bounds and samples of random soil that were stopped within a step, or whose last checkpoint is
 # lost, go on to those of a run that was left alone: the mesh of a level must not be refined again,
 # by parts of the gap that are those of the mesh before, and samples know the mechanisms of earlier
-# ones.
+# ones and their design point.
 program=$1 root=$2 folder=$3
 rm -rf "$folder" && mkdir -p "$folder" && cd "$folder"
 
@@ -31,6 +31,9 @@ resumed() { # NAME TABLE COLUMNS FILE OPTIONS...
 resumed plane bounds.csv 1-10 prm/limit_load/footing_rough.prm --set 'Analysis/Maximum levels = 5'
 resumed solid bounds.csv 1-10 tests/three/bounds_adaptive-01.prm \
   --set 'Analysis/Growth of meshes = 3' --set 'Analysis/Maximum cells = 3000'
-resumed samples samples.csv 1-6 prm/reliability/slope.prm --set 'Analysis/Samples = 64' \
-  --set 'Analysis/Maximum levels = 1' --set 'Mesh/Cell size = 4' \
-  --set 'Materials/clay/Cohesion = 30000'
+for sampling in 'Monte Carlo' importance; do
+  resumed "samples-$sampling" samples.csv 1-7 prm/reliability/slope.prm \
+    --set 'Analysis/Samples = 64' --set "Analysis/Sampling = $sampling" \
+    --set 'Analysis/Maximum levels = 1' --set 'Mesh/Cell size = 4' \
+    --set 'Materials/clay/Cohesion = 40000'
+done

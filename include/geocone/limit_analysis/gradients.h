@@ -37,6 +37,11 @@ namespace geocone::GEOCONE_DIM
     double                       F = 1.; ///< divisor of the strength
   };
 
+  /** Derivative of a s_n + k with respect to ln tan(phi), for constant cohesion and
+   *  normal stress s_n: a = sin(phi), and k is proportional to cos(phi). */
+  double
+  by_log_tan_phi(const PointCone &cone, const double s_n);
+
   /**
    * Computes the gradients of both bounds on a load with respect to all parameters. No
    * further solution is required, only the fields of the bounds. At the optimum the

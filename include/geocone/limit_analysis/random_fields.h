@@ -23,8 +23,9 @@ namespace geocone::GEOCONE_DIM
     unit_weight
   };
 
-  /** Factors by which the material properties of each triangle of a mesh are
-   *  multiplied. An empty array means that all factors are 1. */
+  /** Values of the triangles of a mesh by material property, e.g. the factors by which
+   *  the properties are multiplied. An empty array means that a property is not
+   *  random: its factors are 1. */
   struct RandomFactors
   {
     std::vector<double> cohesion, tan_phi, unit_weight;
@@ -63,12 +64,19 @@ namespace geocone::GEOCONE_DIM
     void
     factorise(const Triangles &triangles);
 
-    /** Generates a sample of the random field: sets the factor of each triangle
-     *  of the material.
-     *  @param key identifies the sample */
+    /** Sets the factor of each triangle of the material.
+     *  @param numbers rank() independent standard normal numbers */
     void
-    sample(const std::vector<std::uint32_t> &key,
-           std::vector<double>              &factors) const;
+    set_factors(const Eigen::Ref<const Eigen::VectorXd> &numbers,
+                std::vector<double>                     &factors) const;
+
+    /** Gradient of a function of the factors with respect to the standard normal
+     *  numbers.
+     *  @param elasticity derivative of the function with respect to the logarithm of the
+     *  factor of each triangle */
+    Eigen::VectorXd
+    gradient(const Eigen::Ref<const Eigen::VectorXd> &numbers,
+             const std::vector<double>               &elasticity) const;
 
     /** Covariance of the standard normal field at two points a given distance
      *  apart. */
@@ -79,6 +87,10 @@ namespace geocone::GEOCONE_DIM
      *  field. */
     double
     factor(const double z) const;
+
+    /** Derivative of the logarithm of factor(). */
+    double
+    log_slope(const double z) const;
 
     std::string
     parameter(const std::string &entry) const
@@ -160,10 +172,24 @@ namespace geocone::GEOCONE_DIM
     factorise(const Triangles &triangles);
     /** @} */
 
-    /** Factors of the material properties in a sample. @param number of the
-     *  sample, from 1 */
+    /** Number of independent standard normal numbers of all fields. */
+    unsigned int
+    rank() const;
+
+    /** Independent standard normal numbers of a sample. @param number of the sample,
+     *  from 1 */
+    Eigen::VectorXd
+    numbers_of(const unsigned int number) const;
+
+    /** Factors of the material properties. @param numbers rank() standard normal
+     *  numbers */
     RandomFactors
-    sample(const unsigned int number) const;
+    factors(const Eigen::VectorXd &numbers) const;
+
+    /** Gradient of a function of the factors with respect to the standard normal
+     *  numbers, see RandomField::gradient(). */
+    Eigen::VectorXd
+    gradient(const Eigen::VectorXd &numbers, RandomFactors elasticity) const;
 
     unsigned int seed = 1;
 

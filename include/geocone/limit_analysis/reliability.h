@@ -4,14 +4,15 @@
 #ifndef geocone_limit_analysis_reliability_h
 #define geocone_limit_analysis_reliability_h
 
+#include <geocone/base/choice.h>
 #include <geocone/limit_analysis/bound_analysis.h>
+#include <geocone/limit_analysis/failure_probability.h>
+#include <geocone/limit_analysis/importance_sampling.h>
 #include <geocone/limit_analysis/sampled_body.h>
 #include <geocone/mesh/bisected.h>
 #include <geocone/mesh/triangles.h>
 #include <geocone/output/field_files.h>
 
-#include <array>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -19,39 +20,50 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Result of one sample. */
-  struct SampleRecord
+  /** Selection of the samples of a reliability analysis. */
+  enum class Sampling
   {
-    unsigned int number  = 0; ///< from 1
-    int          verdict = 0; ///< SampleVerdict::Kind
+    monte_carlo, ///< by the distribution of the random fields
+    importance   ///< around the design point, with weights (SamplingDensity)
+  };
 
-    /** Bounds on the load factor; NaN if a bound is not certified or was not
-     *  needed. */
-    double lower = std::numeric_limits<double>::quiet_NaN(), upper = lower;
+  /** Fields of the latest samples, which may decide others. */
+  template <typename Field>
+  class LatestFields
+  {
+  public:
+    void
+    add(std::vector<Field> fields)
+    {
+      for (Field &field : fields)
+        if (list.size() < most)
+          list.push_back(std::move(field));
+        else
+          list[oldest++ % most] = std::move(field);
+    }
 
-    unsigned int cells = 0, factorisations = 0;
-    double       cpu_seconds = 0.;
+    auto
+    begin() const
+    {
+      return list.begin();
+    }
+    auto
+    end() const
+    {
+      return list.end();
+    }
 
     void
     state(StateRow &row)
     {
-      row(number, verdict, lower, upper, cells, factorisations, cpu_seconds);
+      row(list, oldest);
     }
-  };
 
-  /** Probability of failure, estimated from the numbers of failed and undecided
-   *  samples. */
-  struct FailureProbability
-  {
-    unsigned int          n_samples = 0, n_failed = 0, n_undecided = 0;
-    double                lower = 0., upper = 1.; ///< of these samples
-    std::array<double, 2> limits = {{0., 1.}};    ///< of all samples
+  private:
+    static constexpr std::size_t most = 100;
 
-    /** Evaluates the results of the samples.
-     *  @param confidence least probability with which the limits include the
-     *  probability of failure */
-    FailureProbability(const std::vector<SampleRecord> &samples,
-                       const double                     confidence);
+    std::vector<Field> list;
+    std::size_t        oldest = 0; ///< to be replaced next
   };
 
   /** Output of a reliability analysis: samples.csv with one line per sample,
@@ -86,7 +98,8 @@ namespace geocone::GEOCONE_DIM
    * estimated from samples of random fields. A sample is classified as failed
    * (stable) only if this is certified by an upper (lower) bound; otherwise it
    * is undecided. The bounds are computed on the first mesh and on finer meshes
-   * with the same strengths. Triangles are refined where the bounds differ. The
+   * with the same strengths. Triangles are refined where the bounds differ. Mechanisms
+   * and stresses of earlier samples are tried first, which needs no solution. The
    * samples are distributed over the ranks; each step of the run is a batch of
    * samples.
    */
@@ -129,7 +142,7 @@ namespace geocone::GEOCONE_DIM
     void
     state(StateRow &row) override
     {
-      row(mechanisms, oldest);
+      row(mechanisms, stresses, design);
     }
 
     std::string
@@ -181,23 +194,47 @@ namespace geocone::GEOCONE_DIM
       const SampledBody sampled;
     };
 
-    /** Returns true if a failure mechanism of an earlier sample proves that the
-     *  present sample fails. */
+    /** Returns true if a failure mechanism or a stress field of an earlier sample
+     *  decides the present sample. */
     bool
-    fails_by_earlier(const RandomFactors &factors, SampleRecord &record) const;
+    is_decided_by_earlier(const RandomFactors &factors,
+                          SampleRecord        &record) const;
 
-    /** Result of a sample, with the failure mechanism if a new one was found. */
+    /** Result of a sample, with new fields that may decide others. */
     struct Sample
     {
-      SampleRecord           record;
-      std::vector<Mechanism> found; ///< one at most
+      SampleRecord             record;
+      std::vector<Mechanism>   mechanism; ///< one at most
+      std::vector<StressField> stresses;  ///< one at most
 
       void
       state(StateRow &row)
       {
-        row(record, found);
+        row(record, mechanism, stresses);
       }
     };
+
+    /** Standard normal numbers of a sample. */
+    Eigen::VectorXd
+    numbers_of(const unsigned int number) const
+    {
+      return density().moved(number, fields.numbers_of(number));
+    }
+
+    SamplingDensity
+    density() const
+    {
+      return SamplingDensity(design.numbers);
+    }
+
+    /** Finds the design point on the first mesh. Collective. @throws StepFailure */
+    void
+    find_design_point();
+
+    /** Logarithm of the load factor for given standard normal numbers on the first
+     *  mesh; its fields are kept. */
+    LimitState
+    limit_state(const Eigen::VectorXd &numbers);
 
     /** Computes the bounds for a sample on a given mesh.
      *  @return triangles to be refined, empty if the sample is decided */
@@ -226,15 +263,19 @@ namespace geocone::GEOCONE_DIM
     RandomFields      fields;
     BoundedLoad       bounded_load;
 
+    Choice<Sampling> sampling   = {{{"Monte Carlo", Sampling::monte_carlo},
+                                    {"importance", Sampling::importance}}};
     unsigned int n_samples  = 1000;
     double       confidence = 0.95;
 
     std::optional<NestedMesh> first_mesh;
     std::unique_ptr<Body>     first;
 
-    /** Latest failure mechanisms of earlier batches, the same on all ranks. */
-    std::vector<Mechanism> mechanisms;
-    std::size_t            oldest = 0; ///< of them, to be replaced next
+    /** Fields of earlier batches, the same on all ranks. */
+    LatestFields<Mechanism>   mechanisms;
+    LatestFields<StressField> stresses;
+
+    DesignPoint design; ///< without numbers before the first batch
   };
 } // namespace geocone::GEOCONE_DIM
 

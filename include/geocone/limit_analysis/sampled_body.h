@@ -35,6 +35,28 @@ namespace geocone::GEOCONE_DIM
     }
   };
 
+  /** Stresses in equilibrium with the loads, as the cohesion that they require. If
+   *  nothing else is random, they give a lower bound for all samples without solving
+   *  another problem. */
+  struct StressField
+  {
+    /** Factor of the cohesion that each triangle of the first mesh requires for the load
+     *  factor 1. */
+    std::vector<double> required;
+    double of_others = 0.; ///< the same of strengths that are not random
+
+    /** Lower bound on the load factor of a sample from these stresses, multiplied by a
+     *  common factor. */
+    double
+    bound(const RandomFactors &factors) const;
+
+    void
+    state(StateRow &row)
+    {
+      row(required, of_others);
+    }
+  };
+
   /** Certified result for a sample of a body: it fails under its loads, is
    *  stable, or is undecided. */
   struct SampleVerdict
@@ -53,12 +75,26 @@ namespace geocone::GEOCONE_DIM
 
     unsigned int factorisations = 0;
 
-    /** Failure mechanism of a sample that fails; empty if the friction angle is
+    /** Failure mechanism of a certified upper bound; empty if the friction angle is
      *  random. */
     std::optional<Mechanism> mechanism;
 
+    /** Stresses of a sample that stands; empty if other properties than the cohesion are
+     *  random, or if the stresses cannot be multiplied by a factor. */
+    std::optional<StressField> stresses;
+
     /** Refinement indicator of an undecided sample (CertifiedBounds::refinement_indicator). */
     std::vector<double> refinement_indicator;
+  };
+
+  /** Load factor of a sample, between its bounds, and how it depends on the factors. */
+  struct LoadResponse
+  {
+    double        load = 0.;  ///< geometric mean of both bounds
+    RandomFactors elasticity; ///< d ln(load)/d ln(factor), of the upper bound
+    unsigned int  factorisations = 0;
+    std::optional<Mechanism>   mechanism; ///< as in SampleVerdict
+    std::optional<StressField> stresses;
   };
 
   /**
@@ -83,6 +119,12 @@ namespace geocone::GEOCONE_DIM
     SampleVerdict
     judge(const RandomFactors &factors, const double tolerance) const;
 
+    /** Computes both bounds on the load factor, and the gradient of the upper one with
+     *  respect to the factors of each triangle, from its fields alone (gradients.h). The
+     *  bounds need not be certified. */
+    LoadResponse
+    respond(const RandomFactors &factors, const double tolerance) const;
+
     /** Velocities of the upper-bound solution of a sample, at all dofs. */
     Eigen::VectorXd
     velocities(const RandomFactors &factors, const double tolerance) const;
@@ -90,6 +132,21 @@ namespace geocone::GEOCONE_DIM
   private:
     Mechanism
     mechanism_of(const Eigen::VectorXd &q) const;
+
+    /** Work of the unit weights of each triangle of the first mesh. */
+    std::vector<double>
+    work_of_weight(const Eigen::VectorXd &q) const;
+
+    /** Fields that decide other samples, if they are certified. */
+    std::optional<Mechanism>
+    mechanism_of(const RandomFactors &factors, const Bound &upper) const;
+    std::optional<StressField>
+    stresses_of(const RandomFactors &factors, const Bound &lower) const;
+
+    RandomFactors
+    elasticity(const BoundProblem          &problem,
+               const RandomFactors         &factors,
+               const CertifiedBounds::Side &upper) const;
 
     /** Upper-bound or lower-bound problem of the mean body, with its loads
      *  other than weight. */

@@ -30,6 +30,15 @@ namespace geocone
                   const unsigned int trials,
                   const double       confidence);
 
+  /**
+   * Confidence limits of the expectation of independent numbers, from Student's
+   * statistic t without its skewness (Hall 1992): g(t) = t + l t^2/3 + l^2 t^3/27 + l/6,
+   * l = skewness/sqrt(n), is taken as standard normal. The limits are asymptotic, with
+   * errors of the confidence of order 1/n. @param values two at least
+   */
+  std::array<double, 2>
+  mean_limits(const std::vector<double> &values, const double confidence);
+
   /** Independent standard normal numbers from a random stream. They are the
    *  same on every machine and for any number of ranks. @param key identifies
    *  the stream */

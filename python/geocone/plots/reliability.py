@@ -1,6 +1,6 @@
 # Copyright (C) 2026 by the geocone authors
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""reliability.png: the fraction of samples that fail, between certified limits, against the
+"""reliability.png: the fraction of samples, by weight, that fail, between certified limits, against the
 number of samples; sample.png: the strength of a sample that fails, and its mechanism."""
 
 import numpy as np
@@ -16,14 +16,16 @@ FACTORS = {"cohesion_factor": "cohesion over its mean (-)",
 
 
 def draw_fraction(run, path):
-    """Draws the fraction of samples that fail: at least those that are certified to, at most
-    those and the undecided ones; and the limits of the probability at the end."""
+    """Draws the weighted fraction of samples that fail: at least those that are certified to,
+    at most those and the undecided ones; and the limits of the probability at the end."""
     table = run.table("samples")
     verdict = table["verdict (-)"]
     if not len(verdict):
         raise Skipped("there is no sample")
     n = np.arange(1, len(verdict) + 1)
-    least, most = np.cumsum(verdict < 0) / n, np.cumsum(verdict <= 0) / n
+    weight = table["weight (-)"]
+    least, most = (np.cumsum(np.where(counted, weight, 0.)) / n
+                   for counted in (verdict < 0, verdict <= 0))
     found = run.summary["reliability"]
     figure, axes = subplots(figsize=(7., 4.6))
     axes.axhspan(found["limit_lower"], found["limit_upper"], color="black", alpha=0.12,
@@ -34,7 +36,8 @@ def draw_fraction(run, path):
         axes.plot(n, values, style, color=BLUE, linewidth=1.3, label=words)
     axes.set(title=f"{heading(run)}: {found['failed']} of {found['samples']} samples fail, "
              f"{found['undecided']} are undecided", xlabel="number of samples (-)",
-             ylabel="fraction of samples (-)", xlim=(1, max(n[-1], 2)))
+             ylabel="weighted fraction of samples (-)" if np.any(weight != 1.) else
+             "fraction of samples (-)", xlim=(1, max(n[-1], 2)))
     axes.set_ylim(bottom=0.)
     axes.legend()
     save(figure, run, path)

@@ -1,0 +1,101 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_limit_analysis_importance_sampling_h
+#define geocone_limit_analysis_importance_sampling_h
+
+#include <geocone/base/state_row.h>
+
+#include <Eigen/Dense>
+
+#include <functional>
+
+namespace geocone
+{
+  /** Logarithm of the load factor for given standard normal numbers, with its
+   *  gradient. */
+  struct LimitState
+  {
+    double          log_load = 0.;
+    Eigen::VectorXd gradient;
+  };
+
+  /** Design point: the standard normal numbers of largest density for which the load
+   *  factor is one. */
+  struct DesignPoint
+  {
+    Eigen::VectorXd numbers;         ///< zero if the mean body fails
+    double          load_factor = 0; ///< at these numbers
+    unsigned int    iterations  = 0;
+    bool            converged   = false;
+
+    /** Reliability index of Hasofer and Lind (1974): distance from the origin. */
+    double
+    index() const
+    {
+      return numbers.norm();
+    }
+
+    bool
+    mean_fails() const
+    {
+      return converged && numbers.squaredNorm() == 0.;
+    }
+
+    void
+    state(StateRow &row);
+  };
+
+  /**
+   * Finds the design point by the iteration of Hasofer, Lind, Rackwitz and Fiessler
+   * (1978): u <- ((g.u - ln lambda)/|g|^2) g with the gradient g of ln lambda, by steps of
+   * a limited length.
+   * @param n number of standard normal numbers
+   * @param limit_state function of these numbers
+   */
+  DesignPoint
+  design_point(
+    const unsigned int                                        n,
+    const std::function<LimitState(const Eigen::VectorXd &)> &limit_state);
+
+  /**
+   * Density from which samples are drawn: nine samples of ten are normally distributed
+   * around a design point, every tenth around the origin. Weights of samples, phi(u) over
+   * the density, are therefore 10 at most, and sums of weights have a finite variance
+   * wherever samples fail (defensive mixture, Hesterberg 1995; fixed shares, Owen and Zhou
+   * 2000). A design point at the origin gives the weight 1 to all samples.
+   */
+  class SamplingDensity
+  {
+  public:
+    SamplingDensity() = default;
+
+    explicit SamplingDensity(Eigen::VectorXd design_point)
+      : shift(std::move(design_point))
+    {}
+
+    /** Returns true if all weights are 1. */
+    bool
+    is_normal() const
+    {
+      return shift.size() == 0 || shift.squaredNorm() == 0.;
+    }
+
+    /** Moves independent standard normal numbers of a sample to the density.
+     *  @param number of the sample, from 1 */
+    Eigen::VectorXd
+    moved(const unsigned int number, Eigen::VectorXd numbers) const;
+
+    /** Ratio of the standard normal density to this one. */
+    double
+    weight(const Eigen::VectorXd &numbers) const;
+
+    static constexpr unsigned int period         = 10;
+    static constexpr double       largest_weight = period;
+
+  private:
+    Eigen::VectorXd shift;
+  };
+} // namespace geocone
+
+#endif

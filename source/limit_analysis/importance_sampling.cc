@@ -1,0 +1,70 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/limit_analysis/importance_sampling.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace geocone
+{
+  using Eigen::VectorXd;
+
+  void
+  DesignPoint::state(StateRow &row)
+  {
+    std::vector<double> values(numbers.begin(), numbers.end());
+    row(values, load_factor, iterations, converged);
+    numbers = Eigen::Map<const VectorXd>(values.data(), values.size());
+  }
+
+  DesignPoint
+  design_point(const unsigned int                                 n,
+               const std::function<LimitState(const VectorXd &)> &limit_state)
+  {
+    constexpr unsigned int most_iterations = 20;
+    constexpr double       longest = 3., tolerance = 0.02;
+    DesignPoint            point;
+    point.numbers.setZero(n);
+    for (;;)
+      {
+        const LimitState state = limit_state(point.numbers);
+        point.load_factor      = std::exp(state.log_load);
+        const double square    = state.gradient.squaredNorm();
+        if (!std::isfinite(state.log_load + square) || square == 0.)
+          return point;
+        const VectorXd change =
+          (state.gradient.dot(point.numbers) - state.log_load) / square *
+            state.gradient -
+          point.numbers;
+        const double length = change.norm();
+        point.converged     = point.iterations == 0
+                                ? state.log_load <= 0.
+                                : length < tolerance * std::max(1., point.index());
+        if (point.converged || point.iterations == most_iterations)
+          return point;
+        // Steps that alternate between two mechanisms are shortened.
+        const double allowed = point.iterations < 8 ? longest : longest / 6.;
+        point.numbers += std::min(1., allowed / length) * change;
+        ++point.iterations;
+      }
+  }
+
+  VectorXd
+  SamplingDensity::moved(const unsigned int number, VectorXd numbers) const
+  {
+    if (!is_normal() && number % period != 0)
+      numbers += shift;
+    return numbers;
+  }
+
+  double
+  SamplingDensity::weight(const VectorXd &numbers) const
+  {
+    if (is_normal())
+      return 1.;
+    const double ratio =
+      std::exp(shift.dot(numbers) - shift.squaredNorm() / 2.);
+    return period / (1. + (period - 1.) * ratio);
+  }
+} // namespace geocone
