@@ -1,0 +1,93 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_limit_analysis_axisymmetric_points_h
+#define geocone_limit_analysis_axisymmetric_points_h
+
+#include <geocone/limit_analysis/axisymmetric_bounds.h>
+#include <geocone/limit_analysis/axisymmetric_strength.h>
+#include <geocone/limit_analysis/cell_points.h>
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+/** Points, forces and matrices of both problems of axisymmetric bodies. */
+namespace geocone::GEOCONE_DIM
+{
+  /** Forces F0 and f of a problem. */
+  struct Forces
+  {
+    ConicProblem &problem;
+
+    void
+    add(const unsigned int dof, const double dead, const double live) const
+    {
+      problem.dead[dof] += dead;
+      problem.live[dof] += live;
+    }
+  };
+
+  /** Columns of a matrix of rates by dofs, each of which occurs once. */
+  template <int n_rows, int n_columns>
+  class Columns
+  {
+  public:
+    using Vector = Eigen::Matrix<double, n_rows, 1>;
+
+    void
+    add(const unsigned int dof, const Vector &rate)
+    {
+      const auto end   = dofs.begin() + n;
+      const auto found = std::find(dofs.begin(), end, dof);
+      if (found == end)
+        {
+          AssertThrow(n < n_columns, dealii::ExcInternalError());
+          dofs[n++] = dof;
+        }
+      B.col(found - dofs.begin()) += rate;
+    }
+
+    /** Completes unused columns by zeros. */
+    void
+    finish()
+    {
+      std::fill(dofs.begin() + n, dofs.end(), dofs[0]);
+    }
+
+    Eigen::Matrix<double, n_rows, n_columns> B =
+      Eigen::Matrix<double, n_rows, n_columns>::Zero();
+    std::array<unsigned int, n_columns> dofs;
+
+  private:
+    unsigned int n = 0;
+  };
+
+  /** Local index of the vertices of an edge in a cell. */
+  inline std::array<unsigned int, 2>
+  ends_in_cell(const Triangles   &triangles,
+               const unsigned int edge,
+               const unsigned int cell)
+  {
+    std::array<unsigned int, 2> ends;
+    for (unsigned int i = 0; i < 2; ++i)
+      ends[i] = std::find(triangles.cells[cell].begin(),
+                          triangles.cells[cell].end(),
+                          triangles.edges[edge].vertices[i]) -
+                triangles.cells[cell].begin();
+    return ends;
+  }
+
+  /** Groups of the points of cells, without points. */
+  template <int n_columns>
+  CellPoints<n_columns, AxisymmetricMohrCoulomb, CircularConeOf<4>>
+  empty_axisymmetric_points(const std::vector<SpatialStrength> &strengths)
+  {
+    return CellPoints<n_columns, AxisymmetricMohrCoulomb, CircularConeOf<4>>(
+      strengths,
+      [](const auto &one) { return axisymmetric_mohr_coulomb(one.a); },
+      [](const auto &one) { return circular_cone<4>(one.a); });
+  }
+} // namespace geocone::GEOCONE_DIM
+
+#endif
