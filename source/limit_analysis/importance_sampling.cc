@@ -50,11 +50,44 @@ namespace geocone
       }
   }
 
+  double
+  distance_of_centre(
+    const DesignPoint                                 &point,
+    const std::vector<VectorXd>                       &pilots,
+    const std::function<LimitState(const VectorXd &)> &limit_state)
+  {
+    const double distance = point.index();
+    if (distance == 0.)
+      return 0.;
+    constexpr unsigned int n_steps = 3;
+    constexpr double       near    = 0.1;
+    const VectorXd         axis    = point.numbers / distance;
+    double                 centre  = distance;
+    for (unsigned int step = 0; step < n_steps && centre > 0.; ++step)
+      {
+        double sum = 0., slope = 0.;
+        for (const VectorXd &pilot : pilots)
+          {
+            const LimitState state =
+              limit_state(pilot + (centre - axis.dot(pilot)) * axis);
+            sum += state.log_load;
+            slope += axis.dot(state.gradient);
+          }
+        if (!(slope < 0.) || !std::isfinite(sum))
+          break;
+        const double change = -sum / slope;
+        centre              = std::clamp(centre + change, 0., distance);
+        if (std::abs(change) < near)
+          break;
+      }
+    return centre;
+  }
+
   VectorXd
   SamplingDensity::moved(const unsigned int number, VectorXd numbers) const
   {
     if (!is_normal() && number % period != 0)
-      numbers += shift;
+      numbers += centre;
     return numbers;
   }
 
@@ -64,7 +97,7 @@ namespace geocone
     if (is_normal())
       return 1.;
     const double ratio =
-      std::exp(shift.dot(numbers) - shift.squaredNorm() / 2.);
+      std::exp(centre.dot(numbers) - centre.squaredNorm() / 2.);
     return period / (1. + (period - 1.) * ratio);
   }
 } // namespace geocone

@@ -28,6 +28,9 @@ namespace geocone::GEOCONE_DIM
     /** Samples of a step, on any number of ranks. */
     constexpr unsigned int batch = 16;
 
+    /** Trial samples of importance sampling. */
+    constexpr unsigned int n_pilots = 16;
+
     /** Marks the triangles with most of a refinement indicator, a third at most.
      *  @return empty if there is nothing to be refined */
     std::vector<bool>
@@ -235,9 +238,6 @@ namespace geocone::GEOCONE_DIM
       mechanisms.add({std::move(*response.mechanism)});
     if (response.stresses)
       stresses.add({std::move(*response.stresses)});
-    log.print(format("  design point: index %.4g, load factor %.5g",
-                     numbers.norm(),
-                     response.load));
     return {std::log(response.load),
             fields.gradient(numbers, std::move(response.elasticity))};
   }
@@ -247,18 +247,29 @@ namespace geocone::GEOCONE_DIM
   {
     try
       {
-        design = design_point(fields.rank(), [&](const Eigen::VectorXd &u) {
+        const auto state = [&](const Eigen::VectorXd &u) {
           return limit_state(u);
-        });
+        };
+        design = design_point(fields.rank(), state);
+        // Numbers that no sample has.
+        std::vector<Eigen::VectorXd> pilots;
+        for (unsigned int i = 0; i < n_pilots; ++i)
+          pilots.push_back(fields.numbers_of(-1U - i));
+        distance = distance_of_centre(design, pilots, state);
       }
     catch (const Stopped &)
       {} // all ranks are together here
     stop_if_asked(comm);
     // Ranks of different machines may round differently.
     StateRow of_first;
-    of_first(design, mechanisms, stresses);
+    of_first(design, distance, mechanisms, stresses);
     StateRow row(dealii::Utilities::MPI::broadcast(comm, of_first.values()));
-    row(design, mechanisms, stresses);
+    row(design, distance, mechanisms, stresses);
+    log.print(format("design point: reliability index %.4g, load factor %.4g; "
+                     "samples around it at the distance %.4g",
+                     design.index(),
+                     design.load_factor,
+                     distance));
     if (design.mean_fails())
       log.warn(format("the body with mean properties fails (load factor %.4g): "
                       "samples are those of Monte Carlo",
@@ -409,6 +420,7 @@ namespace geocone::GEOCONE_DIM
     if (sampling == Sampling::importance)
       json["reliability"].update(
         {{"reliability_index", design.index()},
+         {"distance_of_centre", distance},
          {"design_point_load_factor", design.load_factor},
          {"design_point_found", design.converged},
          {"mean_weight", found.mean_weight},

@@ -9,6 +9,8 @@
 #include <Eigen/Dense>
 
 #include <functional>
+#include <utility>
+#include <vector>
 
 namespace geocone
 {
@@ -42,6 +44,14 @@ namespace geocone
       return converged && numbers.squaredNorm() == 0.;
     }
 
+    /** Point at a distance from the origin, towards the design point. */
+    Eigen::VectorXd
+    centre(const double distance) const
+    {
+      return numbers.squaredNorm() > 0. ? distance / index() * numbers
+                                        : numbers;
+    }
+
     void
     state(StateRow &row);
   };
@@ -59,26 +69,40 @@ namespace geocone
     const std::function<LimitState(const Eigen::VectorXd &)> &limit_state);
 
   /**
+   * Distance of the centre of samples from the origin, along a design point, at which the
+   * mean of ln lambda vanishes, so that about half of the samples fail. With many random
+   * numbers this is less than the reliability index, since other soil than that of the
+   * design point fails as well.
+   * @param pilots standard normal numbers of trial samples; their component along the
+   * design point is left out
+   */
+  double
+  distance_of_centre(
+    const DesignPoint                                        &point,
+    const std::vector<Eigen::VectorXd>                       &pilots,
+    const std::function<LimitState(const Eigen::VectorXd &)> &limit_state);
+
+  /**
    * Density from which samples are drawn: nine samples of ten are normally distributed
-   * around a design point, every tenth around the origin. Weights of samples, phi(u) over
+   * around a centre, every tenth around the origin. Weights of samples, phi(u) over
    * the density, are therefore 10 at most, and sums of weights have a finite variance
    * wherever samples fail (defensive mixture, Hesterberg 1995; fixed shares, Owen and Zhou
-   * 2000). A design point at the origin gives the weight 1 to all samples.
+   * 2000). A centre at the origin gives the weight 1 to all samples.
    */
   class SamplingDensity
   {
   public:
     SamplingDensity() = default;
 
-    explicit SamplingDensity(Eigen::VectorXd design_point)
-      : shift(std::move(design_point))
+    explicit SamplingDensity(Eigen::VectorXd centre)
+      : centre(std::move(centre))
     {}
 
     /** Returns true if all weights are 1. */
     bool
     is_normal() const
     {
-      return shift.size() == 0 || shift.squaredNorm() == 0.;
+      return centre.size() == 0 || centre.squaredNorm() == 0.;
     }
 
     /** Moves independent standard normal numbers of a sample to the density.
@@ -94,7 +118,7 @@ namespace geocone
     static constexpr double       largest_weight = period;
 
   private:
-    Eigen::VectorXd shift;
+    Eigen::VectorXd centre;
   };
 } // namespace geocone
 

@@ -142,7 +142,7 @@ namespace geocone::GEOCONE_DIM
     void
     state(StateRow &row) override
     {
-      row(mechanisms, stresses, design);
+      row(mechanisms, stresses, design, distance);
     }
 
     std::string
@@ -224,10 +224,11 @@ namespace geocone::GEOCONE_DIM
     SamplingDensity
     density() const
     {
-      return SamplingDensity(design.numbers);
+      return SamplingDensity(design.centre(distance));
     }
 
-    /** Finds the design point on the first mesh. Collective. @throws StepFailure */
+    /** Finds the design point and the centre of samples on the first mesh.
+     *  Collective. */
     void
     find_design_point();
 
@@ -276,6 +277,7 @@ namespace geocone::GEOCONE_DIM
     LatestFields<StressField> stresses;
 
     DesignPoint design; ///< without numbers before the first batch
+    double      distance = 0.; ///< of the centre of samples from the origin
   };
 } // namespace geocone::GEOCONE_DIM
 
