@@ -3,7 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
-#include <geocone/limit_analysis/axisymmetric_bounds.h>
+#include <geocone/limit_analysis/axisymmetric_points.h>
 
 #include <algorithm>
 
@@ -78,13 +78,6 @@ namespace geocone::GEOCONE_DIM
                                      : cell.body_force.dead) = weight;
         cells.push_back(cell);
       }
-    const auto place_of = [&](const unsigned int e) {
-      FacetPlace place;
-      place.normal = edges[e].normal;
-      for (unsigned int i = 0; i < 2; ++i)
-        place.vertices[i] = triangles.vertices[triangles.edges[e].vertices[i]];
-      return place;
-    };
     for (unsigned int e = 0; e < edges.size(); ++e)
       {
         const FacetPlace place = place_of(e);
@@ -106,18 +99,64 @@ namespace geocone::GEOCONE_DIM
         edges[e].condition.velocity /= bound.units.velocity;
       }
     for (const auto &load : scene.tractions.list)
-      for (const auto &of : triangles.held_edges(*load))
-        {
-          Edge &edge = edges[of.edge];
-          if (edge.is_on_axis())
-            continue;
-          const auto t =
-            tractions_at_vertices(*load, place_of(of.edge), edge.condition);
-          for (unsigned int i = 0; i < 2; ++i)
-            (is_live(LoadFactor::tractions) ? edge.traction[i].live
-                                            : edge.traction[i].dead) +=
-              t[i] / bound.units.stress;
-        }
+      add_traction(*load, is_live(LoadFactor::tractions));
+  }
+
+  FacetPlace
+  AxisymmetricScene::place_of(const unsigned int edge) const
+  {
+    FacetPlace place;
+    place.normal = edges[edge].normal;
+    for (unsigned int i = 0; i < 2; ++i)
+      place.vertices[i] =
+        bound.triangles.vertices[bound.triangles.edges[edge].vertices[i]];
+    return place;
+  }
+
+  void
+  AxisymmetricScene::add_traction(const BoundaryCondition &load,
+                                  const bool               is_live)
+  {
+    for (const auto &of : bound.triangles.held_edges(load))
+      {
+        Edge &edge = edges[of.edge];
+        if (edge.is_on_axis())
+          continue;
+        const auto t =
+          tractions_at_vertices(load, place_of(of.edge), edge.condition);
+        for (unsigned int i = 0; i < 2; ++i)
+          (is_live ? edge.traction[i].live : edge.traction[i].dead) +=
+            t[i] / bound.units.stress;
+      }
+  }
+
+  AxisymmetricScene
+  AxisymmetricScene::without_loads() const
+  {
+    AxisymmetricScene scene = *this;
+    for (Cell &cell : scene.cells)
+      cell.body_force = Load();
+    for (Edge &edge : scene.edges)
+      edge.traction = {};
+    return scene;
+  }
+
+  AxisymmetricScene
+  AxisymmetricScene::with_weight_of(const unsigned int material) const
+  {
+    AxisymmetricScene scene = without_loads();
+    for (unsigned int c = 0; c < cells.size(); ++c)
+      if (bound.triangles.material[c] == material)
+        scene.cells[c].body_force.live = weight_of_cell(bound, c);
+    return scene;
+  }
+
+  AxisymmetricScene
+  AxisymmetricScene::with_traction(const BoundaryCondition &load) const
+  {
+    AxisymmetricScene scene = without_loads();
+    scene.add_traction(load, true);
+    return scene;
   }
 
   void
@@ -169,5 +208,11 @@ namespace geocone::GEOCONE_DIM
         one.k_at(
           bound.triangles.vertices[bound.triangles.edges[edge].vertices[i]]);
     return one;
+  }
+
+  ConicProblem
+  forces_of(const AxisymmetricScene &scene, const BoundSide side)
+  {
+    return side == BoundSide::upper ? upper_forces(scene) : lower_forces(scene);
   }
 } // namespace geocone::GEOCONE_DIM

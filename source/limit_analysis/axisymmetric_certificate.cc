@@ -3,7 +3,7 @@
 
 #include <geocone/base/log.h>
 #include <geocone/limit_analysis/axisymmetric_certificate.h>
-#include <geocone/limit_analysis/cell_points.h>
+#include <geocone/limit_analysis/axisymmetric_points.h>
 
 #include <algorithm>
 #include <cmath>
@@ -197,98 +197,95 @@ namespace geocone::GEOCONE_DIM
     return result;
   }
 
+  std::vector<Eigen::Matrix3d>
+  rates_of_cell(const AxisymmetricScene &scene,
+                const Eigen::VectorXd   &q,
+                const unsigned int       number)
+  {
+    const auto                  &cell = scene.cells[number];
+    std::vector<Eigen::Matrix3d> rates;
+    for (const auto &a : bernstein::functions_of_triangle(space::order))
+      {
+        const double   v = q[space::dof_of_v(number, a)];
+        Tensor<1, dim> of_r, of_z; // gradients of r v, less v, and of w
+        for (unsigned int j = 0; j < 3; ++j)
+          {
+            of_z += (space::order + 1.) *
+                    q[space::dof_of_w(number, raised(a, j))] *
+                    cell.gradients[j];
+            for (unsigned int i = 0; i < 3; ++i)
+              if (a[i] > 0)
+                of_r += a[i] * cell.radius[i] *
+                        q[space::dof_of_v(number, raised(lowered(a, i), j))] *
+                        cell.gradients[j];
+          }
+        Eigen::Matrix3d e = Eigen::Matrix3d::Zero();
+        e(0, 0)           = v + of_r[0];
+        e(1, 1)           = of_z[1];
+        e(0, 1) = e(1, 0) = (of_r[1] + of_z[0]) / 2.;
+        e(2, 2)           = v;
+        rates.push_back(e);
+      }
+    return rates;
+  }
+
+  std::vector<Tensor<1, dim>>
+  velocity_on_edge(const AxisymmetricScene &scene,
+                   const Eigen::VectorXd   &q,
+                   const unsigned int       number,
+                   const unsigned int       cell)
+  {
+    const Triangles   &triangles  = scene.bound.triangles;
+    const auto        &r          = scene.edges[number].radius;
+    const auto        &ends       = triangles.edges[number].vertices;
+    const unsigned int a          = index_in_cell(triangles, cell, ends[0]),
+                       b          = index_in_cell(triangles, cell, ends[1]);
+    constexpr unsigned int      n = space::order + 1;
+    std::vector<Tensor<1, dim>> u(n + 1);
+    for (unsigned int k = 0; k <= n; ++k)
+      u[k][1] = q[space::dof_of_w(cell, bernstein::on_edge(n, a, b, k))];
+    for (unsigned int k = 0; k < n; ++k)
+      {
+        const double v =
+          q[space::dof_of_v(cell, bernstein::on_edge(n - 1, a, b, k))];
+        u[k][0] += double(n - k) / n * r[0] * v;
+        u[k + 1][0] += double(k + 1) / n * r[1] * v;
+      }
+    return u;
+  }
+
+  std::vector<Tensor<1, dim>>
+  jump_at(const AxisymmetricScene &scene,
+          const Eigen::VectorXd   &q,
+          const unsigned int       number)
+  {
+    const auto &edge = scene.edges[number];
+    auto        u    = velocity_on_edge(scene, q, number, edge.cells[0]);
+    if (edge.is_inner())
+      {
+        const auto outer = velocity_on_edge(scene, q, number, edge.cells[1]);
+        for (unsigned int k = 0; k < u.size(); ++k)
+          u[k] = outer[k] - u[k];
+      }
+    else
+      for (Tensor<1, dim> &one : u)
+        one = edge.condition.velocity - one;
+    if (edge.condition.kind == FacetCondition::Kind::plane)
+      for (Tensor<1, dim> &one : u) // the soil slides freely along it
+        one = (one * edge.normal) * edge.normal;
+    return u;
+  }
+
+  bool
+  resists_jump(const AxisymmetricScene::Edge &edge)
+  {
+    return !edge.is_on_axis() &&
+           (edge.is_inner() ||
+            edge.condition.kind != FacetCondition::Kind::free);
+  }
+
   namespace
   {
-    /** Strain rates of a cell: the coefficients of their polynomials. */
-    std::vector<Eigen::Matrix3d>
-    rates_of_cell(const AxisymmetricScene &scene,
-                  const Eigen::VectorXd   &q,
-                  const unsigned int       number)
-    {
-      const auto                  &cell = scene.cells[number];
-      std::vector<Eigen::Matrix3d> rates;
-      for (const auto &a : bernstein::functions_of_triangle(space::order))
-        {
-          const double   v = q[space::dof_of_v(number, a)];
-          Tensor<1, dim> of_r, of_z; // gradients of r v, less v, and of w
-          for (unsigned int j = 0; j < 3; ++j)
-            {
-              of_z += (space::order + 1.) *
-                      q[space::dof_of_w(number, raised(a, j))] *
-                      cell.gradients[j];
-              for (unsigned int i = 0; i < 3; ++i)
-                if (a[i] > 0)
-                  of_r += a[i] * cell.radius[i] *
-                          q[space::dof_of_v(number, raised(lowered(a, i), j))] *
-                          cell.gradients[j];
-            }
-          Eigen::Matrix3d e = Eigen::Matrix3d::Zero();
-          e(0, 0)           = v + of_r[0];
-          e(1, 1)           = of_z[1];
-          e(0, 1) = e(1, 0) = (of_r[1] + of_z[0]) / 2.;
-          e(2, 2)           = v;
-          rates.push_back(e);
-        }
-      return rates;
-    }
-
-    /** Velocity of a cell on an edge: the coefficients of its polynomial. */
-    std::vector<Tensor<1, dim>>
-    velocity_on_edge(const AxisymmetricScene &scene,
-                     const Eigen::VectorXd   &q,
-                     const unsigned int       number,
-                     const unsigned int       cell)
-    {
-      const Triangles   &triangles  = scene.bound.triangles;
-      const auto        &r          = scene.edges[number].radius;
-      const auto        &ends       = triangles.edges[number].vertices;
-      const unsigned int a          = index_in_cell(triangles, cell, ends[0]),
-                         b          = index_in_cell(triangles, cell, ends[1]);
-      constexpr unsigned int      n = space::order + 1;
-      std::vector<Tensor<1, dim>> u(n + 1);
-      for (unsigned int k = 0; k <= n; ++k)
-        u[k][1] = q[space::dof_of_w(cell, bernstein::on_edge(n, a, b, k))];
-      for (unsigned int k = 0; k < n; ++k)
-        {
-          const double v =
-            q[space::dof_of_v(cell, bernstein::on_edge(n - 1, a, b, k))];
-          u[k][0] += double(n - k) / n * r[0] * v;
-          u[k + 1][0] += double(k + 1) / n * r[1] * v;
-        }
-      return u;
-    }
-
-    /** Jump of the velocity at an edge, from its first cell outwards. */
-    std::vector<Tensor<1, dim>>
-    jump_at(const AxisymmetricScene &scene,
-            const Eigen::VectorXd   &q,
-            const unsigned int       number)
-    {
-      const auto &edge = scene.edges[number];
-      auto        u    = velocity_on_edge(scene, q, number, edge.cells[0]);
-      if (edge.is_inner())
-        {
-          const auto outer = velocity_on_edge(scene, q, number, edge.cells[1]);
-          for (unsigned int k = 0; k < u.size(); ++k)
-            u[k] = outer[k] - u[k];
-        }
-      else
-        for (Tensor<1, dim> &one : u)
-          one = edge.condition.velocity - one;
-      if (edge.condition.kind == FacetCondition::Kind::plane)
-        for (Tensor<1, dim> &one : u) // the soil slides freely along it
-          one = (one * edge.normal) * edge.normal;
-      return u;
-    }
-
-    bool
-    resists_jump(const AxisymmetricScene::Edge &edge)
-    {
-      return !edge.is_on_axis() &&
-             (edge.is_inner() ||
-              edge.condition.kind != FacetCondition::Kind::free);
-    }
-
     /** Power of the dead and the live loads. */
     struct PowerOfLoads
     {
@@ -413,7 +410,8 @@ namespace geocone::GEOCONE_DIM
         side.bound = certify_upper(scene, q, power);
         return side.bound;
       });
-    side.n_unknowns = problem.n_unknowns();
+    side.n_unknowns     = problem.n_unknowns();
+    side.strength_power = powers_of_upper(scene, problem, side.bound.q);
     return side;
   }
 
@@ -445,7 +443,32 @@ namespace geocone::GEOCONE_DIM
     side.bound   = certify_lower(scene, stress, side.solution.load);
     side.bound.q = side.solution.q; // shows the mechanism
     side.power.assign(scene.cells.size(), 0.);
+    side.strength_power = powers_of_lower(scene, problem, side.solution.q);
     return side;
+  }
+
+  void
+  add_power_of_point(const SpatialStrength &strength,
+                     const double           dissipation,
+                     const double           k,
+                     const double           constant,
+                     const Eigen::Vector4d &stress,
+                     StrengthPower         &power)
+  {
+    power.cohesion += constant * dissipation;
+    power.growth += (1. - constant) * dissipation;
+    const double a = strength.a;
+    if (strength.is_circular || a == 0.)
+      return;
+    // Of k - (1 + a) s_1 + (1 - a) s_3: da = a cos^2(phi) d ln tan(phi), and k is
+    // proportional to cos(phi).
+    const double middle = (stress[0] + stress[1]) / 2.,
+                 radius =
+                   std::hypot((stress[0] - stress[1]) / 2., stress[2] / sqrt2),
+                 most  = std::max(middle + radius, stress[3]),
+                 least = std::min(middle - radius, stress[3]);
+    power.tan_phi -=
+      dissipation / k * (a * a * k + a * (1. - a * a) * (most + least));
   }
 
   std::vector<double>

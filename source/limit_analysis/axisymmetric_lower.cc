@@ -108,7 +108,14 @@ namespace geocone::GEOCONE_DIM
       return rate;
     }
 
-    /** Adds the stress and the weight of a cell. */
+    /** Returns true if the stress times r is zero: a coefficient on the axis. */
+    bool
+    is_on_axis(const AxisymmetricScene::Cell &cell, const Exponents<3> &a)
+    {
+      return bernstein::coefficient(a, cell.radius, cell.strength) == 0.;
+    }
+
+    /** Adds the stress of a cell. */
     template <typename Points>
     void
     add_cell(const AxisymmetricScene &scene,
@@ -119,33 +126,28 @@ namespace geocone::GEOCONE_DIM
     {
       const auto        &cell     = scene.cells[c];
       const unsigned int material = scene.bound.triangles.material[c];
-      const double       V        = cell.area / EquilibriumDofs::n_r,
-                   V_z            = cell.area / EquilibriumDofs::n_z;
+      const double       V        = cell.area / EquilibriumDofs::n_r;
       for (const auto &a :
            bernstein::functions_of_triangle(EquilibriumDofs::order))
-        {
-          const double k =
-            bernstein::coefficient(a, cell.radius, cell.strength);
-          // On the axis the stress times r is zero.
-          if (k == 0.)
-            {
-              const unsigned int equation =
-                equations.of_r(c) + bernstein::position(a);
-              problem.is_prescribed[equation] = true;
-              StressColumns none;
-              none.add(equation, Eigen::Vector4d::Zero());
-              none.finish();
-              points.add(material, none.B, none.dofs, V, 1.);
-              continue;
-            }
-          const auto rate = equations_of(scene, c, a, equations);
-          points.add(material, rate.B, rate.dofs, V, k);
-        }
-      const Forces forces = {problem};
-      for (unsigned int i = 0; i < EquilibriumDofs::n_z; ++i)
-        forces.add(equations.of_z(c) + i,
-                   V_z * cell.radius[i] * cell.body_force.dead[1],
-                   V_z * cell.radius[i] * cell.body_force.live[1]);
+        if (is_on_axis(cell, a))
+          {
+            const unsigned int equation =
+              equations.of_r(c) + bernstein::position(a);
+            problem.is_prescribed[equation] = true;
+            StressColumns none;
+            none.add(equation, Eigen::Vector4d::Zero());
+            none.finish();
+            points.add(material, none.B, none.dofs, V, 1.);
+          }
+        else
+          {
+            const auto rate = equations_of(scene, c, a, equations);
+            points.add(material,
+                       rate.B,
+                       rate.dofs,
+                       V,
+                       bernstein::coefficient(a, cell.radius, cell.strength));
+          }
     }
 
     /** Adds the given tractions and the held components of an edge. */
@@ -197,17 +199,77 @@ namespace geocone::GEOCONE_DIM
   }
 
   ConicProblem
-  lower_problem(const AxisymmetricScene &scene)
+  lower_forces(const AxisymmetricScene &scene)
   {
     const EquilibriumDofs equations(scene);
     ConicProblem          problem = ConicProblem::of_dofs(equations.n);
+    const Forces          forces  = {problem};
+    for (unsigned int c = 0; c < scene.cells.size(); ++c)
+      {
+        const auto  &cell = scene.cells[c];
+        const double V_z  = cell.area / EquilibriumDofs::n_z;
+        for (unsigned int i = 0; i < EquilibriumDofs::n_z; ++i)
+          forces.add(equations.of_z(c) + i,
+                     V_z * cell.radius[i] * cell.body_force.dead[1],
+                     V_z * cell.radius[i] * cell.body_force.live[1]);
+      }
+    for (unsigned int e = 0; e < scene.edges.size(); ++e)
+      add_edge(scene, e, equations, problem);
+    return problem;
+  }
+
+  ConicProblem
+  lower_problem(const AxisymmetricScene &scene)
+  {
+    const EquilibriumDofs equations(scene);
+    ConicProblem          problem = lower_forces(scene);
     auto                  points =
       empty_axisymmetric_points<columns_of_stress>(scene.bound.strengths);
     for (unsigned int c = 0; c < scene.cells.size(); ++c)
       add_cell(scene, c, equations, points, problem);
-    for (unsigned int e = 0; e < scene.edges.size(); ++e)
-      add_edge(scene, e, equations, problem);
     points.move_to(problem);
     return problem;
+  }
+
+  std::vector<StrengthPower>
+  powers_of_lower(const AxisymmetricScene &scene,
+                  const ConicProblem      &solved,
+                  const Eigen::VectorXd   &q)
+  {
+    const BoundScene          &bound = scene.bound;
+    const EquilibriumDofs      equations(scene);
+    std::vector<StrengthPower> powers(bound.strengths.size());
+    const auto                 functions =
+      bernstein::functions_of_triangle(EquilibriumDofs::order);
+    const auto stresses = stresses_of_cells<Eigen::Vector4d>(
+      solved, bound.strengths, bound.triangles.material, functions.size());
+    for (unsigned int c = 0; c < scene.cells.size(); ++c)
+      {
+        const auto        &cell = scene.cells[c];
+        const unsigned int m    = bound.triangles.material[c];
+        const double       V    = cell.area / EquilibriumDofs::n_r;
+        for (unsigned int i = 0; i < functions.size(); ++i)
+          {
+            const Exponents<3> &a = functions[i];
+            if (is_on_axis(cell, a))
+              continue;
+            const auto  rate   = equations_of(scene, c, a, equations);
+            const auto &stress = stresses[functions.size() * c + i];
+            double      work   = 0.;
+            for (unsigned int j = 0; j < rate.n_used(); ++j)
+              work += V * stress.dot(rate.B.col(j)) * q[rate.dofs[j]];
+            const double    k0  = bound.strengths[m].k;
+            const Linear<3> all = {{k0, k0, k0}};
+            const double    k =
+              bernstein::coefficient(a, cell.radius, cell.strength);
+            add_power_of_point(bound.strengths[m],
+                               work,
+                               k,
+                               bernstein::coefficient(a, cell.radius, all) / k,
+                               stress,
+                               powers[m]);
+          }
+      }
+    return powers;
   }
 } // namespace geocone::GEOCONE_DIM

@@ -193,6 +193,31 @@ namespace geocone::GEOCONE_DIM
         }
     }
 
+    /** Points of an edge. */
+    enum class JumpKind
+    {
+      none,
+      prescribed, ///< a plane that soil without friction cannot leave
+      opening,    ///< at a smooth plane
+      of_soil
+    };
+
+    JumpKind
+    kind_of_jump(const AxisymmetricScene &scene,
+                 const unsigned int       e,
+                 const SpatialStrength   &one)
+    {
+      using Kind       = FacetCondition::Kind;
+      const auto &edge = scene.edges[e];
+      if (edge.is_on_axis() ||
+          (!edge.is_inner() && edge.condition.kind == Kind::free))
+        return JumpKind::none;
+      if (edge.condition.kind != Kind::plane)
+        return JumpKind::of_soil;
+      return one.face_friction() == 0. ? JumpKind::prescribed
+                                       : JumpKind::opening;
+    }
+
     /** Points of the jumps of velocity at edges. */
     struct JumpPoints
     {
@@ -228,14 +253,13 @@ namespace geocone::GEOCONE_DIM
               JumpPoints              &jumps,
               ConicProblem            &problem)
     {
-      const auto           &edge = scene.edges[e];
-      const FacetCondition &held = edge.condition;
-      if (!edge.is_inner() && held.kind == FacetCondition::Kind::free)
-        return;
+      const auto            &edge = scene.edges[e];
       Linear<2>              cohesion;
-      const SpatialStrength &one = scene.strength_of_jump(e, cohesion);
-      const bool is_plane        = held.kind == FacetCondition::Kind::plane;
-      if (is_plane && one.face_friction() == 0.)
+      const SpatialStrength &one  = scene.strength_of_jump(e, cohesion);
+      const JumpKind         kind = kind_of_jump(scene, e, one);
+      if (kind == JumpKind::none)
+        return;
+      if (kind == JumpKind::prescribed)
         return prescribe_plane(scene, e, problem);
       const auto complete = [&](auto &jump, const auto &axes, const auto k) {
         add_velocity(jump, scene, e, edge.cells[0], k, -1., axes);
@@ -257,7 +281,7 @@ namespace geocone::GEOCONE_DIM
           const double       part = mean(own, edge.radius),
                        weight     = edge.length * part,
                        c          = mean(own, edge.radius, cohesion) / part;
-          if (is_plane)
+          if (kind == JumpKind::opening)
             {
               Columns<1, columns_of_jump> opening;
               complete(
@@ -283,16 +307,38 @@ namespace geocone::GEOCONE_DIM
   } // namespace
 
   ConicProblem
-  upper_problem(const AxisymmetricScene &scene)
+  upper_forces(const AxisymmetricScene &scene)
   {
-    const BoundScene  &bound      = scene.bound;
     const unsigned int n_cells    = scene.cells.size();
     const unsigned int first_body = (space::n_v + space::n_w) * n_cells;
     const HeldBodies   bodies(scene, first_body);
     ConicProblem problem = ConicProblem::of_dofs(first_body + bodies.n_dofs());
     const Forces forces  = {problem};
     bodies.prescribe(problem);
+    for (unsigned int c = 0; c < n_cells; ++c)
+      {
+        const auto &cell = scene.cells[c];
+        for (const auto &a : bernstein::functions_of_triangle(space::order + 1))
+          {
+            const double part = cell.area * mean(a, cell.radius);
+            forces.add(space::dof_of_w(c, a),
+                       part * cell.body_force.dead[1],
+                       part * cell.body_force.live[1]);
+          }
+      }
+    for (unsigned int e = 0; e < scene.edges.size(); ++e)
+      if (!scene.edges[e].is_on_axis() && !scene.edges[e].is_inner())
+        add_tractions_of_edge(scene, e, forces);
+    return problem;
+  }
 
+  ConicProblem
+  upper_problem(const AxisymmetricScene &scene)
+  {
+    const BoundScene  &bound   = scene.bound;
+    const unsigned int n_cells = scene.cells.size();
+    const HeldBodies   bodies(scene, (space::n_v + space::n_w) * n_cells);
+    ConicProblem       problem = upper_forces(scene);
     auto points = empty_axisymmetric_points<columns_of_rate>(bound.strengths);
     for (unsigned int c = 0; c < n_cells; ++c)
       {
@@ -307,24 +353,102 @@ namespace geocone::GEOCONE_DIM
                        cell.area * part,
                        mean(a, cell.radius, cell.strength) / part);
           }
-        for (const auto &a : bernstein::functions_of_triangle(space::order + 1))
-          {
-            const double part = cell.area * mean(a, cell.radius);
-            forces.add(space::dof_of_w(c, a),
-                       part * cell.body_force.dead[1],
-                       part * cell.body_force.live[1]);
-          }
       }
     JumpPoints jumps(bound.strengths);
     for (unsigned int e = 0; e < scene.edges.size(); ++e)
-      if (!scene.edges[e].is_on_axis())
-        {
-          if (!scene.edges[e].is_inner())
-            add_tractions_of_edge(scene, e, forces);
-          add_jumps(scene, e, bodies, jumps, problem);
-        }
+      add_jumps(scene, e, bodies, jumps, problem);
     points.move_to(problem);
     jumps.move_to(problem);
     return problem;
+  }
+
+  namespace
+  {
+    /** Adds the powers of the jumps at an edge to that of its material.
+     *  @param jump coefficients of the jump
+     *  @param normal_stress of the next point of the soil's group */
+    template <typename NormalStress>
+    void
+    add_powers_of_edge(const AxisymmetricScene           &scene,
+                       const unsigned int                 e,
+                       const std::vector<Tensor<1, dim>> &jump,
+                       const NormalStress                &normal_stress,
+                       std::vector<StrengthPower>        &powers)
+    {
+      const auto            &edge = scene.edges[e];
+      Linear<2>              cohesion;
+      const SpatialStrength &one  = scene.strength_of_jump(e, cohesion);
+      const JumpKind         kind = kind_of_jump(scene, e, one);
+      if (kind != JumpKind::of_soil && kind != JumpKind::opening)
+        return;
+      StrengthPower &power = powers[&one - scene.bound.strengths.data()];
+      for (unsigned int k = 0; k < jump.size(); ++k)
+        {
+          const Exponents<2> own  = {{space::order + 1 - k, k}};
+          const double       part = mean(own, edge.radius),
+                       c          = mean(own, edge.radius, cohesion) / part,
+                       constant   = one.face_cohesion_per_k() * one.k / c;
+          const double dissipation =
+            edge.length * part *
+            one
+              .flow_of_jump(
+                c, jump[k] * edge.normal, std::abs(jump[k] * edge.tangent()))
+              .dissipation;
+          power.cohesion += constant * dissipation;
+          power.growth += (1. - constant) * dissipation;
+          // The strength of an opening is c/tan(phi), of a slip c - s_n tan(phi).
+          power.tan_phi -=
+            dissipation * (kind == JumpKind::opening
+                             ? 1.
+                             : one.face_friction() * normal_stress() / c);
+        }
+    }
+  } // namespace
+
+  std::vector<StrengthPower>
+  powers_of_upper(const AxisymmetricScene &scene,
+                  const ConicProblem      &solved,
+                  const Eigen::VectorXd   &q)
+  {
+    const BoundScene          &bound = scene.bound;
+    std::vector<StrengthPower> powers(bound.strengths.size());
+    const auto functions = bernstein::functions_of_triangle(space::order);
+    const auto stresses  = stresses_of_cells<Eigen::Vector4d>(
+      solved, bound.strengths, bound.triangles.material, functions.size());
+    for (unsigned int c = 0; c < scene.cells.size(); ++c)
+      {
+        const auto            &cell  = scene.cells[c];
+        const unsigned int     m     = bound.triangles.material[c];
+        const SpatialStrength &one   = bound.strengths[m];
+        const auto             rates = rates_of_cell(scene, q, c);
+        for (unsigned int i = 0; i < rates.size(); ++i)
+          {
+            const double part = mean(functions[i], cell.radius),
+                         k    = mean(functions[i], cell.radius, cell.strength) /
+                             part;
+            add_power_of_point(one,
+                               cell.area * part *
+                                 one.flow(k, rates[i]).dissipation,
+                               k,
+                               one.k / k,
+                               stresses[functions.size() * c + i],
+                               powers[m]);
+          }
+      }
+    // The points of soil's jumps follow those of the cells.
+    std::array<bool, SpatialStrength::n_forms> occurs = {};
+    for (const unsigned int m : bound.triangles.material)
+      occurs[bound.strengths[m].form()] = true;
+    const auto   group = std::count(occurs.begin(), occurs.end(), true);
+    unsigned int point = 0;
+    for (unsigned int e = 0; e < scene.edges.size(); ++e)
+      if (resists_jump(scene.edges[e]))
+        add_powers_of_edge(
+          scene,
+          e,
+          jump_at(scene, q, e),
+          [&]() { return solved.groups[group]->stress(point++)[0]; },
+          powers);
+    return powers;
   }
 } // namespace geocone::GEOCONE_DIM

@@ -4,6 +4,7 @@
 #include <geocone/base/constants.h>
 #include <geocone/base/log.h>
 #include <geocone/cone/second_order_cone.h>
+#include <geocone/limit_analysis/axisymmetric_bounds.h>
 #include <geocone/limit_analysis/gradients.h>
 
 #include <algorithm>
@@ -171,6 +172,48 @@ namespace geocone::GEOCONE_DIM
       return powers;
     }
 
+    /** Powers of a bound on the load of an axisymmetric body, in units. Those of
+     *  strengths are multiplied by their values. */
+    Powers
+    axisymmetric_powers_of(const SolvedBound &solved, const BoundSide side)
+    {
+      const BoundScene       &bound = solved.scene;
+      const AxisymmetricScene body(bound);
+      Powers                  powers;
+      powers.materials.resize(bound.scene.materials.size());
+      powers.tractions.resize(bound.scene.tractions.list.size());
+      if (!solved.side.bound.certified)
+        return powers;
+      const VectorXd &q =
+        side == BoundSide::lower ? solved.side.solution.q : solved.side.bound.q;
+      const ConicProblem forces = forces_of(body, side);
+      powers.all                = -forces.dead.dot(q);
+      for (unsigned int m = 0; m < powers.materials.size(); ++m)
+        {
+          const StrengthPower &power   = solved.side.strength_power[m];
+          powers.materials[m].cohesion = power.cohesion;
+          powers.materials[m].growing  = power.growth;
+          powers.materials[m].tan_phi  = power.tan_phi;
+          powers.all += power.cohesion + power.growth;
+        }
+      const double live_factor =
+        forces.has_factor() ? powers.all / forces.live.dot(q) : 1.;
+      const auto power_of = [&](const LoadFactor         kind,
+                                const AxisymmetricScene &part) {
+        const bool is_live =
+          bound.factor == kind || bound.factor == LoadFactor::all;
+        return (is_live ? live_factor : 1.) * forces_of(part, side).live.dot(q);
+      };
+      for (unsigned int m = 0; m < powers.materials.size(); ++m)
+        powers.materials[m].weight =
+          power_of(LoadFactor::weight, body.with_weight_of(m));
+      for (unsigned int i = 0; i < powers.tractions.size(); ++i)
+        powers.tractions[i] =
+          power_of(LoadFactor::tractions,
+                   body.with_traction(*bound.scene.tractions.list[i]));
+      return powers;
+    }
+
     /** Mean weight of a material per volume (N/m^3). */
     double
     mean_unit_weight(const BoundScene &bound, const unsigned int material)
@@ -180,8 +223,11 @@ namespace geocone::GEOCONE_DIM
       for (unsigned int c = 0; c < triangles.cells.size(); ++c)
         if (triangles.material[c] == material)
           {
-            weight += triangles.area(c) * weight_of_cell(bound, c).norm();
-            area += triangles.area(c);
+            const double part =
+              triangles.area(c) *
+              (bound.is_axisymmetric() ? triangles.centre(c)[0] : 1.);
+            weight += part * weight_of_cell(bound, c).norm();
+            area += part;
           }
       return area > 0. ? weight / area * bound.units.stress / bound.units.length
                        : 0.;
@@ -191,9 +237,23 @@ namespace geocone::GEOCONE_DIM
     struct Strength
     {
       double cohesion, slope, tan_phi, tension;
+      bool   is_circular = false; ///< the cohesion is k of the circular cone
 
       Strength(const BoundScene &given, const unsigned int m)
       {
+        if (given.is_axisymmetric())
+          {
+            const SpatialStrength &one     = given.strengths[m];
+            const double           cos_phi = std::sqrt(1. - one.a * one.a);
+            const double           unit =
+              given.units.stress / (one.is_circular ? 1. : 2. * cos_phi);
+            is_circular = one.is_circular;
+            cohesion    = one.k * unit;
+            slope       = one.growth.slope * unit;
+            tan_phi     = is_circular ? 0. : one.a / cos_phi;
+            tension     = infinite_tension;
+            return;
+          }
         const PointCone &cone    = given.cones[m];
         const double     cos_phi = std::sqrt(1. - cone.a * cone.a);
         const double     unit    = given.units.stress / sqrt2;
@@ -235,10 +295,16 @@ namespace geocone::GEOCONE_DIM
     {
       const std::string &name = given.scene.materials.name(m);
       const Strength     strength(given, m);
-      to.add({{"materials", name, "cohesion"}},
+      const bool         is_plane = !given.is_axisymmetric();
+      to.add({{"materials",
+               name,
+               strength.is_circular ? "strength_of_cone" : "cohesion"}},
              "Pa",
              strength.cohesion,
-             [&](const Powers &p) { return p.materials[m].cohesion; });
+             [&](const Powers &p) {
+               return p.materials[m].cohesion /
+                      (is_plane ? 1. : strength.cohesion);
+             });
       if (strength.slope != 0.)
         to.add({{"materials", name, "cohesion_gradient"}},
                "Pa/m",
@@ -250,11 +316,13 @@ namespace geocone::GEOCONE_DIM
         {
           const double phi  = std::atan(tan_phi) / radians(1.),
                        rate = (1. + tan_phi * tan_phi) * radians(1.);
-          to.add(
-            {{"materials", name, "friction_angle"}},
-            "degree",
-            phi,
-            [&](const Powers &p) { return p.materials[m].tan_phi * rate; });
+          to.add({{"materials", name, "friction_angle"}},
+                 "degree",
+                 phi,
+                 [&](const Powers &p) {
+                   return p.materials[m].tan_phi * rate /
+                          (is_plane ? 1. : tan_phi);
+                 });
           for (double &one : to.all.back().elasticity)
             one *= tan_phi / (phi * rate);
         }
@@ -301,9 +369,11 @@ namespace geocone::GEOCONE_DIM
                        const SolvedBound &upper)
     {
       const Scene &scene = given.scene;
-      Collector    to    = {{{powers_of(lower, BoundSide::lower),
-                              powers_of(upper, BoundSide::upper)}},
-                            {}};
+      const auto   powers =
+        given.is_axisymmetric() ? axisymmetric_powers_of : powers_of;
+      Collector to = {
+        {{powers(lower, BoundSide::lower), powers(upper, BoundSide::upper)}},
+        {}};
       for (unsigned int m = 0; m < scene.materials.size(); ++m)
         add_material(given, m, to);
       for (unsigned int i = 0; i < scene.tractions.list.size(); ++i)

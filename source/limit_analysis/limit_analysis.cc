@@ -478,7 +478,7 @@ namespace geocone::GEOCONE_DIM
   std::vector<Gradient>
   LimitAnalysis::gradients_of_last() const
   {
-    if (scene.geometry.is_axisymmetric() || !scene.structures.list.empty())
+    if (!scene.structures.list.empty())
       return {};
     const BoundScene given = bounded_load.on(scene, *triangles);
     if (!reduces_strength())

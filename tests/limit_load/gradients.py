@@ -10,7 +10,8 @@ from pathlib import Path
 
 program, root = sys.argv[1], Path(sys.argv[2])
 STEP = 0.02
-NAMES = {"cohesion": "Cohesion", "tensile_strength": "Tensile strength",
+NAMES = {"cohesion": "Cohesion", "cohesion_gradient": "Cohesion gradient",
+         "tensile_strength": "Tensile strength",
          "unit_weight": "Density", "traction": "Traction y"}
 LISTS = {"materials": "Materials", "tractions": "Tractions"}
 STRENGTHS = "cohesion", "cohesion_gradient", "tensile_strength", "adhesion"
@@ -78,6 +79,8 @@ def check_differences(scene, of_loads, reduced=False):
 
 check_differences("tests/limit_load/gradients_footing.prm", of_loads=1.)
 check_differences("tests/limit_load/gradients_slope.prm", of_loads=0., reduced=True)
+check_differences("tests/limit_load/gradients_disc.prm", of_loads=1.)
+check_differences("tests/limit_load/gradients_cone.prm", of_loads=0., reduced=True)
 for other, of_loads, reduced in (("wall_passive", 1., False), ("../safety/slope_water", 0., True),
                                  ("../safety/cut_growing_strength", 0., True)):
     check_sums(bounds_of(f"prm/limit_load/{other}.prm", ["Analysis/Maximum levels = 1"]),

@@ -33,6 +33,15 @@ namespace geocone::GEOCONE_DIM
     bool
     has_live_load() const;
 
+    /** Returns the scene with the weight of one material as its only load, which is
+     *  live. */
+    AxisymmetricScene
+    with_weight_of(const unsigned int material) const;
+
+    /** Returns the scene with one traction as its only load, which is live. */
+    AxisymmetricScene
+    with_traction(const BoundaryCondition &load) const;
+
     /** Body force or traction. The dead part is constant; the live part is multiplied
      *  by the load factor. */
     struct Load
@@ -89,6 +98,17 @@ namespace geocone::GEOCONE_DIM
     const BoundScene &bound;
     std::vector<Cell> cells;
     std::vector<Edge> edges;
+
+  private:
+    /** Place of an edge, without units. */
+    FacetPlace
+    place_of(const unsigned int edge) const;
+
+    void
+    add_traction(const BoundaryCondition &load, const bool is_live);
+
+    AxisymmetricScene
+    without_loads() const;
   };
 
   /**
@@ -151,6 +171,10 @@ namespace geocone::GEOCONE_DIM
    */
   ConicProblem
   lower_problem(const AxisymmetricScene &scene);
+
+  /** Returns a problem with its dofs and forces, and without points. */
+  ConicProblem
+  forces_of(const AxisymmetricScene &scene, const BoundSide side);
 
   /** Returns a coefficient of the traction on a boundary edge times r. */
   AxisymmetricScene::Load

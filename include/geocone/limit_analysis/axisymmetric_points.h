@@ -7,6 +7,7 @@
 #include <geocone/limit_analysis/axisymmetric_bounds.h>
 #include <geocone/limit_analysis/axisymmetric_strength.h>
 #include <geocone/limit_analysis/cell_points.h>
+#include <geocone/limit_analysis/certified_bounds.h>
 
 #include <algorithm>
 #include <array>
@@ -15,6 +16,66 @@
 /** Points, forces and matrices of both problems of axisymmetric bodies. */
 namespace geocone::GEOCONE_DIM
 {
+  /** @name Problems with their dofs and forces, and without points */
+  /** @{ */
+  ConicProblem
+  upper_forces(const AxisymmetricScene &scene);
+  ConicProblem
+  lower_forces(const AxisymmetricScene &scene);
+  /** @} */
+
+  /** @name Velocities of the upper bound */
+  /** @{ */
+  /** Strain rates of a cell: the coefficients of their polynomials. */
+  std::vector<Eigen::Matrix3d>
+  rates_of_cell(const AxisymmetricScene &scene,
+                const Eigen::VectorXd   &q,
+                const unsigned int       number);
+
+  /** Velocity of a cell on an edge: the coefficients of its polynomial. */
+  std::vector<dealii::Tensor<1, dim>>
+  velocity_on_edge(const AxisymmetricScene &scene,
+                   const Eigen::VectorXd   &q,
+                   const unsigned int       number,
+                   const unsigned int       cell);
+
+  /** Jump of the velocity at an edge, from its first cell outwards. */
+  std::vector<dealii::Tensor<1, dim>>
+  jump_at(const AxisymmetricScene &scene,
+          const Eigen::VectorXd   &q,
+          const unsigned int       number);
+
+  /** Returns true if an edge dissipates by jumps. */
+  bool
+  resists_jump(const AxisymmetricScene::Edge &edge);
+  /** @} */
+
+  /** @name Powers of the strengths of solved problems, by material */
+  /** @{ */
+  /** @param q velocities, whose dissipation is certified */
+  std::vector<StrengthPower>
+  powers_of_upper(const AxisymmetricScene &scene,
+                  const ConicProblem      &solved,
+                  const Eigen::VectorXd   &q);
+  /** @param q multipliers of equilibrium */
+  std::vector<StrengthPower>
+  powers_of_lower(const AxisymmetricScene &scene,
+                  const ConicProblem      &solved,
+                  const Eigen::VectorXd   &q);
+  /** @} */
+
+  /** Adds the power of the strength at a point of a cell.
+   *  @param dissipation power of the point
+   *  @param k strength of the point @param constant part of it that does not grow
+   *  @param stress (s_rr, s_zz, sqrt2 s_rz, s_tt) */
+  void
+  add_power_of_point(const SpatialStrength &strength,
+                     const double           dissipation,
+                     const double           k,
+                     const double           constant,
+                     const Eigen::Vector4d &stress,
+                     StrengthPower         &power);
+
   /** Forces F0 and f of a problem. */
   struct Forces
   {
@@ -53,6 +114,13 @@ namespace geocone::GEOCONE_DIM
     finish()
     {
       std::fill(dofs.begin() + n, dofs.end(), dofs[0]);
+    }
+
+    /** Number of columns that are not completed by zeros. */
+    unsigned int
+    n_used() const
+    {
+      return n;
     }
 
     Eigen::Matrix<double, n_rows, n_columns> B =

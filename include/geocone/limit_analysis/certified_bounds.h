@@ -13,6 +13,14 @@
 
 namespace geocone::GEOCONE_DIM
 {
+  /** Power of the strength of a material in a solved problem, by parameter: the
+   *  derivative of the dissipation, at constant rates, or of the yield function, at
+   *  constant stresses, with respect to the logarithm of the parameter. */
+  struct StrengthPower
+  {
+    double cohesion = 0., growth = 0., tan_phi = 0.;
+  };
+
   /** Certified lower and upper bounds on the load, computed on one mesh, in
    *  scaled units. */
   struct CertifiedBounds
@@ -27,6 +35,9 @@ namespace geocone::GEOCONE_DIM
        *  computed with the lower bound only. The strain rates e are those of
        *  the dual velocities. */
       std::vector<double> power;
+
+      /** Power of the strength of each material of an axisymmetric body. */
+      std::vector<StrengthPower> strength_power;
     };
     Side upper, lower;
 
