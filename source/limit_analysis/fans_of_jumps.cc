@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/cone/second_order_cone.h>
+#include <geocone/limit_analysis/axisymmetric_bounds.h>
 #include <geocone/limit_analysis/fans_of_jumps.h>
 
 #include <deal.II/base/numbers.h>
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
 #include <set>
@@ -57,6 +59,64 @@ namespace geocone::GEOCONE_DIM
       }
     };
 
+    /** Boundary condition at an end of an edge of the outline. */
+    struct EndCondition
+    {
+      bool           is_held = false;
+      Tensor<1, dim> traction; ///< scaled units
+    };
+
+    /** Returns the function of an outer edge and its end that yields the condition there. */
+    std::function<EndCondition(unsigned int, unsigned int)>
+    conditions_of(const BoundScene &bound, const double load)
+    {
+      if (bound.is_axisymmetric())
+        return [body = AxisymmetricScene(bound), load](const unsigned int edge,
+                                                       const unsigned int end) {
+          const AxisymmetricScene::Edge &of = body.edges[edge];
+          // Stresses do not turn at the axis.
+          return EndCondition{
+            of.is_on_axis() || of.condition.holds(0) || of.condition.holds(1),
+            of.traction[end].dead + load * of.traction[end].live};
+        };
+      return [problem = lower_problem(bound), &bound, load](
+               const unsigned int edge, const unsigned int end) {
+        const Triangles &triangles = bound.triangles;
+        const auto      &two       = triangles.edges[edge].vertices;
+        const double     half =
+          triangles.vertices[two[0]].distance(triangles.vertices[two[1]]) /
+          (2. * bound.units.length);
+        const unsigned int first =
+          dim * (triangles.cells.size() + 2 * edge + end);
+        EndCondition condition;
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            condition.is_held =
+              condition.is_held || (problem.is_prescribed[first + d] &&
+                                    !problem.has_no_force[first + d]);
+            condition.traction[d] =
+              (problem.dead[first + d] + load * problem.live[first + d]) / half;
+          }
+        return condition;
+      };
+    }
+
+    /** Returns the strength of a triangle at a point as that of plane strain. */
+    PointCone
+    plane_cone(const BoundScene  &bound,
+               const unsigned int cell,
+               const Point<dim>  &x)
+    {
+      const unsigned int m = bound.triangles.material[cell];
+      if (!bound.is_axisymmetric())
+        return bound.cone_at(m, x);
+      const SpatialStrength &one = bound.strengths[m];
+      const double           mu  = one.face_friction(),
+                   cos_phi       = 1. / std::sqrt(1. + mu * mu);
+      return {mu * cos_phi,
+              sqrt2 * cos_phi * one.face_cohesion_per_k() * one.k_at(x)};
+    }
+
     class LoadedOutline
     {
     public:
@@ -65,7 +125,7 @@ namespace geocone::GEOCONE_DIM
         , triangles(bound.triangles)
         , borders(triangles.edges_between_materials())
       {
-        const BoundProblem     problem = lower_problem(bound);
+        const auto             condition = conditions_of(bound, load);
         std::set<unsigned int> slides;
         for (const Interface &interface : bound.interfaces)
           slides.insert(interface.held.edge);
@@ -83,30 +143,18 @@ namespace geocone::GEOCONE_DIM
           {
             const auto  &two = triangles.edges[outer.edge].vertices;
             lines.push_back(two);
-            const double half =
-              triangles.vertices[two[0]].distance(triangles.vertices[two[1]]) /
-              (2. * bound.units.length);
             const Tensor<1, dim> g =
               triangles.gradients(outer.cell)[outer.opposite_vertex];
             for (unsigned int end = 0; end < 2; ++end)
               {
-                const unsigned int first =
-                  dim * (triangles.cells.size() + 2 * outer.edge + end);
                 const Tensor<1, dim> along = triangles.vertices[two[1 - end]] -
                                              triangles.vertices[two[end]];
-                EndAtVertex one = {std::atan2(along[1], along[0]),
-                                   slides.count(outer.edge) > 0,
-                                   -1. * g / g.norm(),
-                                   {}};
-                for (unsigned int d = 0; d < dim; ++d)
-                  {
-                    one.is_held =
-                      one.is_held || (problem.is_prescribed[first + d] &&
-                                      !problem.has_no_force[first + d]);
-                    one.traction[d] = (problem.dead[first + d] +
-                                       load * problem.live[first + d]) /
-                                      half;
-                  }
+                const EndCondition here = condition(outer.edge, end);
+                const EndAtVertex  one  = {std::atan2(along[1], along[0]),
+                                           here.is_held ||
+                                             slides.count(outer.edge) > 0,
+                                           -1. * g / g.norm(),
+                                           here.traction};
                 largest = std::max(largest, one.traction.norm());
                 ends[two[end]].push_back(one);
               }
@@ -218,8 +266,7 @@ namespace geocone::GEOCONE_DIM
           for (const unsigned int w : triangles.cells[c])
             if (w == v)
               {
-                const PointCone cone =
-                  bound.cone_at(triangles.material[c], fan.apex);
+                const PointCone cone = plane_cone(bound, c, fan.apex);
                 a = std::min(a, cone.a);
                 k = std::min(k, cone.k);
                 materials.insert(triangles.material[c]);

@@ -369,8 +369,7 @@ namespace geocone::GEOCONE_DIM
     std::vector<Fan> fans;
     if (sizes)
       fans = std::move(sizes->fans);
-    else if (!scene.geometry.is_axisymmetric() &&
-             (file_domain || mesh_parameters.is_unstructured()))
+    else if (file_domain || mesh_parameters.is_unstructured())
       {
         const BoundScene bound =
           reduces_strength()
