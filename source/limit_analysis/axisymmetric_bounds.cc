@@ -76,6 +76,10 @@ namespace geocone::GEOCONE_DIM
                            "let the weight act along the axis");
         (is_live(LoadFactor::weight) ? cell.body_force.live
                                      : cell.body_force.dead) = weight;
+        if (scene.water.acts())
+          (bound.factor == LoadFactor::all ? cell.body_force.live
+                                           : cell.body_force.dead) +=
+            seepage_force_of_cell(bound, c);
         cells.push_back(cell);
       }
     for (unsigned int e = 0; e < edges.size(); ++e)

@@ -105,16 +105,18 @@ namespace geocone::GEOCONE_DIM
             take_larger(result.error,
                         std::abs(left) / mean_radius * std::sqrt(cell.area));
           };
+          const Tensor<1, dim> f =
+            cell.body_force.dead + lambda * cell.body_force.live;
           for (unsigned int i = 0; i < 3; ++i)
             {
-              const Tensor<1, dim> b =
-                cell.body_force.dead + lambda * cell.body_force.live;
               add_error(divergence(raised(Exponents<3>{{0, 0, 0}}, i))[1] +
-                        cell.radius[i] * b[1]);
+                        cell.radius[i] * f[1]);
             }
           for (const auto &a : bernstein::functions_of_triangle(order))
             {
-              double left = -s[bernstein::position(a)][3];
+              double left =
+                f[0] * bernstein::coefficient(a, cell.radius, cell.radius) -
+                s[bernstein::position(a)][3];
               for (unsigned int i = 0; i < 3; ++i)
                 if (a[i] > 0)
                   left += double(a[i]) / order * cell.radius[i] *
@@ -306,6 +308,11 @@ namespace geocone::GEOCONE_DIM
       for (unsigned int c = 0; c < scene.cells.size(); ++c)
         {
           const auto &cell = scene.cells[c];
+          for (const auto &a : bernstein::functions_of_triangle(space::order))
+            power.add(cell.area * mean(a, cell.radius, cell.radius) *
+                        q[space::dof_of_v(c, a)],
+                      cell.body_force.dead[0],
+                      cell.body_force.live[0]);
           for (const auto &a :
                bernstein::functions_of_triangle(space::order + 1))
             power.add(cell.area * mean(a, cell.radius) *

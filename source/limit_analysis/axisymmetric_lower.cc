@@ -207,7 +207,17 @@ namespace geocone::GEOCONE_DIM
     for (unsigned int c = 0; c < scene.cells.size(); ++c)
       {
         const auto  &cell = scene.cells[c];
-        const double V_z  = cell.area / EquilibriumDofs::n_z;
+        const double V    = cell.area / EquilibriumDofs::n_r,
+                     V_z  = cell.area / EquilibriumDofs::n_z;
+        for (const auto &a :
+             bernstein::functions_of_triangle(EquilibriumDofs::order))
+          {
+            const double part =
+              V * bernstein::coefficient(a, cell.radius, cell.radius);
+            forces.add(equations.of_r(c) + bernstein::position(a),
+                       part * cell.body_force.dead[0],
+                       part * cell.body_force.live[0]);
+          }
         for (unsigned int i = 0; i < EquilibriumDofs::n_z; ++i)
           forces.add(equations.of_z(c) + i,
                      V_z * cell.radius[i] * cell.body_force.dead[1],

@@ -318,6 +318,13 @@ namespace geocone::GEOCONE_DIM
     for (unsigned int c = 0; c < n_cells; ++c)
       {
         const auto &cell = scene.cells[c];
+        for (const auto &a : bernstein::functions_of_triangle(space::order))
+          {
+            const double part = cell.area * mean(a, cell.radius, cell.radius);
+            forces.add(space::dof_of_v(c, a),
+                       part * cell.body_force.dead[0],
+                       part * cell.body_force.live[0]);
+          }
         for (const auto &a : bernstein::functions_of_triangle(space::order + 1))
           {
             const double part = cell.area * mean(a, cell.radius);

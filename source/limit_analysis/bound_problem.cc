@@ -181,23 +181,6 @@ namespace geocone::GEOCONE_DIM
         }
     }
 
-    /** Seepage force of a cell: of the water, or of its pressures at the vertices with
-     *  linear pressures between them (N/m^3). */
-    Tensor<1, dim>
-    seepage_force(const BoundScene &bound, const unsigned int cell)
-    {
-      const Water     &water     = bound.scene.water;
-      const Triangles &triangles = bound.triangles;
-      if (!water.varies_in_cells())
-        return water.force(triangles.centre(cell));
-      const auto     g = triangles.gradients(cell);
-      Tensor<1, dim> force;
-      for (unsigned int i = 0; i < 3; ++i)
-        force -=
-          water.pressure(triangles.vertices[triangles.cells[cell][i]]) * g[i];
-      return force;
-    }
-
     /** Adds the forces of a cell: weight, and the force of water, which is a dead load
      *  unless the weight is bounded with all other loads. */
     void
@@ -212,13 +195,11 @@ namespace geocone::GEOCONE_DIM
                         weight_of_cell(bound, cell),
                         bound.loads(problem, LoadFactor::weight));
       if (bound.scene.water.acts())
-        add_force_of_cell(
-          bound,
-          side,
-          cell,
-          seepage_force(bound, cell) *
-            (bound.units.length / bound.units.stress),
-          bound.loads(problem, LoadFactor::all));
+        add_force_of_cell(bound,
+                          side,
+                          cell,
+                          seepage_force_of_cell(bound, cell),
+                          bound.loads(problem, LoadFactor::all));
     }
 
     /** chi u of Bishop's effective stress at the vertices of a cell, linear between
@@ -570,6 +551,22 @@ namespace geocone::GEOCONE_DIM
                          bound.triangles.centre(cell)) *
            scene.gravity.at(std::numeric_limits<double>::max()) *
            bound.units.length / bound.units.stress;
+  }
+
+  Tensor<1, dim>
+  seepage_force_of_cell(const BoundScene &bound, const unsigned int cell)
+  {
+    const Water     &water     = bound.scene.water;
+    const Triangles &triangles = bound.triangles;
+    const double     unit      = bound.units.length / bound.units.stress;
+    if (!water.varies_in_cells())
+      return water.force(triangles.centre(cell)) * unit;
+    const auto     g = triangles.gradients(cell);
+    Tensor<1, dim> force;
+    for (unsigned int i = 0; i < 3; ++i)
+      force -=
+        water.pressure(triangles.vertices[triangles.cells[cell][i]]) * g[i];
+    return force * unit;
   }
 
   void

@@ -198,6 +198,7 @@ namespace geocone::GEOCONE_DIM
         }
       const double live_factor =
         forces.has_factor() ? powers.all / forces.live.dot(q) : 1.;
+      powers.others = forces.dead.dot(q) + live_factor * forces.live.dot(q);
       const auto power_of = [&](const LoadFactor         kind,
                                 const AxisymmetricScene &part) {
         const bool is_live =
@@ -205,12 +206,18 @@ namespace geocone::GEOCONE_DIM
         return (is_live ? live_factor : 1.) * forces_of(part, side).live.dot(q);
       };
       for (unsigned int m = 0; m < powers.materials.size(); ++m)
-        powers.materials[m].weight =
-          power_of(LoadFactor::weight, body.with_weight_of(m));
+        {
+          powers.materials[m].weight =
+            power_of(LoadFactor::weight, body.with_weight_of(m));
+          powers.others -= powers.materials[m].weight;
+        }
       for (unsigned int i = 0; i < powers.tractions.size(); ++i)
-        powers.tractions[i] =
-          power_of(LoadFactor::tractions,
-                   body.with_traction(*bound.scene.tractions.list[i]));
+        {
+          powers.tractions[i] =
+            power_of(LoadFactor::tractions,
+                     body.with_traction(*bound.scene.tractions.list[i]));
+          powers.others -= powers.tractions[i];
+        }
       return powers;
     }
 

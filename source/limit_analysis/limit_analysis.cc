@@ -127,13 +127,16 @@ namespace geocone::GEOCONE_DIM
   void
   LimitAnalysis::prepare_water(const RunOptions &options)
   {
-    if (scene.geometry.is_axisymmetric())
-      scene.water.refuse(where() + " around an axis",
-                         "bounds with water are those of plane and "
-                         "three-dimensional scenes");
     const Seepage &seepage = scene.water.seepage;
     if (!seepage.acts())
       return;
+    if (scene.geometry.is_axisymmetric())
+      throw InputError(
+        "Seepage/Names",
+        "set",
+        "none with " + where() + " around an axis",
+        "the flow is that of plane scenes: give its pressures by "
+        "'Water/Table' or 'Water/File'");
     scene.loading.prepare(scene.materials.names(), scene.tractions.names());
     scene.water.prepare_stages(scene.loading);
     if (!(seepage.time >= 0. && seepage.time <= scene.loading.duration()))

@@ -160,7 +160,8 @@ namespace geocone::GEOCONE_DIM
   /**
    * Assembles the lower-bound problem of an axisymmetric body, with stresses that are
    * discontinuous at all edges. With S = r s, equilibrium is
-   *   r (d S_rr/dr + d S_rz/dz) - S_tt = 0, d S_rz/dr + d S_zz/dz + r b = 0,
+   *   r (d S_rr/dr + d S_rz/dz) - S_tt + r^2 b_r = 0,
+   *   d S_rz/dr + d S_zz/dz + r b_z = 0,
    * polynomials whose coefficients vanish; so do those of the difference of the tractions
    * on each edge. The coefficients of S are in the cone for those of r k, where r k is
    * the strength times r, and hence S is so everywhere. On the axis S vanishes, so that s

@@ -225,6 +225,11 @@ namespace geocone::GEOCONE_DIM
   dealii::Tensor<1, dim>
   weight_of_cell(const BoundScene &scene, const unsigned int cell);
 
+  /** Returns the seepage force of a cell per unit area, in scaled units: that of the water,
+   *  or of its pressures at the vertices with linear pressures between them. */
+  dealii::Tensor<1, dim>
+  seepage_force_of_cell(const BoundScene &scene, const unsigned int cell);
+
   /** Adds a body force to the load vector F of a problem, in scaled units. The force per
    *  unit area is constant in the cell. */
   void
