@@ -248,17 +248,18 @@ namespace geocone::GEOCONE_DIM
       return -1. * g / g.norm();
     }
 
-    /** The traction of a load at x, in units. */
+    /** The traction of a load at x, in units. @param time at which it acts (s) */
     Tensor<1, dim>
     traction(const BoundaryCondition &load,
              const Point<dim>        &x,
              const Tensor<1, dim>    &n,
-             const double             unit)
+             const double             unit,
+             const double             time)
     {
-      Tensor<1, dim> t = load.vector_on_side(x, n, 0.);
+      Tensor<1, dim> t = load.vector_on_side(x, n, time);
       for (unsigned int d = 0; d < dim; ++d)
         if (load.components[d])
-          t[d] += load.components[d]->value(x, 0.);
+          t[d] += load.components[d]->value(x, time);
       return t / unit;
     }
 
@@ -592,7 +593,8 @@ namespace geocone::GEOCONE_DIM
   add_tractions(const BoundScene        &bound,
                 const BoundSide          side,
                 const BoundaryCondition &load,
-                Eigen::VectorXd         &F)
+                Eigen::VectorXd         &F,
+                const double             time)
   {
     const Triangles &triangles = bound.triangles;
     for (const auto &held : triangles.held_edges(load))
@@ -607,7 +609,8 @@ namespace geocone::GEOCONE_DIM
               load,
               node.of_traction,
               outward_normal(triangles, held.cell, held.opposite_vertex),
-              bound.units.stress);
+              bound.units.stress,
+              time);
             for (unsigned int d = 0; d < dim; ++d)
               F[node.dof + d] += node.part * length * t[d];
             if (node.jump)
@@ -629,7 +632,8 @@ namespace geocone::GEOCONE_DIM
           traction(load,
                    triangles.vertices[v],
                    outward_normal(triangles, held.cell, held.opposite_vertex),
-                   1.)
+                   1.,
+                   0.)
             .norm());
     return largest;
   }

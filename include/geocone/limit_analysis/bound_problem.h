@@ -240,12 +240,13 @@ namespace geocone::GEOCONE_DIM
                     Eigen::VectorXd              &F);
 
   /** Adds a traction boundary condition to the load vector F of a problem, in scaled
-   *  units. */
+   *  units. @param time at which it acts (s) */
   void
   add_tractions(const BoundScene        &scene,
                 const BoundSide          side,
                 const BoundaryCondition &load,
-                Eigen::VectorXd         &F);
+                Eigen::VectorXd         &F,
+                const double             time = 0.);
 
   /** Returns the maximum magnitude of a traction boundary condition over the loaded
    *  vertices (Pa). */
