@@ -5,6 +5,7 @@
 #include <geocone/limit_analysis/limit_analysis.h>
 #include <geocone/limit_analysis/mesh_from_bounds.h>
 #include <geocone/limit_analysis/reliability.h>
+#include <geocone/limit_analysis/shakedown.h>
 #include <geocone/methods.h>
 #include <geocone/run/explicit_simulation.h>
 #include <geocone/run/implicit_simulation.h>
@@ -20,6 +21,7 @@ namespace geocone::GEOCONE_DIM
       , explicit_mpm(MPI_COMM_WORLD, file, log)
       , limit_analysis(MPI_COMM_WORLD, file, log)
       , reliability(MPI_COMM_WORLD, file, log)
+      , shakedown(MPI_COMM_WORLD, file, log)
       , seepage(MPI_COMM_WORLD, file, log)
     {}
 
@@ -28,6 +30,7 @@ namespace geocone::GEOCONE_DIM
     ExplicitSimulation explicit_mpm;
     LimitAnalysis      limit_analysis;
     Reliability        reliability;
+    Shakedown          shakedown;
     SeepageSimulation  seepage;
   };
 
@@ -44,6 +47,8 @@ namespace geocone::GEOCONE_DIM
       return runs->seepage;
     if (runs->limit_analysis.kind() == AnalysisKind::reliability)
       return runs->reliability;
+    if (runs->limit_analysis.kind() == AnalysisKind::shakedown)
+      return runs->shakedown;
     if (runs->limit_analysis.kind() != AnalysisKind::steps)
       return runs->limit_analysis;
     const std::string name = ParameterFile::value("Discretisation/Method");

@@ -53,6 +53,7 @@ namespace geocone
       {"Contacts", "contact between deformable bodies"},
       {"Structures", "anchors, struts, geogrids and plates"},
       {"Random fields", "random strengths and unit weights of soils"},
+      {"Shakedown", "loads that vary, and their limits"},
       {"Absorbing boundaries", "boundaries that transmit waves"},
       {"Loading", "stages: duration, steps, excavation, fill, strength"},
       {"Path", "stages of a single material point"},

@@ -21,19 +21,19 @@ namespace geocone::GEOCONE_DIM
       {"Analysis/Load factor of", "Analysis/Kind", {"limit load"}},
       {"Analysis/Gap tolerance",
        "Analysis/Kind",
-       {"limit load", "strength reduction"}},
+       {"limit load", "strength reduction", "shakedown"}},
       {"Analysis/Growth of meshes",
        "Analysis/Kind",
-       {"limit load", "strength reduction"}},
+       {"limit load", "strength reduction", "shakedown"}},
       {"Analysis/Maximum cells",
        "Analysis/Kind",
-       {"limit load", "strength reduction", "reliability"}},
+       {"limit load", "strength reduction", "reliability", "shakedown"}},
       {"Analysis/Maximum levels",
        "Analysis/Kind",
-       {"limit load", "strength reduction", "reliability"}},
+       {"limit load", "strength reduction", "reliability", "shakedown"}},
       {"Analysis/Solver tolerance",
        "Analysis/Kind",
-       {"limit load", "strength reduction", "reliability"}}};
+       {"limit load", "strength reduction", "reliability", "shakedown"}}};
 
     constexpr bool    is_plane      = dim == 2;
     const std::string name_of_cells = is_plane ? "triangles" : "tetrahedra";

@@ -169,6 +169,16 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
+  BoundedLoad::prepare_tractions(const Scene       &scene,
+                                 const Triangles   &triangles,
+                                 const std::string &kind)
+  {
+    take_strengths(scene);
+    choose_tractions(prescribed_velocity(scene, triangles).has_value(), kind);
+    check_loads(scene, triangles);
+  }
+
+  void
   BoundedLoad::check_strength(const Scene     &scene,
                               const Triangles &triangles) const
   {
@@ -198,7 +208,7 @@ namespace geocone::GEOCONE_DIM
     const BoundProblem problem = upper_problem(bound);
     check_supports(bound, problem, ties);
     check_ways(bound, problem);
-    if (!is_reaction() && !problem.has_factor())
+    if (!is_reaction() && !may_vanish && !problem.has_factor())
       refuse_zero_load();
   }
 

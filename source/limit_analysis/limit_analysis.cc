@@ -116,7 +116,9 @@ namespace geocone::GEOCONE_DIM
       "strict bounds of the factor of safety, by which c and tan(phi) are "
       "divided at collapse. Reliability: probability that the body fails, with "
       "strengths and weights from 'Random fields'; whether a sample fails is "
-      "certified by the bounds.");
+      "certified by the bounds. Shakedown: factors of loads that vary within "
+      "the limits of 'Shakedown', below which plastic strains cease, by "
+      "Melan's and Koiter's theorems.");
     declare_parameters(bounded_load);
     limit_output.declare_certificates();
     for (const std::string &name : scene.materials.names())

@@ -59,6 +59,20 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
+  LoadChoice::choose_tractions(const bool         has_velocity,
+                               const std::string &kind)
+  {
+    if (has_velocity)
+      throw InputError("Analysis/Kind",
+                       kind,
+                       "limit load where a velocity is prescribed that is not "
+                       "zero",
+                       "load the body by 'Tractions'");
+    chosen     = LoadFactor::tractions;
+    may_vanish = true;
+  }
+
+  void
   LoadChoice::refuse_zero_load() const
   {
     const std::string allowed = "a load that is not zero",

@@ -55,6 +55,17 @@ namespace geocone::GEOCONE_DIM
                       const Triangles   &triangles,
                       const std::string &kind);
 
+    /**
+     * Prepares the analysis of tractions that vary; the weight is a dead load.
+     * @param kind of analysis, for messages
+     * @throws InputError if a velocity is prescribed that is not zero, or a rigid motion
+     * of the body is free
+     */
+    void
+    prepare_tractions(const Scene       &scene,
+                      const Triangles   &triangles,
+                      const std::string &kind);
+
     /** Returns the input of the upper-bound and lower-bound problems on a given
      *  mesh. */
     BoundScene

@@ -28,6 +28,7 @@ namespace geocone::GEOCONE_DIM
     limit_load,         ///< strict bounds on the limit load
     strength_reduction, ///< strict bounds on the factor of safety
     reliability,        ///< probability of failure
+    shakedown,          ///< shakedown under loads that vary
     seepage             ///< steady seepage alone
   };
 
@@ -183,6 +184,7 @@ namespace geocone::GEOCONE_DIM
        {"limit load", AnalysisKind::limit_load},
        {"strength reduction", AnalysisKind::strength_reduction},
        {"reliability", AnalysisKind::reliability},
+       {"shakedown", AnalysisKind::shakedown},
        {"seepage", AnalysisKind::seepage}}};
 
     /** Tensile strength of each material as text, which laws around an axis do not

@@ -91,6 +91,12 @@ namespace geocone::GEOCONE_DIM
     void
     choose_all(const bool has_velocity, const std::string &kind);
 
+    /** Selects tractions as the loads, some of which may be zero at t = 0.
+     *  @param kind of analysis, for messages
+     *  @throws InputError if a velocity is prescribed that is not zero */
+    void
+    choose_tractions(const bool has_velocity, const std::string &kind);
+
     /** Throws an exception that reports that the selected loads are zero.
      *  @throws InputError */
     [[noreturn]] void
@@ -100,6 +106,7 @@ namespace geocone::GEOCONE_DIM
     std::string unit_of_reaction = dim == 2 ? "N/m" : "N";
 
     double load_unit     = 1.;
+    bool   may_vanish    = false; ///< loads at t = 0
     bool   less_dilatant = false;
 
   private:

@@ -1,0 +1,77 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_limit_analysis_elastic_stresses_h
+#define geocone_limit_analysis_elastic_stresses_h
+
+#include <geocone/limit_analysis/block_matrix.h>
+#include <geocone/limit_analysis/bound_problem.h>
+
+#include <Eigen/Dense>
+
+#include <vector>
+
+namespace geocone::GEOCONE_DIM
+{
+  /** Stresses or strains at the vertices of all triangles, in cone axes, linear in each
+   *  of them. */
+  using LinearField = std::vector<Eigen::Vector3d>;
+
+  /**
+   * Elastic response of a plane body on the elements of a bound. For the upper bound
+   * these are quadratic displacements with the stresses D e (displacement method); for
+   * the lower bound linear stresses in equilibrium, those of the least complementary
+   * energy (equilibrium method). Displacements vanish where velocities are prescribed.
+   */
+  class ElasticSolver
+  {
+  public:
+    /** Assembles and factorises the stiffness matrix.
+     *  @param problem of the side, without interfaces, structures and cut-offs
+     *  @throws StepFailure if the matrix is singular */
+    ElasticSolver(const BoundScene   &bound,
+                  const BoundProblem &problem,
+                  const BoundSide     side);
+
+    /** Returns the stresses due to a load. @param load by dof
+     *  @throws StepFailure if no stresses are in equilibrium with the load */
+    LinearField
+    stresses(const Eigen::VectorXd &load) const;
+
+    /** Returns the compatible strains nearest to given strains in the energy norm. Of
+     *  the upper bound only. */
+    LinearField
+    compatible_part(const LinearField &strains) const;
+
+    /** Integral over the body of two fields of stresses with the compliance, or of two
+     *  fields of strains with the stiffness. */
+    double
+    product_of_stresses(const LinearField &a, const LinearField &b) const;
+    double
+    product_of_strains(const LinearField &a, const LinearField &b) const;
+
+    /** Work of stresses on strains. */
+    double
+    work(const LinearField &stresses, const LinearField &strains) const;
+
+    /** Integral over each triangle of a field of stresses with itself. */
+    std::vector<double>
+    energies(const LinearField &stresses) const;
+
+  private:
+    Eigen::VectorXd
+    displacements(const Eigen::VectorXd &load) const;
+
+    /** Stresses conjugate to the strains of displacements, whose forces are those of the
+     *  stiffness matrix. */
+    LinearField
+    conjugate_stresses(const LinearField &strains) const;
+
+    const BoundProblem          &problem;
+    const BoundSide              side;
+    std::vector<Eigen::Vector3d> stiffness; ///< D by triangle, diagonal
+    BlockMatrix                  matrix;
+  };
+} // namespace geocone::GEOCONE_DIM
+
+#endif
