@@ -15,6 +15,7 @@ SEE = {
     "Analysis": ["theory/limit_analysis", "cookbook/limit_load", "cookbook/safety",
                  "cookbook/reliability"],
     "Random fields": ["theory/reliability", "cookbook/reliability"],
+    "Shakedown": ["theory/shakedown", "cookbook/shakedown"],
     "Discretisation": ["theory/finite_elements", "theory/locking", "theory/material_points",
                        "comparison"],
     "Geometry": ["your_own_scene", "cookbook/round_bodies", "cookbook/three_dimensions"],

@@ -55,7 +55,8 @@ namespace geocone::GEOCONE_DIM
     add_parameter("Gap tolerance",
                   gap_tolerance,
                   "Relative gap upper/lower - 1 of the bounds [-] below which "
-                  "refinement ends.");
+                  "refinement ends; with shakedown also of the error of the "
+                  "elastic stresses.");
     add_parameter("Growth of meshes",
                   growth,
                   "Ratio of the number of " + name_of_cells +

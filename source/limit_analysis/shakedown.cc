@@ -253,8 +253,10 @@ namespace geocone::GEOCONE_DIM
     record.cpu_seconds     = time.cpu_time();
     record.number          = shakedown_output.all_records().size() + 1;
     shakedown_output.add_record(record);
-    now.time           = record.number;
-    const bool is_last = (record.certified() && record.gap < gap_tolerance) ||
+    now.time               = record.number;
+    const bool is_accurate = record.certified() && record.gap < gap_tolerance &&
+                             record.elastic_error < gap_tolerance;
+    const bool is_last = is_accurate ||
                          growth * record.cells > 1.15 * most_cells ||
                          record.number == programme()[0];
     if (!is_last)
@@ -349,10 +351,13 @@ namespace geocone::GEOCONE_DIM
                (last.lower_certified
                   ? "the upper factor: " + found.upper.bound.rejection
                   : "the lower factor: " + found.lower.bound.rejection));
-    else if (!(last.gap < gap_tolerance))
-      log.warn(format("the gap is %.3g %%, more than 'Analysis/Gap tolerance'; "
-                      "raise 'Analysis/Maximum cells' or 'Maximum levels'",
-                      100. * last.gap));
+    else if (!(last.gap < gap_tolerance && last.elastic_error < gap_tolerance))
+      log.warn(
+        format("the gap is %.3g %% and the elastic stresses are known to "
+               "%.3g %%, more than 'Analysis/Gap tolerance'; raise "
+               "'Analysis/Maximum cells' or 'Maximum levels'",
+               100. * last.gap,
+               100. * last.elastic_error));
     if (last.lower < 0.99 * last.lower_in_plane)
       log.warn(format("stresses out of the plane reduce the lower factor from "
                       "%.4g to %.4g",

@@ -56,7 +56,7 @@ for path, entry in found.items():
     assert len(entry["description"]) > 8 and entry["x-allowed"], (path, entry)
 material = "Materials", "NAME"
 is_plane = ("Boundary conditions", "NAME", "Velocity z") not in found
-of_plane = ["reliability", "seepage"] if is_plane else []
+of_plane = ["reliability", "shakedown", "seepage"] if is_plane else []
 assert found["Analysis", "Kind"]["enum"] == ["steps", "limit load", "strength reduction",
                                              *of_plane]
 assert found["Time stepping", "Inertia"] == {**found["Time stepping", "Inertia"],

@@ -37,3 +37,5 @@ for sampling in 'Monte Carlo' importance; do
     --set 'Analysis/Maximum levels = 1' --set 'Mesh/Cell size = 4' \
     --set 'Materials/clay/Cohesion = 40000'
 done
+resumed shakedown shakedown.csv 1-11 prm/shakedown/cylinder.prm --set 'Mesh/Smallest size = 0.1' \
+  --set 'Analysis/Gap tolerance = 1e-3' --set 'Analysis/Maximum levels = 4'

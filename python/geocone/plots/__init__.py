@@ -64,6 +64,9 @@ def pictures_of_method(run, times):
     if run.method == "reliability":
         from geocone.plots import reliability
         return reliability.pictures(run)
+    if run.method == "shakedown":
+        from geocone.plots import shakedown
+        return shakedown.pictures(run)
     if run.method == "explicit MPM":
         from geocone.plots import explicit
         return explicit.pictures(run, times)

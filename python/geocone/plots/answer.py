@@ -55,6 +55,10 @@ def short_answer(run):
         name, factor = unit_of(run.value("bounds/unit"), max(abs(lower), abs(upper)))
         return (("load " if name else "load factor ") + bracket_text(lower, upper, 4, factor)
                 + f" {name}".rstrip() + certainty_of(run))
+    if run.method == "shakedown":
+        lower, upper = (number_in(run, f"shakedown/{side}") for side in ("lower", "upper"))
+        return ("" if lower is None or upper is None else
+                f"factor {digits_of(lower)} to {digits_of(upper)}")
     value = number_in(run, "limit_load/value")
     if value is not None:
         name, factor = unit_of(run.value("limit_load/unit"), abs(value))
