@@ -248,7 +248,7 @@ namespace geocone
           volume += V;
         }
       for (const auto &group : problem.groups)
-        group->start(std::sqrt(square / volume));
+        group->start(std::sqrt(square / volume), problem.least_start);
       keep();
     }
 

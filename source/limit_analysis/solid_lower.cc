@@ -152,6 +152,7 @@ namespace geocone::GEOCONE_DIM
     const double          L          = bound.units.length;
     const EquilibriumDofs equations(tetrahedra, order);
     ConicProblem          problem = ConicProblem::of_dofs(equations.n());
+    problem.least_start           = bound.units.is_of_loads ? 0.1 : 0.;
     SolidPoints           points  = empty_points(bound);
     for (unsigned int c = 0; c < tetrahedra.cells.size(); ++c)
       {

@@ -300,6 +300,7 @@ namespace geocone::GEOCONE_DIM
     const Tetrahedra  &tetrahedra = *bound.tetrahedra;
     const VelocityDofs velocities(bound, order);
     ConicProblem       problem = ConicProblem::of_dofs(velocities.n());
+    problem.least_start        = bound.units.is_of_loads ? 0.1 : 0.;
     velocities.prescribe(problem);
     SolidPoints points = empty_points(bound);
     for (unsigned int c = 0; c < tetrahedra.cells.size(); ++c)

@@ -284,8 +284,10 @@ namespace geocone::GEOCONE_DIM
         0,
         std::string("> 0 Pa everywhere where loads are bounded ") +
           (dim == 3 ? "in three dimensions" : "around an axis"),
-        "give a small cohesion, e.g. a hundredth of weight times "
-        "height: it raises the bounds a little");
+        dim == 3 ? "give a small cohesion, e.g. a millionth of weight times "
+                   "height"
+                 : "give a small cohesion, e.g. a hundredth of weight times "
+                   "height: it raises the bounds a little");
     return k;
   }
 } // namespace geocone::GEOCONE_DIM

@@ -30,6 +30,10 @@ namespace geocone
     Eigen::VectorXd   prescribed;    ///< prescribed velocities; 0 elsewhere
     Eigen::VectorXd   dead, live;    ///< F0 and f by dof
 
+    /** Least strength of the initial stresses of soil with friction: stresses of soil
+     *  that hardly has cohesion are far from its apex. */
+    double least_start = 0.;
+
     /** Returns a problem without points, loads and prescribed velocities. */
     static ConicProblem
     of_dofs(const unsigned int n_dofs)

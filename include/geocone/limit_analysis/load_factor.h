@@ -25,6 +25,7 @@ namespace geocone::GEOCONE_DIM
     double length   = 1.; ///< unit of length (m)
     double stress   = 1.; ///< unit of stress (Pa)
     double velocity = 1.; ///< unit of velocity (m/s)
+    bool   is_of_loads = false; ///< whether the unit of stress is that of loads
   };
 } // namespace geocone::GEOCONE_DIM
 

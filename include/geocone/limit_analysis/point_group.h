@@ -90,7 +90,7 @@ namespace geocone
     /** Raises the eigenvalues of Z to the mean rate, and sets the initial stress
      *  variables. */
     virtual void
-    start(const double mean_rate) = 0;
+    start(const double mean_rate, const double least_strength) = 0;
 
     /** Sums of complementarity products and residuals over the points of the
      *  group, for the current iterate. */
@@ -324,13 +324,17 @@ namespace geocone
     }
 
     void
-    start(const double mean_rate) override
+    start(const double mean_rate, const double least_strength) override
     {
       scale_of_rate = mean_rate;
       for (unsigned int p = 0; p < n_points(); ++p)
         {
+          const Law &own = law_of(p);
           z[p]           = Cone::raised(z[p], mean_rate);
-          variables()[p] = law_of(p).start_variable(k[p]);
+          variables()[p] =
+            own.start_variable(own.constrained_rate().squaredNorm() > 0.
+                                 ? k[p]
+                                 : std::max(k[p], least_strength));
         }
     }
 
