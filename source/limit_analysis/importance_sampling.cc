@@ -62,25 +62,29 @@ namespace geocone
     constexpr unsigned int n_steps = 3;
     constexpr double       near    = 0.1;
     const VectorXd         axis    = point.numbers / distance;
-    double                 centre  = distance;
-    for (unsigned int step = 0; step < n_steps && centre > 0.; ++step)
+    const double           n       = pilots.size();
+    double                 zero = distance, share = 1.;
+    for (unsigned int step = 0; step < n_steps && zero > 0.; ++step)
       {
-        double sum = 0., slope = 0.;
+        double mean = 0., square = 0., slope = 0.;
         for (const VectorXd &pilot : pilots)
           {
             const LimitState state =
-              limit_state(pilot + (centre - axis.dot(pilot)) * axis);
-            sum += state.log_load;
-            slope += axis.dot(state.gradient);
+              limit_state(pilot + (zero - axis.dot(pilot)) * axis);
+            mean += state.log_load / n;
+            square += state.log_load * state.log_load / n;
+            slope += axis.dot(state.gradient) / n;
           }
-        if (!(slope < 0.) || !std::isfinite(sum))
+        if (!(slope < 0.) || !std::isfinite(square))
           break;
-        const double change = -sum / slope;
-        centre              = std::clamp(centre + change, 0., distance);
+        const double change = -mean / slope;
+        share =
+          slope * slope / (slope * slope + std::max(square - mean * mean, 0.));
+        zero = std::clamp(zero + change, 0., distance);
         if (std::abs(change) < near)
           break;
       }
-    return centre;
+    return share * zero;
   }
 
   VectorXd

@@ -69,10 +69,13 @@ namespace geocone
     const std::function<LimitState(const Eigen::VectorXd &)> &limit_state);
 
   /**
-   * Distance of the centre of samples from the origin, along a design point, at which the
-   * mean of ln lambda vanishes, so that about half of the samples fail. With many random
-   * numbers this is less than the reliability index, since other soil than that of the
-   * design point fails as well.
+   * Distance of the centre of samples from the origin, along a design point: the mean of
+   * failed samples there, if ln lambda is linear along it, and normal across it. This
+   * mean makes the variance of weights small (cross-entropy method). With many random
+   * numbers it is less than the reliability index, since other soil than that of the
+   * design point fails as well. With the distance t_0 at which the mean of ln lambda
+   * vanishes, its slope g along the design point and its deviation s across it, it is
+   * t_0 g^2/(g^2 + s^2).
    * @param pilots standard normal numbers of trial samples; their component along the
    * design point is left out
    */
