@@ -59,8 +59,7 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
-  LoadChoice::choose_tractions(const bool         has_velocity,
-                               const std::string &kind)
+  LoadChoice::choose_tractions(const bool has_velocity, const std::string &kind)
   {
     if (has_velocity)
       throw InputError("Analysis/Kind",

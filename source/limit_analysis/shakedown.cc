@@ -234,6 +234,12 @@ namespace geocone::GEOCONE_DIM
         "confine it");
     const Bound &lower = found.lower.bound, &upper = found.upper.bound;
     check_finite(lower.load + upper.load);
+    if (upper.certified && upper.load <= 0.)
+      throw StepFailure(
+        "no factor of the loads is carried: its upper bound is not above zero, "
+        "so the constant loads alone make the body fail\n  remedy:  check the "
+        "weight and the tractions that 'Shakedown/Loads' does not name, the "
+        "strengths and the supports");
     record.cells = triangles->cells.size();
     record.factorisations =
       found.lower.solution.factorisations + found.upper.solution.factorisations;
@@ -358,6 +364,11 @@ namespace geocone::GEOCONE_DIM
                "'Analysis/Maximum cells' or 'Maximum levels'",
                100. * last.gap,
                100. * last.elastic_error));
+    if (found.load_difference > rounding_of_work)
+      log.warn(format("no upper bound is proven: the tractions are not linear "
+                      "between the vertices of the mesh, by %.1e of their "
+                      "work; let them have kinks at 'Mesh/Grading points' only",
+                      found.load_difference));
     if (last.lower < 0.99 * last.lower_in_plane)
       log.warn(format("stresses out of the plane reduce the lower factor from "
                       "%.4g to %.4g",

@@ -14,6 +14,9 @@
 
 namespace geocone::GEOCONE_DIM
 {
+  /** Largest ShakedownBounds::load_difference that is a rounding error. */
+  constexpr double rounding_of_work = 1e-9;
+
   /** Elastic stresses of one load with the factor 1, in scaled units. */
   struct ElasticStresses
   {
@@ -36,8 +39,11 @@ namespace geocone::GEOCONE_DIM
     double out_of_plane = 1.;
 
     /** Upper bound that includes the error of the elastic stresses; infinite if this
-     *  error exceeds the work. */
+     *  error exceeds the work, or both elastic stresses carry different loads. */
     double proven = std::numeric_limits<double>::infinity();
+
+    /** Relative difference of the work of the loads of both elastic stresses. */
+    double load_difference = 0.;
 
     /** Factor of alternating plasticity at a single point, with the elastic stresses of
      *  the mesh; infinite where phi > 0. */
