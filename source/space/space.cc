@@ -177,13 +177,16 @@ namespace geocone::GEOCONE_DIM
                     " cannot everywhere: loads come out too high; take "
                     "quadrilaterals with Discretisation/B-bar = true" +
                     (method.is_mpm() ? "" : ", or a cubic element"));
-    if (!method.is_mpm() && element() == "P3" && law.strongly_non_associated)
+    // P1 and P2 were not.
+    if (dim == 2 && !method.is_mpm() && law.strongly_non_associated &&
+        (element() == "P3" || element() == "Q2" || element() == "Q3"))
       all.push_back(
-        "cubic triangles and the exact law of soil with little dilatancy: "
-        "where "
-        "loads drive the soil they were seen to be off by up to 5 % with no "
-        "lag "
-        "(doc/small_dilatancy.md); take Discretisation/Element = P2, or "
+        element() +
+        " and the exact law of soil with little dilatancy: where loads drive "
+        "the soil, such elements were seen to be off by up to " +
+        (element() == "P3" ? "7" : "16") +
+        " % with next to no lag (doc/small_dilatancy_family.md); take "
+        "triangles with Discretisation/Element = P2, or "
         "'Materials/NAME/Friction memory'");
     return all;
   }
