@@ -638,6 +638,35 @@ namespace geocone::GEOCONE_DIM
     return largest;
   }
 
+  double
+  departure_of_traction(const BoundScene        &bound,
+                        const BoundaryCondition &load,
+                        const double             time)
+  {
+    const Triangles &triangles = bound.triangles;
+    double           largest = 0., departure = 0.;
+    for (const auto &held : triangles.held_edges(load))
+      {
+        const auto       &ends = triangles.edges[held.edge].vertices;
+        const Point<dim> &a    = triangles.vertices[ends[0]],
+                         &b    = triangles.vertices[ends[1]];
+        const auto at          = [&](const double part) {
+          return traction(
+            load,
+            Point<dim>(a + part * (b - a)),
+            outward_normal(triangles, held.cell, held.opposite_vertex),
+            1.,
+            time);
+        };
+        const Tensor<1, dim> first = at(0.), last = at(1.);
+        largest = std::max({largest, first.norm(), last.norm()});
+        for (const double part : {0.25, 0.382, 0.5, 0.75})
+          departure = std::max(
+            departure, (at(part) - (1. - part) * first - part * last).norm());
+      }
+    return departure > 0. ? departure / std::max(largest, departure) : 0.;
+  }
+
   BoundProblem
   upper_problem(const BoundScene &bound)
   {

@@ -549,6 +549,7 @@ namespace geocone::GEOCONE_DIM
       davis = estimates_by_davis();
     const LoadBracket best = bracket();
     conclude(best, bounds.upper.bound.rejection, bounds.lower.bound.rejection);
+    warn_of_tractions();
     // A run resumed after its last mesh has no fields.
     if (bounds.gap.size() == triangles->cells.size())
       gradients = gradients_of_last();
@@ -561,6 +562,24 @@ namespace geocone::GEOCONE_DIM
     if (!best.is_associated && is_plane && scene.structures.list.empty())
       log.print("for the incremental load beside both: 'Analysis/Kind' = steps "
                 "with 'Mesh/Type' = from the bounds");
+  }
+
+  void
+  LimitAnalysis::warn_of_tractions() const
+  {
+    const BoundScene bound = bounded_load.on(scene, *triangles);
+    for (const auto &load : scene.tractions.list)
+      if (const double departure = departure_of_traction(bound, *load);
+          departure > 1e-3)
+        log.warn(format(
+          "the traction '%s' is not linear between the vertices of the mesh, "
+          "by "
+          "up to %.2g %% of its largest value: the bounds are those of "
+          "slightly "
+          "different loads; let it jump or bend at corners or 'Mesh/Grading "
+          "points' only, or take smaller cells there",
+          load->name.c_str(),
+          100. * departure));
   }
 
   std::vector<std::array<double, 2>>

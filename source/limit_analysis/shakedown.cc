@@ -237,7 +237,9 @@ namespace geocone::GEOCONE_DIM
     if (upper.certified && upper.load <= 0.)
       throw StepFailure(
         "no factor of the loads is carried: its upper bound is not above zero, "
-        "so the constant loads alone make the body fail\n  remedy:  check the "
+        "so the constant loads alone make the body fail, or the loads that "
+        "vary "
+        "do no work\n  remedy:  check the "
         "weight and the tractions that 'Shakedown/Loads' does not name, the "
         "strengths and the supports");
     record.cells = triangles->cells.size();
@@ -367,7 +369,8 @@ namespace geocone::GEOCONE_DIM
     if (found.load_difference > rounding_of_work)
       log.warn(format("no upper bound is proven: the tractions are not linear "
                       "between the vertices of the mesh, by %.1e of their "
-                      "work; let them have kinks at 'Mesh/Grading points' only",
+                      "largest value or work; let them have kinks at "
+                      "'Mesh/Grading points' only",
                       found.load_difference));
     if (last.lower < 0.99 * last.lower_in_plane)
       log.warn(format("stresses out of the plane reduce the lower factor from "

@@ -650,7 +650,9 @@ namespace geocone::GEOCONE_DIM
         found.elastic_limit = first_yield(below, elastic);
       const AlternatingPoint at = alternating_point(below, elastic);
       found.alternating         = at.factor;
-      found.load_difference     = difference_of_loads(solver, stresses);
+      // Both loads may miss the same part of a traction.
+      found.load_difference =
+        std::max(difference_of_loads(solver, stresses), loads.departure(bound));
       if (found.load_difference < rounding_of_work)
         found.proven = std::min(
           proven_upper(

@@ -185,4 +185,14 @@ namespace geocone::GEOCONE_DIM
       if (std::count(varying.begin(), varying.end(), place) == 0)
         add_tractions(bound, side, *all[place], F);
   }
+
+  double
+  VaryingLoads::departure(const BoundScene &bound) const
+  {
+    double largest = 0.;
+    for (const auto &load : bound.scene.tractions.list)
+      for (const double time : varies_in_time() ? times : std::vector{0.})
+        largest = std::max(largest, departure_of_traction(bound, *load, time));
+    return largest;
+  }
 } // namespace geocone::GEOCONE_DIM

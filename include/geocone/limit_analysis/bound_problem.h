@@ -253,6 +253,14 @@ namespace geocone::GEOCONE_DIM
   double
   largest_traction(const BoundScene &scene, const BoundaryCondition &load);
 
+  /** Largest departure of a traction from its linear interpolation between the
+   *  vertices, at some points of the edges, over its largest value. Both bounds are those
+   *  of slightly different loads where it is not zero. @param time (s) */
+  double
+  departure_of_traction(const BoundScene        &scene,
+                        const BoundaryCondition &load,
+                        const double             time = 0.);
+
   /**
    * Assembles the upper-bound problem with quadratic velocities, whose strain
    * rates are evaluated at the vertices of each triangle. Strain rates are

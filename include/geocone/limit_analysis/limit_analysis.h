@@ -117,6 +117,10 @@ namespace geocone::GEOCONE_DIM
     double
     next_cells(const BoundLevel &level);
 
+    /** Warns of tractions that are not linear between the vertices. */
+    void
+    warn_of_tractions() const;
+
     /** Computes Davis's estimates for non-associated flow on the finest mesh. They are
      *  both bounds on the load or factor of safety for each variant
      *  (LoadBracket::davis). */

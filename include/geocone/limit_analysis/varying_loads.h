@@ -62,6 +62,10 @@ namespace geocone::GEOCONE_DIM
                  const BoundSide   side,
                  Eigen::VectorXd  &F) const;
 
+    /** Largest departure_of_traction() of all tractions in all states. */
+    double
+    departure(const BoundScene &bound) const;
+
   private:
     bool
     varies_in_time() const
