@@ -20,12 +20,14 @@ namespace geocone
 
   DesignPoint
   design_point(const unsigned int                                 n,
-               const std::function<LimitState(const VectorXd &)> &limit_state)
+               const std::function<LimitState(const VectorXd &)> &limit_state,
+               const VectorXd                                    &start)
   {
     constexpr unsigned int most_iterations = 20;
     constexpr double       longest = 3., tolerance = 0.02;
     DesignPoint            point;
-    point.numbers.setZero(n);
+    point.numbers      = start.size() > 0 ? start : VectorXd(VectorXd::Zero(n));
+    const bool is_mean = point.numbers.squaredNorm() == 0.;
     for (;;)
       {
         const LimitState state = limit_state(point.numbers);
@@ -39,7 +41,7 @@ namespace geocone
           point.numbers;
         const double length = change.norm();
         point.converged     = point.iterations == 0
-                                ? state.log_load <= 0.
+                                ? is_mean && state.log_load <= 0.
                                 : length < tolerance * std::max(1., point.index());
         if (point.converged || point.iterations == most_iterations)
           return point;
@@ -48,6 +50,37 @@ namespace geocone
         point.numbers += std::min(1., allowed / length) * change;
         ++point.iterations;
       }
+  }
+
+  std::vector<DesignPoint>
+  design_points(const unsigned int                                 n,
+                const std::function<LimitState(const VectorXd &)> &limit_state)
+  {
+    constexpr unsigned int most    = 3;
+    constexpr double       same    = 0.9, // cosine
+      farther                      = 1.5; // of reliability indices
+    std::vector<DesignPoint> found = {design_point(n, limit_state)};
+    if (!found[0].converged || found[0].mean_fails())
+      return found;
+    for (unsigned int i = 0; i < found.size() && found.size() < most; ++i)
+      {
+        DesignPoint other   = design_point(n, limit_state, -found[i].numbers);
+        const auto  is_same = [&](const DesignPoint &point) {
+          return point.numbers.dot(other.numbers) >
+                 same * point.index() * other.index();
+        };
+        if (other.converged && other.index() > 0. &&
+            std::none_of(found.begin(), found.end(), is_same))
+          found.push_back(std::move(other));
+      }
+    std::stable_sort(found.begin(),
+                     found.end(),
+                     [](const DesignPoint &a, const DesignPoint &b) {
+                       return a.index() < b.index();
+                     });
+    while (found.back().index() > found.front().index() + farther)
+      found.pop_back();
+    return found;
   }
 
   double
@@ -91,7 +124,7 @@ namespace geocone
   SamplingDensity::moved(const unsigned int number, VectorXd numbers) const
   {
     if (!is_normal() && number % period != 0)
-      numbers += centre;
+      numbers += centres[(number - number / period - 1) % centres.size()];
     return numbers;
   }
 
@@ -100,8 +133,10 @@ namespace geocone
   {
     if (is_normal())
       return 1.;
-    const double ratio =
-      std::exp(centre.dot(numbers) - centre.squaredNorm() / 2.);
+    double ratio = 0.;
+    for (const VectorXd &centre : centres)
+      ratio += std::exp(centre.dot(numbers) - centre.squaredNorm() / 2.) /
+               centres.size();
     return period / (1. + (period - 1.) * ratio);
   }
 } // namespace geocone

@@ -144,6 +144,11 @@ namespace geocone::GEOCONE_DIM
                        "1 to 10000000",
                        "100 over the probability of failure give it to 20 % by "
                        "Monte Carlo sampling");
+    if (sampling == Sampling::importance && n_samples < 20)
+      throw InputError("Analysis/Samples",
+                       n_samples,
+                       ">= 20 with importance sampling",
+                       "its limits are those of a mean of many samples");
     if (!(confidence > 0. && confidence < 1.))
       throw InputError(
         "Analysis/Confidence", confidence, "> 0, < 1", "0.95 is usual");
@@ -243,33 +248,37 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
-  Reliability::find_design_point()
+  Reliability::find_design_points()
   {
     try
       {
         const auto state = [&](const Eigen::VectorXd &u) {
           return limit_state(u);
         };
-        design = design_point(fields.rank(), state);
+        designs = design_points(fields.rank(), state);
         // Numbers that no sample has.
         std::vector<Eigen::VectorXd> pilots;
         for (unsigned int i = 0; i < n_pilots; ++i)
           pilots.push_back(fields.numbers_of(-1U - i));
-        distance = distance_of_centre(design, pilots, state);
+        distances.clear();
+        for (const DesignPoint &design : designs)
+          distances.push_back(distance_of_centre(design, pilots, state));
       }
     catch (const Stopped &)
       {} // all ranks are together here
     stop_if_asked(comm);
     // Ranks of different machines may round differently.
     StateRow of_first;
-    of_first(design, distance, mechanisms, stresses);
+    of_first(designs, distances, mechanisms, stresses);
     StateRow row(dealii::Utilities::MPI::broadcast(comm, of_first.values()));
-    row(design, distance, mechanisms, stresses);
-    log.print(format("design point: reliability index %.4g, load factor %.4g; "
-                     "samples around it at the distance %.4g",
-                     design.index(),
-                     design.load_factor,
-                     distance));
+    row(designs, distances, mechanisms, stresses);
+    for (unsigned int i = 0; i < designs.size(); ++i)
+      log.print(format("design point: reliability index %.4g, load factor "
+                       "%.4g; samples around it at the distance %.4g",
+                       designs[i].index(),
+                       designs[i].load_factor,
+                       distances[i]));
+    const DesignPoint &design = designs.front();
     if (design.mean_fails())
       log.warn(format("the body with mean properties fails (load factor %.4g): "
                       "samples are those of Monte Carlo",
@@ -336,8 +345,8 @@ namespace geocone::GEOCONE_DIM
   Reliability::advance(TimePoint &now)
   {
     namespace mpi = dealii::Utilities::MPI;
-    if (sampling == Sampling::importance && design.numbers.size() == 0)
-      find_design_point();
+    if (sampling == Sampling::importance && designs.empty())
+      find_design_points();
     const unsigned int first   = now.in_stage * batch + 1,
                        last    = std::min(first + batch - 1, n_samples),
                        n_ranks = mpi::n_mpi_processes(comm);
@@ -417,12 +426,13 @@ namespace geocone::GEOCONE_DIM
       {"limit_lower", found.limits[0]},
       {"limit_upper", found.limits[1]},
       {"cpu_s_per_sample", records.empty() ? 0. : cpu / records.size()}};
-    if (sampling == Sampling::importance)
+    if (!designs.empty())
       json["reliability"].update(
-        {{"reliability_index", design.index()},
-         {"distance_of_centre", distance},
-         {"design_point_load_factor", design.load_factor},
-         {"design_point_found", design.converged},
+        {{"reliability_index", designs.front().index()},
+         {"distance_of_centre", distances.front()},
+         {"design_points", designs.size()},
+         {"design_point_load_factor", designs.front().load_factor},
+         {"design_point_found", designs.front().converged},
          {"mean_weight", found.mean_weight},
          {"effective_failed", found.effective_failed}});
     json["cost"] = {{"total_s", total.wall_time()},

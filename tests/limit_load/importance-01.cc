@@ -57,6 +57,23 @@ namespace limit_load_importance_01
     });
     check("a mean body that fails", failed.mean_fails());
 
+    // Two mechanisms, 3 along a and 3.5 along c, and a third one that is far.
+    VectorXd c = VectorXd::Zero(n), far = c;
+    c[4]              = 1.;
+    far[5]            = 1.;
+    const auto points = design_points(n, [&](const VectorXd &u) {
+      const LimitState states[] = {{0.3 * (3. - a.dot(u)), -0.3 * a},
+                                   {0.3 * (3.5 - c.dot(u)), -0.3 * c},
+                                   {0.3 * (6. - far.dot(u)), -0.3 * far}};
+      return *std::min_element(
+        states, states + 3, [](const LimitState &one, const LimitState &other) {
+          return one.log_load < other.log_load;
+        });
+    });
+    check("design points of two mechanisms",
+          points.size() == 2 && (points[0].numbers - 3. * a).norm() < 0.01 &&
+            (points[1].numbers - 3.5 * c).norm() < 0.01);
+
     // Linear, with the slope -0.3 along a and the deviation 0.2 across it.
     DesignPoint along = point;
     along.numbers     = 3. * a;
@@ -71,7 +88,7 @@ namespace limit_load_importance_01
     check("distance of the centre",
           std::abs(distance - 3. * 0.09 / (0.09 + 0.04)) < 0.06);
 
-    const SamplingDensity     density(point.numbers);
+    const SamplingDensity     density({point.numbers});
     std::vector<SampleRecord> samples(2000);
     for (unsigned int s = 0; s < samples.size(); ++s)
       {

@@ -62,9 +62,23 @@ namespace geocone
    * a limited length.
    * @param n number of standard normal numbers
    * @param limit_state function of these numbers
+   * @param start of the iteration; empty for the mean
    */
   DesignPoint
   design_point(
+    const unsigned int                                        n,
+    const std::function<LimitState(const Eigen::VectorXd &)> &limit_state,
+    const Eigen::VectorXd                                    &start = {});
+
+  /**
+   * Finds design points of different mechanisms, the nearest first: from the mean, and
+   * then from the point opposite to each that was found, where its mechanism is strong.
+   * Others are left out if they are in nearly the same direction as a nearer one, or so
+   * much farther that failures there are rare. There may be more that are not found.
+   * @return at least one, which may not have converged
+   */
+  std::vector<DesignPoint>
+  design_points(
     const unsigned int                                        n,
     const std::function<LimitState(const Eigen::VectorXd &)> &limit_state);
 
@@ -87,8 +101,8 @@ namespace geocone
 
   /**
    * Density from which samples are drawn: nine samples of ten are normally distributed
-   * around a centre, every tenth around the origin. Weights of samples, phi(u) over
-   * the density, are therefore 10 at most, and sums of weights have a finite variance
+   * around centres, in turn, every tenth around the origin. Weights of samples, phi(u)
+   * over the density, are therefore 10 at most, and sums of weights have a finite variance
    * wherever samples fail (defensive mixture, Hesterberg 1995; fixed shares, Owen and Zhou
    * 2000). A centre at the origin gives the weight 1 to all samples.
    */
@@ -97,15 +111,15 @@ namespace geocone
   public:
     SamplingDensity() = default;
 
-    explicit SamplingDensity(Eigen::VectorXd centre)
-      : centre(std::move(centre))
+    explicit SamplingDensity(std::vector<Eigen::VectorXd> centres)
+      : centres(std::move(centres))
     {}
 
     /** Returns true if all weights are 1. */
     bool
     is_normal() const
     {
-      return centre.size() == 0 || centre.squaredNorm() == 0.;
+      return centres.empty() || centres[0].squaredNorm() == 0.;
     }
 
     /** Moves independent standard normal numbers of a sample to the density.
@@ -121,7 +135,7 @@ namespace geocone
     static constexpr double       largest_weight = period;
 
   private:
-    Eigen::VectorXd centre;
+    std::vector<Eigen::VectorXd> centres;
   };
 } // namespace geocone
 

@@ -142,7 +142,7 @@ namespace geocone::GEOCONE_DIM
     void
     state(StateRow &row) override
     {
-      row(mechanisms, stresses, design, distance);
+      row(mechanisms, stresses, designs, distances);
     }
 
     std::string
@@ -224,13 +224,16 @@ namespace geocone::GEOCONE_DIM
     SamplingDensity
     density() const
     {
-      return SamplingDensity(design.centre(distance));
+      std::vector<Eigen::VectorXd> centres;
+      for (unsigned int i = 0; i < designs.size(); ++i)
+        centres.push_back(designs[i].centre(distances[i]));
+      return SamplingDensity(std::move(centres));
     }
 
-    /** Finds the design point and the centre of samples on the first mesh.
+    /** Finds the design points and the centres of samples on the first mesh.
      *  Collective. */
     void
-    find_design_point();
+    find_design_points();
 
     /** Logarithm of the load factor for given standard normal numbers on the first
      *  mesh; its fields are kept. */
@@ -276,8 +279,10 @@ namespace geocone::GEOCONE_DIM
     LatestFields<Mechanism>   mechanisms;
     LatestFields<StressField> stresses;
 
-    DesignPoint design; ///< without numbers before the first batch
-    double      distance = 0.; ///< of the centre of samples from the origin
+    std::vector<DesignPoint>
+      designs; ///< the nearest first; empty before the first batch
+    std::vector<double>
+      distances; ///< of the centres of samples from the origin
   };
 } // namespace geocone::GEOCONE_DIM
 
