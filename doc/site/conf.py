@@ -76,7 +76,7 @@ PAGES = {
     "What is known": ["doc/limits", "doc/comparison", "doc/validation", "doc/verification",
                       "doc/verification_mpm", "doc/limit_load", "doc/book/README",
                       "doc/footing_deep", "doc/friction_memory", "doc/small_dilatancy",
-                      "doc/stability", "doc/performance",
+                      "doc/small_dilatancy_family", "doc/stability", "doc/performance",
                       "doc/overhead", "doc/paper",
                       "doc/profiles"],
     "How it works": ["doc/theory/README", "CONTRIBUTING", "doc/style", "CHANGELOG"]}
