@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/limit_analysis/axisymmetric_points.h>
+#include <geocone/limit_analysis/held_bodies.h>
 
 #include <cmath>
-#include <map>
 #include <memory>
 #include <utility>
 
@@ -85,52 +85,14 @@ namespace geocone::GEOCONE_DIM
     }
 
     /** Dofs of the velocities of held sides. */
-    class HeldBodies
+    HeldBodies
+    held_bodies(const AxisymmetricScene &scene)
     {
-    public:
-      HeldBodies(const AxisymmetricScene &scene, const unsigned int first_dof)
-        : first_dof(first_dof)
-      {
-        for (const auto &edge : scene.edges)
-          if (edge.condition.kind != FacetCondition::Kind::free)
-            number.emplace(key(edge), number.size());
-      }
-
-      unsigned int
-      n_dofs() const
-      {
-        return dim * number.size();
-      }
-
-      unsigned int
-      dof_of(const AxisymmetricScene::Edge &edge) const
-      {
-        return first_dof + dim * number.at(key(edge));
-      }
-
-      void
-      prescribe(ConicProblem &problem) const
-      {
-        for (const auto &[velocity, own] : number)
-          for (unsigned int d = 0; d < dim; ++d)
-            {
-              problem.is_prescribed[first_dof + dim * own + d] = true;
-              problem.prescribed[first_dof + dim * own + d]    = velocity[d];
-            }
-      }
-
-    private:
-      using Key = std::array<double, dim>;
-
-      static Key
-      key(const AxisymmetricScene::Edge &edge)
-      {
-        return {{edge.condition.velocity[0], edge.condition.velocity[1]}};
-      }
-
-      std::map<Key, unsigned int> number;
-      unsigned int                first_dof;
-    };
+      HeldBodies bodies((space::n_v + space::n_w) * scene.cells.size());
+      for (const auto &edge : scene.edges)
+        bodies.add(edge.condition);
+      return bodies;
+    }
 
     /** Prescribes the velocity normal to an edge exactly. */
     void
@@ -271,7 +233,7 @@ namespace geocone::GEOCONE_DIM
               typename std::decay_t<decltype(jump)>::Vector v;
               for (unsigned int i = 0; i < axes.size(); ++i)
                 v[i] = axes[i][d];
-              jump.add(bodies.dof_of(edge) + d, v);
+              jump.add(bodies.dof_of(edge.condition) + d, v);
             }
         jump.finish();
       };
@@ -309,10 +271,9 @@ namespace geocone::GEOCONE_DIM
   ConicProblem
   upper_forces(const AxisymmetricScene &scene)
   {
-    const unsigned int n_cells    = scene.cells.size();
-    const unsigned int first_body = (space::n_v + space::n_w) * n_cells;
-    const HeldBodies   bodies(scene, first_body);
-    ConicProblem problem = ConicProblem::of_dofs(first_body + bodies.n_dofs());
+    const unsigned int n_cells = scene.cells.size();
+    const HeldBodies   bodies  = held_bodies(scene);
+    ConicProblem       problem = ConicProblem::of_dofs(bodies.n_dofs());
     const Forces forces  = {problem};
     bodies.prescribe(problem);
     for (unsigned int c = 0; c < n_cells; ++c)
@@ -344,7 +305,7 @@ namespace geocone::GEOCONE_DIM
   {
     const BoundScene  &bound   = scene.bound;
     const unsigned int n_cells = scene.cells.size();
-    const HeldBodies   bodies(scene, (space::n_v + space::n_w) * n_cells);
+    const HeldBodies   bodies  = held_bodies(scene);
     ConicProblem       problem = upper_forces(scene);
     auto points = empty_axisymmetric_points<columns_of_rate>(bound.strengths);
     for (unsigned int c = 0; c < n_cells; ++c)

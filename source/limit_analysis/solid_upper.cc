@@ -1,9 +1,9 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <geocone/limit_analysis/held_bodies.h>
 #include <geocone/limit_analysis/solid_points.h>
 
-#include <map>
 #include <memory>
 
 namespace geocone::GEOCONE_DIM
@@ -16,24 +16,16 @@ namespace geocone::GEOCONE_DIM
     using CutFaces = PointGroupOf<CutMohrCoulombCones, 6>;
     using Planes   = PointGroupOf<OpeningCone, 6>;
 
-    /** Dofs of the velocities of cells and of rigid bodies: the distinct velocities of
-     *  fixed facets and of planes. */
+    /** Dofs of the velocities of cells and of the bodies that hold facets. */
     class VelocityDofs
     {
     public:
       VelocityDofs(const SolidScene &bound, const unsigned int order)
         : n_nodes(simplex_nodes::n_in_cell(order))
-        , first_body(dim * n_nodes * bound.tetrahedra->cells.size())
+        , bodies(dim * n_nodes * bound.tetrahedra->cells.size())
       {
         for (const FacetCondition &held : bound.facet_conditions)
-          if (held.kind != FacetCondition::Kind::free)
-            bodies.emplace(key(held), bodies.size());
-      }
-
-      unsigned int
-      n() const
-      {
-        return first_body + dim * bodies.size();
+          bodies.add(held);
       }
 
       unsigned int
@@ -42,37 +34,8 @@ namespace geocone::GEOCONE_DIM
         return dim * (n_nodes * cell + node);
       }
 
-      /** Dofs of the body that holds a facet; of none, if it is free. */
-      unsigned int
-      of_body(const FacetCondition &held) const
-      {
-        return held.kind == FacetCondition::Kind::free
-                 ? 0
-                 : first_body + dim * bodies.at(key(held));
-      }
-
-      void
-      prescribe(ConicProblem &problem) const
-      {
-        for (const auto &[velocity, number] : bodies)
-          for (unsigned int d = 0; d < dim; ++d)
-            {
-              problem.is_prescribed[first_body + dim * number + d] = true;
-              problem.prescribed[first_body + dim * number + d] = velocity[d];
-            }
-      }
-
-    private:
-      using Key = std::array<double, dim>;
-
-      static Key
-      key(const FacetCondition &held)
-      {
-        return {{held.velocity[0], held.velocity[1], held.velocity[2]}};
-      }
-
-      unsigned int                n_nodes, first_body;
-      std::map<Key, unsigned int> bodies;
+      const unsigned int n_nodes;
+      HeldBodies         bodies;
     };
 
     /** Points of the jumps of velocity at facets. Each has six dofs, those of both
@@ -249,7 +212,7 @@ namespace geocone::GEOCONE_DIM
           const unsigned int a = velocities.of_node(facet.cells[0], first[i]),
                              b = is_inner ? velocities.of_node(facet.cells[1],
                                                                second[i])
-                                          : velocities.of_body(held);
+                                          : velocities.bodies.dof_of(held);
           if (is_plane && !is_inner && mu == 0. && !one.is_cut())
             {
               problem.is_prescribed[a + held.axis] = true;
@@ -299,9 +262,9 @@ namespace geocone::GEOCONE_DIM
   {
     const Tetrahedra  &tetrahedra = *bound.tetrahedra;
     const VelocityDofs velocities(bound, order);
-    ConicProblem       problem = ConicProblem::of_dofs(velocities.n());
+    ConicProblem problem = ConicProblem::of_dofs(velocities.bodies.n_dofs());
     problem.least_start        = bound.units.is_of_loads ? 0.1 : 0.;
-    velocities.prescribe(problem);
+    velocities.bodies.prescribe(problem);
     SolidPoints points = empty_points(bound);
     for (unsigned int c = 0; c < tetrahedra.cells.size(); ++c)
       add_rates(bound, order, c, velocities, points, problem);
