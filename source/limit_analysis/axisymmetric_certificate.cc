@@ -40,18 +40,6 @@ namespace geocone::GEOCONE_DIM
         {s[0] * n[0] + shear * n[1], shear * n[0] + s[1] * n[1]});
     }
 
-    /** Index of a vertex in a cell. */
-    unsigned int
-    index_in_cell(const Triangles   &triangles,
-                  const unsigned int cell,
-                  const unsigned int vertex)
-    {
-      return std::find(triangles.cells[cell].begin(),
-                       triangles.cells[cell].end(),
-                       vertex) -
-             triangles.cells[cell].begin();
-    }
-
     /** Traction of a cell on an edge: the coefficients of its polynomial. */
     std::vector<Tensor<1, dim>>
     tractions_on_edge(const AxisymmetricScene          &scene,
@@ -59,18 +47,13 @@ namespace geocone::GEOCONE_DIM
                       const unsigned int                number,
                       const unsigned int                cell)
     {
-      const Triangles            &triangles = scene.bound.triangles;
-      const auto                 &ends      = triangles.edges[number].vertices;
+      const auto [a, b] = ends_in_cell(scene.bound.triangles, number, cell);
       std::vector<Tensor<1, dim>> t;
       for (unsigned int k = 0; k <= axisymmetric_stress::order; ++k)
-        t.push_back(
-          traction_of(stress[axisymmetric_stress::n * cell +
-                             bernstein::position(bernstein::on_edge(
-                               axisymmetric_stress::order,
-                               index_in_cell(triangles, cell, ends[0]),
-                               index_in_cell(triangles, cell, ends[1]),
-                               k))],
-                      scene.edges[number].normal));
+        t.push_back(traction_of(stress[axisymmetric_stress::n * cell +
+                                       bernstein::position(bernstein::on_edge(
+                                         axisymmetric_stress::order, a, b, k))],
+                                scene.edges[number].normal));
       return t;
     }
 
@@ -237,11 +220,8 @@ namespace geocone::GEOCONE_DIM
                    const unsigned int       number,
                    const unsigned int       cell)
   {
-    const Triangles   &triangles  = scene.bound.triangles;
-    const auto        &r          = scene.edges[number].radius;
-    const auto        &ends       = triangles.edges[number].vertices;
-    const unsigned int a          = index_in_cell(triangles, cell, ends[0]),
-                       b          = index_in_cell(triangles, cell, ends[1]);
+    const auto &r     = scene.edges[number].radius;
+    const auto [a, b] = ends_in_cell(scene.bound.triangles, number, cell);
     constexpr unsigned int      n = space::order + 1;
     std::vector<Tensor<1, dim>> u(n + 1);
     for (unsigned int k = 0; k <= n; ++k)
