@@ -115,13 +115,10 @@ namespace geocone::GEOCONE_DIM
                                const BoundSide     side)
     : problem(problem)
     , side(side)
-    , matrix([&]() {
-      const unsigned int n =
-        side == BoundSide::upper ? columns_upper : columns_lower;
-      const auto dofs = dofs_of_cells(problem, n);
-      return BlockMatrix(problem.is_prescribed,
-                         {{n, problem.n_triangles, dofs.data()}});
-    }())
+    , n_columns(side == BoundSide::upper ? columns_upper : columns_lower)
+    , dofs(dofs_of_cells(problem, n_columns))
+    , matrix(problem.is_prescribed,
+             {{n_columns, problem.n_triangles, dofs.data()}})
   {
     for (const unsigned int m : bound.triangles.material)
       {
@@ -131,11 +128,8 @@ namespace geocone::GEOCONE_DIM
           bound.units.stress);
       }
     matrix.clear();
-    const bool is_upper = side == BoundSide::upper;
-    const auto dofs =
-      dofs_of_cells(problem, is_upper ? columns_upper : columns_lower);
     const Matrix3d G = coupling(side);
-    if (is_upper)
+    if (side == BoundSide::upper)
       add_cells<columns_upper>(problem, dofs, stiffness, G, matrix);
     else
       add_cells<columns_lower>(problem, dofs, stiffness, G, matrix);
@@ -147,10 +141,15 @@ namespace geocone::GEOCONE_DIM
   LinearField
   ElasticSolver::conjugate_stresses(const LinearField &strains) const
   {
-    LinearField s = combined(strains, coupling(side));
-    for (unsigned int p = 0; p < s.size(); ++p)
-      s[p].array() *= stiffness[p / 3].array();
-    return s;
+    return stresses_of(combined(strains, coupling(side)));
+  }
+
+  LinearField
+  ElasticSolver::stresses_of(LinearField strains) const
+  {
+    for (unsigned int p = 0; p < strains.size(); ++p)
+      strains[p].array() *= stiffness[p / 3].array();
+    return strains;
   }
 
   VectorXd
@@ -191,13 +190,7 @@ namespace geocone::GEOCONE_DIM
                "not vanish at a corner beside a free side has no stresses "
                "in equilibrium",
                missed / largest));
-    if (side == BoundSide::upper)
-      {
-        s = problem.B.rates(q);
-        for (unsigned int p = 0; p < s.size(); ++p)
-          s[p].array() *= stiffness[p / 3].array();
-      }
-    return s;
+    return side == BoundSide::upper ? stresses_of(problem.B.rates(q)) : s;
   }
 
   LinearField
@@ -205,30 +198,6 @@ namespace geocone::GEOCONE_DIM
   {
     return problem.B.rates(displacements(problem.B.forces(
       problem.volume, conjugate_stresses(strains), problem.n_dofs())));
-  }
-
-  double
-  ElasticSolver::product_of_strains(const LinearField &a,
-                                    const LinearField &b) const
-  {
-    const LinearField of_b = combined(b, mass());
-    double            sum  = 0.;
-    for (unsigned int p = 0; p < a.size(); ++p)
-      sum +=
-        problem.volume[p] * a[p].dot(stiffness[p / 3].cwiseProduct(of_b[p]));
-    return sum;
-  }
-
-  double
-  ElasticSolver::product_of_stresses(const LinearField &a,
-                                     const LinearField &b) const
-  {
-    const LinearField of_b = combined(b, mass());
-    double            sum  = 0.;
-    for (unsigned int p = 0; p < a.size(); ++p)
-      sum +=
-        problem.volume[p] * a[p].dot(of_b[p].cwiseQuotient(stiffness[p / 3]));
-    return sum;
   }
 
   double
@@ -240,6 +209,23 @@ namespace geocone::GEOCONE_DIM
     for (unsigned int p = 0; p < stresses.size(); ++p)
       sum += problem.volume[p] * stresses[p].dot(weighted[p]);
     return sum;
+  }
+
+  double
+  ElasticSolver::product_of_strains(const LinearField &a,
+                                    const LinearField &b) const
+  {
+    return work(stresses_of(a), b);
+  }
+
+  double
+  ElasticSolver::product_of_stresses(const LinearField &a,
+                                     const LinearField &b) const
+  {
+    LinearField strains(b);
+    for (unsigned int p = 0; p < b.size(); ++p)
+      strains[p].array() /= stiffness[p / 3].array();
+    return work(a, strains);
   }
 
   std::vector<double>

@@ -67,8 +67,14 @@ namespace geocone::GEOCONE_DIM
     LinearField
     conjugate_stresses(const LinearField &strains) const;
 
+    /** D e of strains at each point. */
+    LinearField
+    stresses_of(LinearField strains) const;
+
     const BoundProblem          &problem;
     const BoundSide              side;
+    const unsigned int           n_columns; ///< dofs of a triangle
+    std::vector<unsigned int>    dofs;      ///< of all triangles
     std::vector<Eigen::Vector3d> stiffness; ///< D by triangle, diagonal
     BlockMatrix                  matrix;
   };
