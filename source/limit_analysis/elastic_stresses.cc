@@ -6,8 +6,11 @@
 #include <geocone/limit_analysis/elastic_stresses.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <utility>
 
 namespace geocone::GEOCONE_DIM
 {
@@ -98,6 +101,34 @@ namespace geocone::GEOCONE_DIM
       });
     }
 
+    /** Averages a field at the vertices over the triangles of a material, by their areas.
+     *  Errors of derivatives alternate between triangles; the mean is more accurate. */
+    LinearField
+    averaged(const Triangles &triangles, const LinearField &field)
+    {
+      std::map<std::array<unsigned int, 2>, std::pair<double, Vector3d>> sums;
+      const auto sum_at = [&](const unsigned int p) -> auto &
+      {
+        return sums
+          .try_emplace(
+            {{triangles.cells[p / 3][p % 3], triangles.material[p / 3]}},
+            0.,
+            Vector3d::Zero())
+          .first->second;
+      };
+      for (unsigned int p = 0; p < field.size(); ++p)
+        {
+          const double area = triangles.area(p / 3);
+          auto        &sum  = sum_at(p);
+          sum.first += area;
+          sum.second += area * field[p];
+        }
+      LinearField mean(field.size());
+      for (unsigned int p = 0; p < field.size(); ++p)
+        mean[p] = sum_at(p).second / sum_at(p).first;
+      return mean;
+    }
+
     /** Sums over the points of a triangle with weights. */
     LinearField
     combined(const LinearField &field, const Matrix3d &G)
@@ -109,6 +140,30 @@ namespace geocone::GEOCONE_DIM
       return sums;
     }
   } // namespace
+
+  void
+  add(LinearField &to, const double factor, const LinearField &field)
+  {
+    for (unsigned int p = 0; p < to.size(); ++p)
+      to[p] += factor * field[p];
+  }
+
+  LinearField
+  difference(const LinearField &a, const LinearField &b)
+  {
+    LinearField all(a);
+    add(all, -1., b);
+    return all;
+  }
+
+  LinearField
+  mean_of_both(const ElasticStresses &stresses)
+  {
+    LinearField s(stresses.compatible);
+    for (unsigned int p = 0; p < s.size(); ++p)
+      s[p] = (s[p] + stresses.equilibrated[p]) / 2.;
+    return s;
+  }
 
   ElasticSolver::ElasticSolver(const BoundScene   &bound,
                                const BoundProblem &problem,
@@ -238,5 +293,22 @@ namespace geocone::GEOCONE_DIM
         problem.volume[p] *
         stresses[p].dot(weighted[p].cwiseQuotient(stiffness[p / 3]));
     return energy;
+  }
+
+  std::vector<ElasticStresses>
+  elastic_stresses(const Triangles             &triangles,
+                   const ElasticSolver         &upper,
+                   const ElasticSolver         &lower,
+                   const std::vector<VectorXd> &upper_forces,
+                   const std::vector<VectorXd> &lower_forces)
+  {
+    std::vector<ElasticStresses> all(upper_forces.size());
+    for (unsigned int i = 0; i < all.size(); ++i)
+      {
+        all[i].compatible   = upper.stresses(upper_forces[i]);
+        all[i].equilibrated = lower.stresses(lower_forces[i]);
+        all[i].averaged     = averaged(triangles, all[i].compatible);
+      }
+    return all;
   }
 } // namespace geocone::GEOCONE_DIM

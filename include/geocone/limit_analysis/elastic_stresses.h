@@ -17,6 +17,27 @@ namespace geocone::GEOCONE_DIM
    *  of them. */
   using LinearField = std::vector<Eigen::Vector3d>;
 
+  /** Adds a multiple of a field to another one. */
+  void
+  add(LinearField &to, const double factor, const LinearField &field);
+
+  LinearField
+  difference(const LinearField &a, const LinearField &b);
+
+  /** Elastic stresses of one load with the factor 1, in scaled units. */
+  struct ElasticStresses
+  {
+    LinearField compatible, equilibrated;
+
+    /** Compatible ones, averaged at the vertices of each material. */
+    LinearField averaged;
+  };
+
+  /** Mean of both elastic stresses, which misses the exact ones by half of their
+   *  distance in the energy norm (Prager and Synge 1947). */
+  LinearField
+  mean_of_both(const ElasticStresses &stresses);
+
   /**
    * Elastic response of a plane body on the elements of a bound. For the upper bound
    * these are quadratic displacements with the stresses D e (displacement method); for
@@ -78,6 +99,15 @@ namespace geocone::GEOCONE_DIM
     std::vector<Eigen::Vector3d> stiffness; ///< D by triangle, diagonal
     BlockMatrix                  matrix;
   };
+
+  /** Elastic stresses of all loads, by both methods. @param upper, lower solvers of both
+   *  sides, with the load vectors of all loads */
+  std::vector<ElasticStresses>
+  elastic_stresses(const Triangles                    &triangles,
+                   const ElasticSolver                &upper,
+                   const ElasticSolver                &lower,
+                   const std::vector<Eigen::VectorXd> &upper_forces,
+                   const std::vector<Eigen::VectorXd> &lower_forces);
 } // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -17,15 +17,6 @@ namespace geocone::GEOCONE_DIM
   /** Largest ShakedownBounds::load_difference that is a rounding error. */
   constexpr double rounding_of_work = 1e-9;
 
-  /** Elastic stresses of one load with the factor 1, in scaled units. */
-  struct ElasticStresses
-  {
-    LinearField compatible, equilibrated;
-
-    /** Compatible ones, averaged at the vertices of each material. */
-    LinearField averaged;
-  };
-
   /** Shakedown factors of a plane body on one mesh, from below by Melan's theorem and from
    *  above by Koiter's (doc/theory/shakedown.md). */
   struct ShakedownBounds
