@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/limit_analysis/bar_rows.h>
+#include <geocone/limit_analysis/bound_loads.h>
 #include <geocone/limit_analysis/interface_cells.h>
 
 #include <algorithm>

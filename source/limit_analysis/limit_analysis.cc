@@ -5,6 +5,7 @@
 #include <geocone/base/files.h>
 #include <geocone/limit_analysis/bar_cells.h>
 #include <geocone/limit_analysis/bound_fields.h>
+#include <geocone/limit_analysis/bound_loads.h>
 #include <geocone/limit_analysis/certificate_files.h>
 #include <geocone/limit_analysis/fans_of_jumps.h>
 #include <geocone/limit_analysis/limit_analysis.h>

@@ -1,6 +1,7 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <geocone/limit_analysis/bound_loads.h>
 #include <geocone/limit_analysis/gradients.h>
 #include <geocone/limit_analysis/sampled_body.h>
 

@@ -4,6 +4,7 @@
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
 #include <geocone/base/unused_parameters.h>
+#include <geocone/limit_analysis/bound_loads.h>
 #include <geocone/limit_analysis/varying_loads.h>
 
 #include <algorithm>

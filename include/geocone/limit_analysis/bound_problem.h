@@ -15,7 +15,6 @@
 
 #include <Eigen/Dense>
 
-#include <functional>
 #include <vector>
 
 namespace geocone::GEOCONE_DIM
@@ -211,55 +210,6 @@ namespace geocone::GEOCONE_DIM
     upper,
     lower
   };
-
-  /** Calls f(component, value) for the velocities prescribed by a condition at x, in
-   *  scaled units. @param n outward normal */
-  void
-  for_prescribed(const BoundaryCondition                         &condition,
-                 const dealii::Point<dim>                        &x,
-                 const dealii::Tensor<1, dim>                    &n,
-                 const double                                     unit,
-                 const std::function<void(unsigned int, double)> &f);
-
-  /** Returns the self-weight of a cell per unit area, in scaled units. */
-  dealii::Tensor<1, dim>
-  weight_of_cell(const BoundScene &scene, const unsigned int cell);
-
-  /** Returns the seepage force of a cell per unit area, in scaled units: that of the water,
-   *  or of its pressures at the vertices with linear pressures between them. */
-  dealii::Tensor<1, dim>
-  seepage_force_of_cell(const BoundScene &scene, const unsigned int cell);
-
-  /** Adds a body force to the load vector F of a problem, in scaled units. The force per
-   *  unit area is constant in the cell. */
-  void
-  add_force_of_cell(const BoundScene             &scene,
-                    const BoundSide               side,
-                    const unsigned int            cell,
-                    const dealii::Tensor<1, dim> &force,
-                    Eigen::VectorXd              &F);
-
-  /** Adds a traction boundary condition to the load vector F of a problem, in scaled
-   *  units. @param time at which it acts (s) */
-  void
-  add_tractions(const BoundScene        &scene,
-                const BoundSide          side,
-                const BoundaryCondition &load,
-                Eigen::VectorXd         &F,
-                const double             time = 0.);
-
-  /** Returns the maximum magnitude of a traction boundary condition over the loaded
-   *  vertices (Pa). */
-  double
-  largest_traction(const BoundScene &scene, const BoundaryCondition &load);
-
-  /** Largest departure of a traction from its linear interpolation between the
-   *  vertices, at some points of the edges, over its largest value. Both bounds are those
-   *  of slightly different loads where it is not zero. @param time (s) */
-  double
-  departure_of_traction(const BoundScene        &scene,
-                        const BoundaryCondition &load,
-                        const double             time = 0.);
 
   /**
    * Assembles the upper-bound problem with quadratic velocities, whose strain
