@@ -315,8 +315,25 @@ namespace geocone::GEOCONE_DIM
   {
     const auto &levels = limit_output.all_records();
     return (gap && *gap < gap_tolerance) ||
-           growth * levels.back().cells > 1.15 * most_cells ||
-           levels.size() == programme()[0];
+           is_last_mesh(levels.back().cells, levels.size());
+  }
+
+  void
+  BoundAnalysis::prepare_triangles()
+  {
+    mesh_parameters.prepare(scene.geometry, method);
+    if (mesh_parameters.cells == MeshParameters::Cells::quadrilaterals &&
+        scene.geometry.shape != Geometry::Shape::file)
+      throw InputError("Mesh/Cells",
+                       "quadrilaterals",
+                       "triangles with " + where(),
+                       "set Mesh/Cells = triangles");
+  }
+
+  std::string
+  BoundAnalysis::shown_bound(const double value, const bool certified)
+  {
+    return certified ? format("%.6g", value) : std::string("?");
   }
 
   std::vector<unsigned int>
@@ -352,15 +369,12 @@ namespace geocone::GEOCONE_DIM
     if (limit_output.verbosity < 1)
       return;
     const BoundLevel &level = limit_output.all_records().back();
-    const auto        shown = [](const double value, const bool certified) {
-      return certified ? format("%.6g", value) : std::string("?");
-    };
-    const LoadChoice &load = load_choice();
+    const LoadChoice &load  = load_choice();
     log.print(
       format(
         "level %u: %u %s: ", level.number, level.cells, name_of_cells.c_str()) +
-      shown(level.lower, level.lower_certified) + " <= " + bounded() +
-      " <= " + shown(level.upper, level.upper_certified) +
+      shown_bound(level.lower, level.lower_certified) + " <= " + bounded() +
+      " <= " + shown_bound(level.upper, level.upper_certified) +
       (load.is_reaction() ? " " + load.unit() : "") +
       (level.certified() ? format(", gap %.3g %%", 100. * level.gap) : "") +
       format(", %u + %u factorisations, %.2g s",
@@ -377,8 +391,7 @@ namespace geocone::GEOCONE_DIM
     json["size"] = {{"method", kind_word()},
                     {"cells", levels.empty() ? 0 : levels.back().cells}};
     json.update(results());
-    json["cost"] = {{"total_s", total.wall_time()},
-                    {"cpu_s", total.cpu_time()}};
+    json["cost"] = times();
     if (!levels.empty())
       json["bounds"] = limit_output.bounds(bracket());
     return json;

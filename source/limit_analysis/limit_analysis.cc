@@ -203,13 +203,7 @@ namespace geocone::GEOCONE_DIM
   {
     check_parameters();
     prepare_scene(options);
-    mesh_parameters.prepare(scene.geometry, method);
-    if (mesh_parameters.cells == MeshParameters::Cells::quadrilaterals &&
-        scene.geometry.shape != Geometry::Shape::file)
-      throw InputError("Mesh/Cells",
-                       "quadrilaterals",
-                       "triangles with 'Analysis/Kind' = limit load",
-                       "set Mesh/Cells = triangles");
+    prepare_triangles();
     check_axis();
     if (limit_output.writes_certificates())
       scene.structures.refuse("'Output/Certificates' = true",

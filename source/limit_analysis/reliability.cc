@@ -158,13 +158,7 @@ namespace geocone::GEOCONE_DIM
                        "set",
                        "none with " + where(),
                        "give undrained strengths and total unit weights");
-    mesh_parameters.prepare(scene.geometry, method);
-    if (mesh_parameters.cells == MeshParameters::Cells::quadrilaterals &&
-        scene.geometry.shape != Geometry::Shape::file)
-      throw InputError("Mesh/Cells",
-                       "quadrilaterals",
-                       "triangles with " + where(),
-                       "set Mesh/Cells = triangles");
+    prepare_triangles();
     first_mesh.emplace(fitted_mesh(mesh_parameters, scene, comm));
     const Triangles triangles(first_mesh->mesh);
     if (triangles.cells.size() > most_cells)
@@ -435,8 +429,7 @@ namespace geocone::GEOCONE_DIM
          {"design_point_found", designs.front().converged},
          {"mean_weight", found.mean_weight},
          {"effective_failed", found.effective_failed}});
-    json["cost"] = {{"total_s", total.wall_time()},
-                    {"cpu_s", total.cpu_time()}};
+    json["cost"] = times();
     return json;
   }
 

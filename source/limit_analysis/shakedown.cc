@@ -167,13 +167,7 @@ namespace geocone::GEOCONE_DIM
   {
     check_parameters();
     prepare_scene(options);
-    mesh_parameters.prepare(scene.geometry, method);
-    if (mesh_parameters.cells == MeshParameters::Cells::quadrilaterals &&
-        scene.geometry.shape != Geometry::Shape::file)
-      throw InputError("Mesh/Cells",
-                       "quadrilaterals",
-                       "triangles with " + where(),
-                       "set Mesh/Cells = triangles");
+    prepare_triangles();
     loads.prepare(scene);
     triangles.emplace(
       divided_at_chords(fitted_mesh(mesh_parameters, scene, comm)));
@@ -264,9 +258,8 @@ namespace geocone::GEOCONE_DIM
     now.time               = record.number;
     const bool is_accurate = record.certified() && record.gap < gap_tolerance &&
                              record.elastic_error < gap_tolerance;
-    const bool is_last = is_accurate ||
-                         growth * record.cells > 1.15 * most_cells ||
-                         record.number == programme()[0];
+    const bool is_last =
+      is_accurate || is_last_mesh(record.cells, record.number);
     if (!is_last)
       refine(record);
     return is_last ? StepOutcome::stage : StepOutcome::well;
@@ -278,13 +271,10 @@ namespace geocone::GEOCONE_DIM
     if (shakedown_output.verbosity < 1)
       return;
     const ShakedownRecord &last = shakedown_output.all_records().back();
-    const auto shown            = [](const double value, const bool certified) {
-      return certified ? format("%.6g", value) : std::string("?");
-    };
     log.print(
       format("level %u: %u triangles: lower factor ", last.number, last.cells) +
-      shown(last.lower, last.lower_certified) + ", upper factor " +
-      shown(last.upper, last.upper_certified) + " (" +
+      shown_bound(last.lower, last.lower_certified) + ", upper factor " +
+      shown_bound(last.upper, last.upper_certified) + " (" +
       (std::isfinite(last.proven) ? format("proven: %.6g", last.proven)
                                   : std::string("none is proven")) +
       format("), elastic stresses to %.2g %%, ", 100. * last.elastic_error) +
@@ -320,8 +310,7 @@ namespace geocone::GEOCONE_DIM
     json["size"] = {{"method", kind_word()},
                     {"cells", records.empty() ? 0 : records.back().cells},
                     {"states", loads.states().size()}};
-    json["cost"] = {{"total_s", total.wall_time()},
-                    {"cpu_s", total.cpu_time()}};
+    json["cost"] = times();
     if (records.empty())
       return json;
     const ShakedownRecord &last  = records.back();

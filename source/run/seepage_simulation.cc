@@ -222,8 +222,7 @@ namespace geocone::GEOCONE_DIM
         json["seepage"]["stored"]      = flow->stored();
         json["seepage"]["stored_unit"] = scene.geometry.unit("m^3/m");
       }
-    json["cost"] = {{"total_s", total.wall_time()},
-                    {"cpu_s", total.cpu_time()}};
+    json["cost"] = times();
     return json;
   }
 

@@ -137,6 +137,22 @@ namespace geocone::GEOCONE_DIM
     bool
     is_complete(const std::optional<double> &gap) const;
 
+    /** Returns true if no further mesh is allowed. @param n_cells,number of the mesh */
+    bool
+    is_last_mesh(const unsigned int n_cells, const unsigned int number) const
+    {
+      return growth * n_cells > 1.15 * most_cells || number == programme()[0];
+    }
+
+    /** Prepares the parameters of a mesh of triangles. @throws InputError for
+     *  quadrilaterals */
+    void
+    prepare_triangles();
+
+    /** Value of a bound as text, "?" if it is not certified. */
+    static std::string
+    shown_bound(const double value, const bool certified);
+
     /** Prints the lower and upper bounds on the load, and warns if they are not
      *  certified or too far apart. */
     void

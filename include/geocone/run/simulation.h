@@ -157,6 +157,13 @@ namespace geocone::GEOCONE_DIM
     /** @} */
     /** @} */
 
+    /** Wall and CPU time so far, entries of the section cost (s). */
+    Json
+    times() const
+    {
+      return {{"total_s", total.wall_time()}, {"cpu_s", total.cpu_time()}};
+    }
+
     const MPI_Comm comm;
     Log           &log;
     Checkpoint     checkpoint;
