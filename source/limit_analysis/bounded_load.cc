@@ -376,12 +376,7 @@ namespace geocone::GEOCONE_DIM
       for (const double y : {lowest, highest})
         units.stress =
           std::max(units.stress, flow_cones[m].k + growth[m].at(y));
-    double dead = 0.; // the largest dead load
-    for (unsigned int m = 0; m < scene.materials.size(); ++m)
-      dead =
-        std::max(dead,
-                 height * scene.materials.law(m).saturated_density() *
-                   scene.gravity.at(std::numeric_limits<double>::max()).norm());
+    double dead = stress_of_weight(scene, height); // the largest dead load
     for (const auto &load : scene.tractions.list)
       for (const auto &held : triangles.held_edges(*load))
         for (const unsigned int v : triangles.edges[held.edge].vertices)

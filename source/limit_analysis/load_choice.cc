@@ -5,6 +5,9 @@
 #include <geocone/base/log.h>
 #include <geocone/limit_analysis/load_choice.h>
 
+#include <algorithm>
+#include <limits>
+
 namespace geocone::GEOCONE_DIM
 {
   void
@@ -69,6 +72,16 @@ namespace geocone::GEOCONE_DIM
                        "load the body by 'Tractions'");
     chosen     = LoadFactor::tractions;
     may_vanish = true;
+  }
+
+  double
+  LoadChoice::stress_of_weight(const Scene &scene, const double height)
+  {
+    double density = 0.;
+    for (unsigned int m = 0; m < scene.materials.size(); ++m)
+      density = std::max(density, scene.materials.law(m).saturated_density());
+    return height * density *
+           scene.gravity.at(std::numeric_limits<double>::max()).norm();
   }
 
   void

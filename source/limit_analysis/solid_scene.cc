@@ -4,7 +4,9 @@
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
 #include <geocone/limit_analysis/solid_scene.h>
+
 #include <geocone/mesh/empty_regions.h>
+#include <deal.II/base/bounding_box.h>
 
 #include <Eigen/Dense>
 
@@ -84,33 +86,6 @@ namespace geocone::GEOCONE_DIM
     return held;
   }
 
-  namespace
-  {
-    /** Largest stress by the weight or a traction (Pa). */
-    double
-    stress_of_loads(const Scene &scene, const Tetrahedra &tetrahedra)
-    {
-      const double g =
-        scene.gravity.at(std::numeric_limits<double>::max()).norm();
-      double largest = 0., low = 0., high = 0.;
-      for (const Point<dim> &x : tetrahedra.vertices)
-        {
-          low  = std::min(low, x[1] - tetrahedra.vertices[0][1]);
-          high = std::max(high, x[1] - tetrahedra.vertices[0][1]);
-        }
-      for (unsigned int m = 0; m < scene.materials.size(); ++m)
-        largest = std::max(largest,
-                           (high - low) * g *
-                             scene.materials.law(m).saturated_density());
-      for (const auto &load : scene.tractions.list)
-        for (const unsigned int f : tetrahedra.held_facets(*load))
-          for (const Tensor<1, dim> &t :
-               tractions_at_vertices(*load, place_of(tetrahedra, f), {}))
-            largest = std::max(largest, t.norm());
-      return largest;
-    }
-  } // namespace
-
   void
   SolidLoad::choose_units(const Scene &scene, const Tetrahedra &tetrahedra)
   {
@@ -129,9 +104,15 @@ namespace geocone::GEOCONE_DIM
       }
     units.length = std::cbrt(volume) / 4.;
     // Soil that hardly has cohesion is pressed by its loads.
-    const double of_loads = stress_of_loads(scene, tetrahedra) / 8.;
-    units.is_of_loads     = of_loads > units.stress;
-    units.stress          = std::max(units.stress, of_loads);
+    const dealii::BoundingBox<dim> body(tetrahedra.vertices);
+    double of_loads = stress_of_weight(scene, body.side_length(1));
+    for (const auto &load : scene.tractions.list)
+      for (const unsigned int f : tetrahedra.held_facets(*load))
+        for (const Tensor<1, dim> &t :
+             tractions_at_vertices(*load, place_of(tetrahedra, f), {}))
+          of_loads = std::max(of_loads, t.norm());
+    units.is_of_loads = of_loads / 8. > units.stress;
+    units.stress      = std::max(units.stress, of_loads / 8.);
   }
 
   namespace

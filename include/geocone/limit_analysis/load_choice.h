@@ -7,6 +7,7 @@
 #include <geocone/base/choice.h>
 #include <geocone/limit_analysis/load_factor.h>
 #include <geocone/scene/observation.h>
+#include <geocone/scene/scene.h>
 
 #include <deal.II/base/parameter_acceptor.h>
 
@@ -101,6 +102,10 @@ namespace geocone::GEOCONE_DIM
      *  @throws InputError */
     [[noreturn]] void
     refuse_zero_load() const;
+
+    /** Largest vertical stress by the weight of a body (Pa). @param height (m) */
+    static double
+    stress_of_weight(const Scene &scene, const double height);
 
     /** Unit of a reaction force, see unit(). */
     std::string unit_of_reaction = dim == 2 ? "N/m" : "N";
