@@ -14,7 +14,7 @@ namespace geocone
   DesignPoint::state(StateRow &row)
   {
     std::vector<double> values(numbers.begin(), numbers.end());
-    row(values, load_factor, iterations, converged);
+    row(values, load_factor, iterations, converged, distance);
     numbers = Eigen::Map<const VectorXd>(values.data(), values.size());
   }
 

@@ -254,24 +254,24 @@ namespace geocone::GEOCONE_DIM
         std::vector<Eigen::VectorXd> pilots;
         for (unsigned int i = 0; i < n_pilots; ++i)
           pilots.push_back(fields.numbers_of(-1U - i));
-        distances.clear();
-        for (const DesignPoint &design : designs)
-          distances.push_back(distance_of_centre(design, pilots, state));
+        for (DesignPoint &design : designs)
+          design.distance = distance_of_centre(design, pilots, state);
       }
     catch (const Stopped &)
       {} // all ranks are together here
     stop_if_asked(comm);
     // Ranks of different machines may round differently.
     StateRow of_first;
-    of_first(designs, distances, mechanisms, stresses);
+    of_first(designs, mechanisms, stresses);
     StateRow row(dealii::Utilities::MPI::broadcast(comm, of_first.values()));
-    row(designs, distances, mechanisms, stresses);
-    for (unsigned int i = 0; i < designs.size(); ++i)
-      log.print(format("design point: reliability index %.4g, load factor "
-                       "%.4g; samples around it at the distance %.4g",
-                       designs[i].index(),
-                       designs[i].load_factor,
-                       distances[i]));
+    row(designs, mechanisms, stresses);
+    for (const DesignPoint &point : designs)
+      log.print(
+        format("design point: reliability index %.4g, load factor %.4g; "
+               "samples around it at the distance %.4g",
+               point.index(),
+               point.load_factor,
+               point.distance));
     const DesignPoint &design = designs.front();
     if (design.mean_fails())
       log.warn(format("the body with mean properties fails (load factor %.4g): "
@@ -423,7 +423,7 @@ namespace geocone::GEOCONE_DIM
     if (!designs.empty())
       json["reliability"].update(
         {{"reliability_index", designs.front().index()},
-         {"distance_of_centre", distances.front()},
+         {"distance_of_centre", designs.front().distance},
          {"design_points", designs.size()},
          {"design_point_load_factor", designs.front().load_factor},
          {"design_point_found", designs.front().converged},

@@ -30,6 +30,7 @@ namespace geocone
     double          load_factor = 0; ///< at these numbers
     unsigned int    iterations  = 0;
     bool            converged   = false;
+    double          distance = 0.; ///< of the centre of samples from the origin
 
     /** Reliability index of Hasofer and Lind (1974): distance from the origin. */
     double
@@ -44,9 +45,9 @@ namespace geocone
       return converged && numbers.squaredNorm() == 0.;
     }
 
-    /** Point at a distance from the origin, towards the design point. */
+    /** Centre of samples, towards the design point. */
     Eigen::VectorXd
-    centre(const double distance) const
+    centre() const
     {
       return numbers.squaredNorm() > 0. ? distance / index() * numbers
                                         : numbers;

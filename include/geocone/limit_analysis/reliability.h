@@ -142,7 +142,7 @@ namespace geocone::GEOCONE_DIM
     void
     state(StateRow &row) override
     {
-      row(mechanisms, stresses, designs, distances);
+      row(mechanisms, stresses, designs);
     }
 
     std::string
@@ -225,8 +225,8 @@ namespace geocone::GEOCONE_DIM
     density() const
     {
       std::vector<Eigen::VectorXd> centres;
-      for (unsigned int i = 0; i < designs.size(); ++i)
-        centres.push_back(designs[i].centre(distances[i]));
+      for (const DesignPoint &design : designs)
+        centres.push_back(design.centre());
       return SamplingDensity(std::move(centres));
     }
 
@@ -281,8 +281,6 @@ namespace geocone::GEOCONE_DIM
 
     std::vector<DesignPoint>
       designs; ///< the nearest first; empty before the first batch
-    std::vector<double>
-      distances; ///< of the centres of samples from the origin
   };
 } // namespace geocone::GEOCONE_DIM
 
