@@ -602,12 +602,7 @@ namespace geocone::GEOCONE_DIM
   void
   LimitAnalysis::state(StateRow &row)
   {
-    bool has_sizes = sizes.has_value();
-    row(asked_cells, reduction, has_sizes);
-    if (!has_sizes)
-      return sizes.reset();
-    if (!sizes)
-      sizes.emplace();
-    row(sizes->triangles, sizes->sizes, sizes->fans);
+    row(asked_cells, reduction);
+    state_of_sizes(row, sizes);
   }
 } // namespace geocone::GEOCONE_DIM

@@ -382,12 +382,6 @@ namespace geocone::GEOCONE_DIM
   void
   Shakedown::state(StateRow &row)
   {
-    bool has_sizes = sizes.has_value();
-    row(has_sizes);
-    if (!has_sizes)
-      return sizes.reset();
-    if (!sizes)
-      sizes.emplace();
-    row(sizes->triangles, sizes->sizes, sizes->fans);
+    state_of_sizes(row, sizes);
   }
 } // namespace geocone::GEOCONE_DIM

@@ -145,4 +145,16 @@ namespace geocone::GEOCONE_DIM
       }
     return sizes;
   }
+
+  void
+  state_of_sizes(StateRow &row, std::optional<CellSizes> &sizes)
+  {
+    bool has_sizes = sizes.has_value();
+    row(has_sizes);
+    if (!has_sizes)
+      return sizes.reset();
+    if (!sizes)
+      sizes.emplace();
+    row(sizes->triangles, sizes->sizes, sizes->fans);
+  }
 } // namespace geocone::GEOCONE_DIM

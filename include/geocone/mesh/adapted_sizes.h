@@ -4,9 +4,11 @@
 #ifndef geocone_mesh_adapted_sizes_h
 #define geocone_mesh_adapted_sizes_h
 
+#include <geocone/base/state_row.h>
 #include <geocone/mesh/gmsh_mesh.h>
 #include <geocone/mesh/triangles.h>
 
+#include <optional>
 #include <vector>
 
 namespace geocone::GEOCONE_DIM
@@ -27,6 +29,10 @@ namespace geocone::GEOCONE_DIM
                 const std::vector<double> &error,
                 const double               n_wanted,
                 std::vector<Fan>           fans = {});
+
+  /** Saves or restores cell sizes, if there are any. */
+  void
+  state_of_sizes(StateRow &row, std::optional<CellSizes> &sizes);
 } // namespace geocone::GEOCONE_DIM
 
 #endif
