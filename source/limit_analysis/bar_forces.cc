@@ -387,9 +387,8 @@ namespace geocone::GEOCONE_DIM
           {
             const auto          &ends = triangles.edges[edge.edge].vertices;
             const Tensor<1, dim> N    = normal_into(triangles, cell, edge.edge);
-            const double         length = triangles.vertices[ends[0]].distance(
-                                    triangles.vertices[ends[1]]) /
-                                  bound.units.length;
+            const double         length =
+              triangles.edge_length(edge.edge) / bound.units.length;
             for (unsigned int i = 0; i < 3; ++i, ++p)
               {
                 gap[cell] += dissipated(p);

@@ -213,9 +213,8 @@ namespace geocone::GEOCONE_DIM
               {
                 const BarEdge &edge   = bound.bars.edges[k];
                 const auto    &ends   = triangles.edges[edge.edge].vertices;
-                const double   length = triangles.vertices[ends[0]].distance(
-                                        triangles.vertices[ends[1]]) /
-                                      bound.units.length;
+                const double   length =
+                  triangles.edge_length(edge.edge) / bound.units.length;
                 for (unsigned int end = 0; end < 2; ++end)
                   {
                     const unsigned int soil =

@@ -71,9 +71,8 @@ namespace geocone::GEOCONE_DIM
             {
               const BarEdge &edge   = bound.bars.edges[k];
               const auto    &ends   = triangles.edges[edge.edge].vertices;
-              const double   length = triangles.vertices[ends[0]].distance(
-                                      triangles.vertices[ends[1]]) /
-                                    bound.units.length;
+              const double   length =
+                triangles.edge_length(edge.edge) / bound.units.length;
               const Tensor<1, dim> N = normal_into(triangles, cell, edge.edge);
               const PointCone      first =
                                 interface_cone(bound, edge, cell, ends[0]),

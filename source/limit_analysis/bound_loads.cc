@@ -267,10 +267,8 @@ namespace geocone::GEOCONE_DIM
     const Triangles &triangles = bound.triangles;
     for (const auto &held : triangles.held_edges(load))
       {
-        const auto  &ends = triangles.edges[held.edge].vertices;
         const double length =
-          triangles.vertices[ends[0]].distance(triangles.vertices[ends[1]]) /
-          bound.units.length;
+          triangles.edge_length(held.edge) / bound.units.length;
         for (const EdgeNode &node : nodes_of(bound, side, held))
           {
             const Tensor<1, dim> t = traction(

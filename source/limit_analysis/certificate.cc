@@ -153,10 +153,7 @@ namespace geocone::GEOCONE_DIM
       const auto     tractions     = tractions_at_ends(bound, s);
       const VectorXd at_interfaces = interface_forces(problem, s);
       const auto     half_length   = [&](const unsigned int e) {
-        const auto &ends = triangles.edges[e].vertices;
-        return triangles.vertices[ends[0]].distance(
-                 triangles.vertices[ends[1]]) /
-               (2. * L);
+        return triangles.edge_length(e) / (2. * L);
       };
       std::vector<bool> is_of_side(problem.n_dofs(), false);
       for (const auto &side : tractions.of_sides)

@@ -146,10 +146,8 @@ namespace geocone::GEOCONE_DIM
            live = Json::array(), velocity = Json::array();
       for (const auto &outer : triangles.outer_edges())
         {
-          const auto  &ends = triangles.edges[outer.edge].vertices;
           const double unit =
-            2. * L * stress /
-            triangles.vertices[ends[0]].distance(triangles.vertices[ends[1]]);
+            2. * L * stress / triangles.edge_length(outer.edge);
           const unsigned int first =
                                dim * (triangles.cells.size() + 2 * outer.edge),
                              middle =

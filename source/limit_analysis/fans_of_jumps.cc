@@ -82,10 +82,8 @@ namespace geocone::GEOCONE_DIM
       return [problem = lower_problem(bound), &bound, load](
                const unsigned int edge, const unsigned int end) {
         const Triangles &triangles = bound.triangles;
-        const auto      &two       = triangles.edges[edge].vertices;
         const double     half =
-          triangles.vertices[two[0]].distance(triangles.vertices[two[1]]) /
-          (2. * bound.units.length);
+          triangles.edge_length(edge) / (2. * bound.units.length);
         const unsigned int first =
           dim * (triangles.cells.size() + 2 * edge + end);
         EndCondition condition;

@@ -108,10 +108,8 @@ namespace geocone::GEOCONE_DIM
       first_dof + n_motions * bound.scene.obstacles.list.size();
     for (const Interface &interface : bound.interfaces)
       {
-        const auto  &ends = bound.triangles.edges[interface.held.edge].vertices;
-        const double length = bound.triangles.vertices[ends[0]].distance(
-                                bound.triangles.vertices[ends[1]]) /
-                              bound.units.length;
+        const double length =
+          bound.triangles.edge_length(interface.held.edge) / bound.units.length;
         const std::array<InterfacePoint, 3> points = points_of(interface.held);
         const Tensor<1, dim> &N = interface.normal;
         for (const Interface::Face &face : interface.faces)

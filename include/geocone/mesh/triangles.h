@@ -55,6 +55,14 @@ namespace geocone::GEOCONE_DIM
     double
     area(const unsigned int cell) const;
 
+    /** Length of an edge (m). */
+    double
+    edge_length(const unsigned int edge) const
+    {
+      const auto &ends = edges[edge].vertices;
+      return vertices[ends[0]].distance(vertices[ends[1]]);
+    }
+
     /** Centroid of a triangular cell (m). */
     dealii::Point<dim>
     centre(const unsigned int cell) const;
