@@ -5,7 +5,7 @@
 #include <geocone/base/stop_request.h>
 #include <geocone/base/version.h>
 #include <geocone/command_line.h>
-#include <geocone/materials/umat_library.h>
+#include <geocone/laws/umat_library.h>
 
 #include <deal.II/base/mpi.h>
 

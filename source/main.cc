@@ -3,10 +3,10 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/command_line.h>
+#include <geocone/folder/run_folder.h>
+#include <geocone/folder/watcher.h>
 #include <geocone/linear/blas_kernels.h>
 #include <geocone/linear/one_thread.h>
-#include <geocone/output/run_folder.h>
-#include <geocone/output/watcher.h>
 #include <geocone/program.h>
 
 #include <iostream>

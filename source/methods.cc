@@ -4,12 +4,12 @@
 #include <geocone/element/element_test.h>
 #include <geocone/limit_analysis/limit_analysis.h>
 #include <geocone/limit_analysis/mesh_from_bounds.h>
-#include <geocone/limit_analysis/reliability.h>
-#include <geocone/limit_analysis/shakedown.h>
 #include <geocone/methods.h>
+#include <geocone/reliability/reliability.h>
 #include <geocone/run/explicit_simulation.h>
 #include <geocone/run/implicit_simulation.h>
 #include <geocone/run/seepage_simulation.h>
+#include <geocone/shakedown/shakedown.h>
 
 namespace geocone::GEOCONE_DIM
 {

@@ -3,10 +3,10 @@
 
 // Methods of three-dimensional scenes, instead of methods.cc.
 #include <geocone/base/exceptions.h>
-#include <geocone/limit_analysis/solid_limit_analysis.h>
 #include <geocone/methods.h>
 #include <geocone/run/explicit_simulation.h>
 #include <geocone/run/implicit_simulation.h>
+#include <geocone/solid_bounds/solid_limit_analysis.h>
 
 #include <algorithm>
 #include <string>

@@ -7,10 +7,10 @@
 #include <geocone/base/types.h>
 #include <geocone/base/unused_parameters.h>
 #include <geocone/command_line.h>
-#include <geocone/materials/material_library.h>
+#include <geocone/folder/run_folder.h>
+#include <geocone/laws/material_library.h>
 #include <geocone/methods.h>
 #include <geocone/newton/plan.h>
-#include <geocone/output/run_folder.h>
 #include <geocone/program.h>
 
 #include <deal.II/base/mpi.h>

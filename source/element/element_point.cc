@@ -5,7 +5,7 @@
 #include <geocone/base/types.h>
 #include <geocone/element/element_point.h>
 #include <geocone/kernels/subloading_curves.h>
-#include <geocone/materials/subloading.h>
+#include <geocone/laws/subloading.h>
 
 #include <algorithm>
 #include <cmath>

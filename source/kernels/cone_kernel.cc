@@ -1,9 +1,9 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-#include <geocone/base/simd_level.h>
 #include <geocone/kernels/cone_kernel.h>
 #include <geocone/kernels/cone_kernel.templates.h>
+#include <geocone/kernels/simd_level.h>
 
 #include <cmath>
 #include <limits>

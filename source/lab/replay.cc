@@ -3,10 +3,10 @@
 
 #include <geocone/base/files.h>
 #include <geocone/base/parameter_file.h>
+#include <geocone/geometry/regions.h>
 #include <geocone/lab/replay.h>
 #include <geocone/problem/frozen_problem.h>
 #include <geocone/reduced/stress_methods.h>
-#include <geocone/scene/regions.h>
 
 #include <deal.II/base/timer.h>
 

@@ -4,7 +4,7 @@
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
 #include <geocone/limit_analysis/axisymmetric_points.h>
-#include <geocone/limit_analysis/bound_loads.h>
+#include <geocone/plane_bounds/bound_loads.h>
 
 #include <algorithm>
 

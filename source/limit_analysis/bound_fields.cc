@@ -3,8 +3,8 @@
 
 #include <geocone/cone/second_order_cone.h>
 #include <geocone/limit_analysis/axisymmetric_certificate.h>
-#include <geocone/limit_analysis/bar_cells.h>
 #include <geocone/limit_analysis/bound_fields.h>
+#include <geocone/plane_bounds/bar_cells.h>
 
 namespace geocone::GEOCONE_DIM
 {

@@ -3,8 +3,8 @@
 
 #include <geocone/base/resources.h>
 #include <geocone/limit_analysis/axisymmetric_certificate.h>
-#include <geocone/limit_analysis/bar_cells.h>
 #include <geocone/limit_analysis/certified_bounds.h>
+#include <geocone/plane_bounds/bar_cells.h>
 
 #include <algorithm>
 #include <cmath>

@@ -5,8 +5,8 @@
 #include <geocone/base/log.h>
 #include <geocone/cone/second_order_cone.h>
 #include <geocone/limit_analysis/axisymmetric_bounds.h>
-#include <geocone/limit_analysis/bound_loads.h>
 #include <geocone/limit_analysis/gradients.h>
+#include <geocone/plane_bounds/bound_loads.h>
 
 #include <algorithm>
 #include <cmath>

@@ -3,14 +3,14 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/files.h>
-#include <geocone/limit_analysis/bar_cells.h>
 #include <geocone/limit_analysis/bound_fields.h>
-#include <geocone/limit_analysis/bound_loads.h>
 #include <geocone/limit_analysis/certificate_files.h>
 #include <geocone/limit_analysis/fans_of_jumps.h>
 #include <geocone/limit_analysis/limit_analysis.h>
 #include <geocone/mesh/adapted_sizes.h>
 #include <geocone/output/model_of_triangles.h>
+#include <geocone/plane_bounds/bar_cells.h>
+#include <geocone/plane_bounds/bound_loads.h>
 #include <geocone/scene/magnitudes.h>
 #include <geocone/seepage/flow_on_mesh.h>
 

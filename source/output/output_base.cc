@@ -5,11 +5,11 @@
 #include <geocone/base/stop_request.h>
 #include <geocone/base/units.h>
 #include <geocone/base/unused_parameters.h>
+#include <geocone/folder/run_status.h>
+#include <geocone/folder/watcher.h>
 #include <geocone/output/model_file.h>
 #include <geocone/output/output_base.h>
-#include <geocone/output/run_status.h>
 #include <geocone/output/statistics_table.h>
-#include <geocone/output/watcher.h>
 
 #include <deal.II/base/mpi.h>
 

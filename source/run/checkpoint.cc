@@ -3,7 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/files.h>
-#include <geocone/output/run_status.h>
+#include <geocone/folder/run_status.h>
 #include <geocone/run/checkpoint.h>
 
 #include <deal.II/base/mpi.h>

@@ -3,7 +3,7 @@
 
 #include <geocone/base/over_ranks.h>
 #include <geocone/base/resources.h>
-#include <geocone/output/run_status.h>
+#include <geocone/folder/run_status.h>
 #include <geocone/run/explicit_simulation.h>
 #include <geocone/run/run_estimate.h>
 #include <geocone/scene/magnitudes.h>

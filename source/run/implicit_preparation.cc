@@ -5,12 +5,12 @@
 #include <geocone/conditions/mesh_coverage.h>
 #include <geocone/materials/retention.h>
 #include <geocone/points/initial_overstress.h>
-#include <geocone/problem/bars.h>
 #include <geocone/run/implicit_simulation.h>
 #include <geocone/run/run_estimate.h>
 #include <geocone/scene/magnitudes.h>
 #include <geocone/scene/small_motion.h>
 #include <geocone/seepage/flow_on_mesh.h>
+#include <geocone/terms/bars.h>
 
 #include <algorithm>
 

@@ -6,7 +6,7 @@
 #include <geocone/base/resources.h>
 #include <geocone/base/stop_request.h>
 #include <geocone/base/unused_parameters.h>
-#include <geocone/output/run_status.h>
+#include <geocone/folder/run_status.h>
 #include <geocone/points/initial_overstress.h>
 #include <geocone/run/implicit_simulation.h>
 

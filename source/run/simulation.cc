@@ -3,8 +3,8 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/stop_request.h>
+#include <geocone/laws/umat_library.h>
 #include <geocone/linear/blas_kernels.h>
-#include <geocone/materials/umat_library.h>
 #include <geocone/run/simulation.h>
 
 #include <deal.II/base/mpi.h>

@@ -5,7 +5,7 @@
 #include <geocone/base/log.h>
 #include <geocone/base/number_in.h>
 #include <geocone/base/unused_parameters.h>
-#include <geocone/materials/material_library.h>
+#include <geocone/laws/material_library.h>
 #include <geocone/scene/observation.h>
 
 #include <cmath>

@@ -3,7 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/lexicographic.h>
-#include <geocone/scene/geometry.h>
+#include <geocone/geometry/geometry.h>
 #include <geocone/transfer/cartesian_transfer.h>
 
 #include <deal.II/base/mpi.h>

@@ -1,7 +1,7 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-#include <geocone/base/simd_level.h>
+#include <geocone/kernels/simd_level.h>
 #include <geocone/transfer/transfer_kernels.templates.h>
 
 #include <algorithm>

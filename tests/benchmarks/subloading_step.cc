@@ -6,7 +6,7 @@
 // compression and spin. Prints nanoseconds per point-step for some sets of
 // features, the best of several runs.
 
-#include <geocone/materials/material_library.h>
+#include <geocone/laws/material_library.h>
 
 #include <chrono>
 #include <cmath>

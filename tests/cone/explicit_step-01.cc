@@ -6,7 +6,7 @@
 // and increments with all modes in them; large spins, which must not change
 // invariants.
 
-#include <geocone/materials/mohr_coulomb.h>
+#include <geocone/laws/mohr_coulomb.h>
 
 #include <array>
 #include <iostream>

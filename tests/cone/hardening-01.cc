@@ -9,7 +9,7 @@
 
 #include <geocone/cone/varying_cone.h>
 #include <geocone/kernels/point_block.h>
-#include <geocone/materials/hardening_mohr_coulomb.h>
+#include <geocone/laws/hardening_mohr_coulomb.h>
 
 #include <sstream>
 

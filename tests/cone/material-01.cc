@@ -6,7 +6,7 @@
 // stress paths are compared with formulas by hand, in units of the cohesion.
 
 #include <geocone/base/exceptions.h>
-#include <geocone/materials/material_library.h>
+#include <geocone/laws/material_library.h>
 
 #include "../test.h"
 #include "cone_tests.h"

@@ -6,7 +6,7 @@
 // work could be negative, a state at rest would not have the exact strength, the
 // memory would not relax like exp(-t/tau), or explicit steps would have another law.
 
-#include <geocone/materials/hardening_mohr_coulomb.h>
+#include <geocone/laws/hardening_mohr_coulomb.h>
 
 #include <algorithm>
 #include <array>

@@ -4,7 +4,7 @@
 // The closed forms of the strength laws in plane strain agree with the elimination by QR
 // factors, for the matrix A of the same law.
 
-#include <geocone/limit_analysis/plane_strength.h>
+#include <geocone/bounds/plane_strength.h>
 
 #include "../test.h"
 #include "cone_tests.h"

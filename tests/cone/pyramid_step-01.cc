@@ -7,7 +7,7 @@
 // and such in which two or all are equal, with and without friction that remembers and
 // cohesion that grows; large spins.
 
-#include <geocone/materials/spatial_mohr_coulomb.h>
+#include <geocone/laws/spatial_mohr_coulomb.h>
 
 #include <array>
 #include <iostream>

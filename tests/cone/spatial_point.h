@@ -6,7 +6,7 @@
 #ifndef geocone_tests_spatial_point_h
 #define geocone_tests_spatial_point_h
 
-#include <geocone/materials/material_library.h>
+#include <geocone/laws/material_library.h>
 
 #include <memory>
 #include <string>

@@ -6,7 +6,7 @@
 // product and the scaling of each cone, for random pairs whose eigenvalues spread over six
 // orders of magnitude, and that a step ends on the boundary.
 
-#include <geocone/limit_analysis/symmetric_cones.h>
+#include <geocone/conic/symmetric_cones.h>
 
 #include "../test.h"
 #include "cone_tests.h"

@@ -10,9 +10,9 @@
 // within 1 % (three standard deviations of 2000 trials): normal limits, without the skewness, have
 // 1.4 and 4.7 %.
 
-#include <geocone/limit_analysis/failure_probability.h>
-#include <geocone/limit_analysis/importance_sampling.h>
-#include <geocone/limit_analysis/statistics.h>
+#include <geocone/reliability/failure_probability.h>
+#include <geocone/reliability/importance_sampling.h>
+#include <geocone/reliability/statistics.h>
 
 #include "../test.h"
 

@@ -8,7 +8,7 @@
 // functions are full; only towards the material may a function be held.
 
 #include <geocone/conditions/constraints.h>
-#include <geocone/problem/ghost_stiffness.h>
+#include <geocone/terms/ghost_stiffness.h>
 
 #include "../discretisation/setup.h"
 #include "../test.h"

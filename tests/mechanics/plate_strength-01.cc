@@ -5,7 +5,7 @@
 // admissible forces in the norm of the elastic energy (a variational inequality), with the
 // derivative of differences; and a column with an eccentric load, 1.5 p + p^2 = 1, p = 1/2.
 
-#include <geocone/problem/plate_strength.h>
+#include <geocone/terms/plate_strength.h>
 
 #include "../test.h"
 

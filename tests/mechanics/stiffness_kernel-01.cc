@@ -5,7 +5,7 @@
 // vectors make of tangents that are not symmetric, for each number of nodes that there is:
 // whole, and the blocks on and above its diagonal.
 
-#include <geocone/problem/point_kernels.h>
+#include <geocone/terms/point_kernels.h>
 
 #include "../test.h"
 

@@ -7,8 +7,8 @@
 // R0 = (1 - chi)/(OCR - chi).
 
 #include <geocone/base/exceptions.h>
-#include <geocone/materials/material_library.h>
-#include <geocone/materials/subloading.h>
+#include <geocone/laws/material_library.h>
+#include <geocone/laws/subloading.h>
 
 #include "../test.h"
 #include "subloading_tests.h"

@@ -5,8 +5,8 @@
 // not be what three dimensions give for it, or an explicit step would not turn
 // the history with the stress.
 
-#include <geocone/materials/material_library.h>
-#include <geocone/materials/subloading.h>
+#include <geocone/laws/material_library.h>
+#include <geocone/laws/subloading.h>
 
 #include "../test.h"
 #include "subloading_tests.h"

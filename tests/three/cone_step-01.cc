@@ -6,7 +6,7 @@
 // all shears. The rotation against that about the axis by twice the arc tangent.
 
 #include <geocone/kernels/spin.h>
-#include <geocone/materials/drucker_prager.h>
+#include <geocone/laws/drucker_prager.h>
 
 #include <Eigen/Geometry>
 #include <array>

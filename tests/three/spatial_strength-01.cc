@@ -8,8 +8,8 @@
 // exceeded by none, and a jump must dissipate as the strain of a thin layer.
 
 #include <geocone/base/types.h>
-#include <geocone/limit_analysis/spatial_strength.h>
-#include <geocone/limit_analysis/strength_law.h>
+#include <geocone/bounds/spatial_strength.h>
+#include <geocone/conic/strength_law.h>
 
 #include "../test.h"
 

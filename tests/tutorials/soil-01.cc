@@ -6,7 +6,7 @@
 #include "../test.h"
 #include "anisotropic_clay.h"
 
-#include <geocone/materials/material_library.h>
+#include <geocone/laws/material_library.h>
 #include <geocone/program.h>
 
 #include <cstdlib>

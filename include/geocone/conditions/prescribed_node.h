@@ -6,7 +6,7 @@
 
 #include <geocone/base/state_row.h>
 #include <geocone/base/types.h>
-#include <geocone/scene/geometry.h>
+#include <geocone/geometry/geometry.h>
 
 #include <deal.II/base/point.h>
 

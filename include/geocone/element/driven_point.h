@@ -9,7 +9,7 @@
 #include <geocone/element/element_path.h>
 #include <geocone/element/element_record.h>
 #include <geocone/element/mixed_control.h>
-#include <geocone/materials/material_library.h>
+#include <geocone/laws/material_library.h>
 
 #include <deal.II/base/parameter_acceptor.h>
 

@@ -5,7 +5,7 @@
 #define geocone_explicit_boundary_forces_h
 
 #include <geocone/conditions/moving_conditions.h>
-#include <geocone/problem/absorbing_boundary.h>
+#include <geocone/terms/absorbing_boundary.h>
 #include <geocone/transfer/grid_transfer.h>
 
 #include <memory>

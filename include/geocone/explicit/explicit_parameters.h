@@ -5,7 +5,7 @@
 #define geocone_explicit_explicit_parameters_h
 
 #include <geocone/base/choice.h>
-#include <geocone/scene/loading.h>
+#include <geocone/boundary/loading.h>
 #include <geocone/transfer/transfer_kernels.h>
 
 #include <deal.II/base/parameter_acceptor.h>

@@ -4,10 +4,10 @@
 #ifndef geocone_explicit_nodal_update_h
 #define geocone_explicit_nodal_update_h
 
+#include <geocone/boundary/boundary_conditions.h>
 #include <geocone/explicit/boundary_forces.h>
 #include <geocone/explicit/exchange.h>
 #include <geocone/explicit/pore_water.h>
-#include <geocone/scene/boundary_conditions.h>
 #include <geocone/transfer/grid_transfer.h>
 
 #include <deal.II/base/tensor.h>

@@ -9,8 +9,8 @@
 #include <geocone/implicit/ramped_forces.h>
 #include <geocone/implicit/scaled_loads.h>
 #include <geocone/implicit/time_integration.h>
-#include <geocone/problem/absorbing_boundary.h>
-#include <geocone/problem/pore_pressures.h>
+#include <geocone/terms/absorbing_boundary.h>
+#include <geocone/terms/pore_pressures.h>
 #include <geocone/time_stepping/time_stepper.h>
 
 namespace geocone::GEOCONE_DIM

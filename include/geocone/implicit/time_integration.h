@@ -7,8 +7,8 @@
 #include <geocone/base/choice.h>
 #include <geocone/conditions/constraints.h>
 #include <geocone/materials/material.h>
-#include <geocone/problem/internal_forces.h>
 #include <geocone/scene/scene.h>
+#include <geocone/terms/internal_forces.h>
 
 #include <string>
 #include <vector>

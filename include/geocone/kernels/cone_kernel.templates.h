@@ -4,8 +4,8 @@
 #ifndef geocone_kernels_cone_kernel_templates_h
 #define geocone_kernels_cone_kernel_templates_h
 
-#include <geocone/base/simd.h>
 #include <geocone/kernels/point_block.h>
+#include <geocone/kernels/simd.h>
 #include <geocone/kernels/spin.h>
 
 namespace geocone::GEOCONE_DIM

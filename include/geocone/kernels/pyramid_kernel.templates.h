@@ -4,9 +4,9 @@
 #ifndef geocone_kernels_pyramid_kernel_templates_h
 #define geocone_kernels_pyramid_kernel_templates_h
 
-#include <geocone/base/simd.h>
 #include <geocone/kernels/pyramid_body.h>
 #include <geocone/kernels/pyramid_kernel.h>
+#include <geocone/kernels/simd.h>
 #include <geocone/kernels/spin.h>
 
 namespace geocone::GEOCONE_DIM

@@ -4,7 +4,7 @@
 #ifndef geocone_kernels_subloading_kernel_templates_h
 #define geocone_kernels_subloading_kernel_templates_h
 
-#include <geocone/base/simd.h>
+#include <geocone/kernels/simd.h>
 #include <geocone/kernels/subloading_body.h>
 #include <geocone/kernels/subloading_kernel.h>
 

@@ -7,7 +7,7 @@
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
 #include <geocone/base/types.h>
-#include <geocone/output/run_folder.h>
+#include <geocone/folder/run_folder.h>
 
 #include <deal.II/base/parameter_acceptor.h>
 

@@ -4,10 +4,10 @@
 #ifndef geocone_limit_analysis_axisymmetric_bounds_h
 #define geocone_limit_analysis_axisymmetric_bounds_h
 
-#include <geocone/limit_analysis/bernstein.h>
-#include <geocone/limit_analysis/bound_problem.h>
-#include <geocone/limit_analysis/conic_solver.h>
-#include <geocone/limit_analysis/facet_condition.h>
+#include <geocone/bounds/bernstein.h>
+#include <geocone/bounds/facet_condition.h>
+#include <geocone/conic/conic_solver.h>
+#include <geocone/plane_bounds/bound_problem.h>
 
 #include <array>
 #include <vector>

@@ -4,9 +4,9 @@
 #ifndef geocone_limit_analysis_axisymmetric_points_h
 #define geocone_limit_analysis_axisymmetric_points_h
 
+#include <geocone/bounds/cell_points.h>
 #include <geocone/limit_analysis/axisymmetric_bounds.h>
 #include <geocone/limit_analysis/axisymmetric_strength.h>
-#include <geocone/limit_analysis/cell_points.h>
 #include <geocone/limit_analysis/certified_bounds.h>
 
 #include <algorithm>

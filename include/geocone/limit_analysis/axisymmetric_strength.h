@@ -4,7 +4,7 @@
 #ifndef geocone_limit_analysis_axisymmetric_strength_h
 #define geocone_limit_analysis_axisymmetric_strength_h
 
-#include <geocone/limit_analysis/strength_law.h>
+#include <geocone/conic/strength_law.h>
 
 /** Strength laws of points of axisymmetric bodies. Stresses are the vectors (s_rr, s_zz,
  *  sqrt2 s_rz, s_tt), tension positive; the hoop stress s_tt is a principal stress. */

@@ -4,8 +4,8 @@
 #ifndef geocone_limit_analysis_bound_fields_h
 #define geocone_limit_analysis_bound_fields_h
 
-#include <geocone/limit_analysis/certificate.h>
 #include <geocone/output/simplex_table.h>
+#include <geocone/plane_bounds/certificate.h>
 
 #include <vector>
 

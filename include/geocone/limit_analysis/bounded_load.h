@@ -4,8 +4,8 @@
 #ifndef geocone_limit_analysis_bounded_load_h
 #define geocone_limit_analysis_bounded_load_h
 
-#include <geocone/limit_analysis/bound_problem.h>
-#include <geocone/limit_analysis/load_choice.h>
+#include <geocone/bounds/load_choice.h>
+#include <geocone/plane_bounds/bound_problem.h>
 
 #include <optional>
 #include <string>

@@ -4,8 +4,8 @@
 #ifndef geocone_limit_analysis_certificate_files_h
 #define geocone_limit_analysis_certificate_files_h
 
-#include <geocone/limit_analysis/certificate.h>
-#include <geocone/limit_analysis/certificate_claim.h>
+#include <geocone/bounds/certificate_claim.h>
+#include <geocone/plane_bounds/certificate.h>
 
 #include <string>
 

@@ -5,8 +5,8 @@
 #define geocone_limit_analysis_certified_bounds_h
 
 #include <geocone/limit_analysis/bounded_load.h>
-#include <geocone/limit_analysis/certificate.h>
 #include <geocone/mesh/fitted_mesh.h>
+#include <geocone/plane_bounds/certificate.h>
 
 #include <array>
 #include <vector>

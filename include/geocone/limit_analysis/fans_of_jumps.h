@@ -4,8 +4,8 @@
 #ifndef geocone_limit_analysis_fans_of_jumps_h
 #define geocone_limit_analysis_fans_of_jumps_h
 
-#include <geocone/limit_analysis/bound_problem.h>
-#include <geocone/mesh/fan.h>
+#include <geocone/geometry/fan.h>
+#include <geocone/plane_bounds/bound_problem.h>
 
 #include <vector>
 

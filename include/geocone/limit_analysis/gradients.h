@@ -4,8 +4,8 @@
 #ifndef geocone_limit_analysis_gradients_h
 #define geocone_limit_analysis_gradients_h
 
+#include <geocone/folder/expectations.h>
 #include <geocone/limit_analysis/certified_bounds.h>
-#include <geocone/output/expectations.h>
 
 #include <array>
 #include <string>

@@ -4,13 +4,13 @@
 #ifndef geocone_limit_analysis_limit_analysis_h
 #define geocone_limit_analysis_limit_analysis_h
 
-#include <geocone/limit_analysis/bar_cells.h>
-#include <geocone/limit_analysis/bound_analysis.h>
+#include <geocone/bounds/bound_analysis.h>
 #include <geocone/limit_analysis/bounded_load.h>
 #include <geocone/limit_analysis/certified_bounds.h>
 #include <geocone/limit_analysis/gradients.h>
 #include <geocone/limit_analysis/strength_reduction.h>
 #include <geocone/mesh/domain_of_triangles.h>
+#include <geocone/plane_bounds/bar_cells.h>
 
 #include <deal.II/base/bounding_box.h>
 

@@ -4,8 +4,8 @@
 #ifndef geocone_limit_analysis_strength_reduction_h
 #define geocone_limit_analysis_strength_reduction_h
 
+#include <geocone/bounds/safety_search.h>
 #include <geocone/limit_analysis/certified_bounds.h>
-#include <geocone/limit_analysis/safety_search.h>
 
 #include <functional>
 

@@ -4,11 +4,11 @@
 #ifndef geocone_mesh_gmsh_mesh_h
 #define geocone_mesh_gmsh_mesh_h
 
+#include <geocone/boundary/contacts.h>
+#include <geocone/geometry/fan.h>
+#include <geocone/geometry/regions.h>
 #include <geocone/mesh/coarse_mesh.h>
-#include <geocone/mesh/fan.h>
 #include <geocone/mesh/mesh_parameters.h>
-#include <geocone/scene/contacts.h>
-#include <geocone/scene/regions.h>
 
 #include <array>
 #include <vector>

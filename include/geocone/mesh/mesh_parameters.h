@@ -5,8 +5,8 @@
 #define geocone_mesh_mesh_parameters_h
 
 #include <geocone/base/choice.h>
+#include <geocone/geometry/geometry.h>
 #include <geocone/mesh/method.h>
-#include <geocone/scene/geometry.h>
 
 #include <deal.II/base/parameter_acceptor.h>
 

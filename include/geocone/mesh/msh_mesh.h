@@ -4,10 +4,10 @@
 #ifndef geocone_mesh_msh_mesh_h
 #define geocone_mesh_msh_mesh_h
 
+#include <geocone/boundary/contacts.h>
+#include <geocone/geometry/regions.h>
 #include <geocone/mesh/coarse_mesh.h>
-#include <geocone/mesh/msh_file.h>
-#include <geocone/scene/contacts.h>
-#include <geocone/scene/regions.h>
+#include <geocone/mesh_files/msh_file.h>
 
 #include <string>
 

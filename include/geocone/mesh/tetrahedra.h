@@ -5,8 +5,8 @@
 #define geocone_mesh_tetrahedra_h
 
 #include <geocone/base/state_row.h>
+#include <geocone/boundary/boundary_conditions.h>
 #include <geocone/mesh/coarse_mesh.h>
-#include <geocone/scene/boundary_conditions.h>
 
 #include <array>
 #include <map>

@@ -4,8 +4,8 @@
 #ifndef geocone_mesh_triangles_h
 #define geocone_mesh_triangles_h
 
+#include <geocone/boundary/boundary_conditions.h>
 #include <geocone/mesh/coarse_mesh.h>
-#include <geocone/scene/boundary_conditions.h>
 
 #include <array>
 #include <map>

@@ -5,7 +5,7 @@
 #define geocone_newton_plan_h
 
 #include <geocone/base/types.h>
-#include <geocone/problem/step_traits.h>
+#include <geocone/terms/step_traits.h>
 
 #include <limits>
 #include <string>

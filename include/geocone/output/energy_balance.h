@@ -5,7 +5,7 @@
 #define geocone_output_energy_balance_h
 
 #include <geocone/base/log.h>
-#include <geocone/output/json.h>
+#include <geocone/folder/json.h>
 #include <geocone/time_stepping/energies.h>
 
 #include <functional>

@@ -4,9 +4,9 @@
 #ifndef geocone_output_fields_h
 #define geocone_output_fields_h
 
+#include <geocone/boundary/obstacles.h>
 #include <geocone/output/field_files.h>
 #include <geocone/points/material_points.h>
-#include <geocone/scene/obstacles.h>
 #include <geocone/space/space.h>
 #include <geocone/time_stepping/time_stepper.h>
 

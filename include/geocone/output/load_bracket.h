@@ -4,7 +4,7 @@
 #ifndef geocone_output_load_bracket_h
 #define geocone_output_load_bracket_h
 
-#include <geocone/output/expectations.h>
+#include <geocone/folder/expectations.h>
 
 #include <array>
 #include <optional>

@@ -4,8 +4,8 @@
 #ifndef geocone_output_model_file_h
 #define geocone_output_model_file_h
 
+#include <geocone/folder/json.h>
 #include <geocone/mesh/background_mesh.h>
-#include <geocone/output/json.h>
 #include <geocone/scene/scene.h>
 #include <geocone/surfaces/sides_of_body.h>
 

@@ -9,10 +9,10 @@
 #include <geocone/base/log.h>
 #include <geocone/base/run_options.h>
 #include <geocone/base/state_row.h>
-#include <geocone/output/expectations.h>
+#include <geocone/folder/expectations.h>
+#include <geocone/folder/run_folder.h>
 #include <geocone/output/field_files.h>
 #include <geocone/output/reference_case.h>
-#include <geocone/output/run_folder.h>
 
 #include <deal.II/base/parameter_acceptor.h>
 

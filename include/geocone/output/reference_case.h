@@ -4,7 +4,7 @@
 #ifndef geocone_output_reference_case_h
 #define geocone_output_reference_case_h
 
-#include <geocone/output/expectations.h>
+#include <geocone/folder/expectations.h>
 
 #include <deal.II/base/parameter_acceptor.h>
 

@@ -4,7 +4,7 @@
 #ifndef geocone_points_initial_overstress_h
 #define geocone_points_initial_overstress_h
 
-#include <geocone/materials/material_library.h>
+#include <geocone/laws/material_library.h>
 #include <geocone/points/material_points.h>
 
 #include <string>

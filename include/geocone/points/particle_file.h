@@ -5,7 +5,7 @@
 #define geocone_points_particle_file_h
 
 #include <geocone/base/types.h>
-#include <geocone/materials/material_library.h>
+#include <geocone/laws/material_library.h>
 
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>

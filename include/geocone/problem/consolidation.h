@@ -7,10 +7,10 @@
 #include <geocone/linear/linear_solver.h>
 #include <geocone/mesh/background_mesh.h>
 #include <geocone/points/material_points.h>
-#include <geocone/problem/pore_pressures.h>
-#include <geocone/problem/turned_dofs.h>
 #include <geocone/scene/scene.h>
 #include <geocone/space/space.h>
+#include <geocone/terms/pore_pressures.h>
+#include <geocone/terms/turned_dofs.h>
 
 #include <memory>
 #include <vector>

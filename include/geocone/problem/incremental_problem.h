@@ -6,12 +6,12 @@
 
 #include <geocone/contact/contact.h>
 #include <geocone/linear/nodal_rows.h>
-#include <geocone/problem/bars.h>
-#include <geocone/problem/external_forces.h>
-#include <geocone/problem/ghost_stiffness.h>
-#include <geocone/problem/inertia.h>
-#include <geocone/problem/internal_forces.h>
-#include <geocone/problem/step_traits.h>
+#include <geocone/terms/bars.h>
+#include <geocone/terms/external_forces.h>
+#include <geocone/terms/ghost_stiffness.h>
+#include <geocone/terms/inertia.h>
+#include <geocone/terms/internal_forces.h>
+#include <geocone/terms/step_traits.h>
 
 #include <memory>
 #include <optional>

@@ -5,9 +5,9 @@
 #define geocone_scene_initial_state_h
 
 #include <geocone/base/choice.h>
+#include <geocone/boundary/loading.h>
 #include <geocone/functions/expression.h>
-#include <geocone/scene/regions.h>
-#include <geocone/scene/loading.h>
+#include <geocone/geometry/regions.h>
 
 #include <deal.II/base/parameter_acceptor.h>
 #include <deal.II/base/tensor.h>

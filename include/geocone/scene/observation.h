@@ -5,9 +5,9 @@
 #define geocone_scene_observation_h
 
 #include <geocone/base/choice.h>
-#include <geocone/materials/material_library.h>
-#include <geocone/scene/boundary_conditions.h>
-#include <geocone/scene/loading.h>
+#include <geocone/boundary/boundary_conditions.h>
+#include <geocone/boundary/loading.h>
+#include <geocone/laws/material_library.h>
 
 #include <deal.II/base/parameter_acceptor.h>
 

@@ -4,13 +4,13 @@
 #ifndef geocone_scene_scene_h
 #define geocone_scene_scene_h
 
-#include <geocone/scene/boundary_conditions.h>
-#include <geocone/scene/contacts.h>
-#include <geocone/scene/regions.h>
+#include <geocone/boundary/boundary_conditions.h>
+#include <geocone/boundary/contacts.h>
+#include <geocone/boundary/loading.h>
+#include <geocone/boundary/obstacles.h>
+#include <geocone/geometry/regions.h>
 #include <geocone/scene/initial_state.h>
-#include <geocone/scene/loading.h>
 #include <geocone/scene/observation.h>
-#include <geocone/scene/obstacles.h>
 #include <geocone/scene/structures.h>
 #include <geocone/scene/water.h>
 

@@ -5,9 +5,9 @@
 #define geocone_scene_seepage_h
 
 #include <geocone/base/named_list.h>
+#include <geocone/boundary/boundary_conditions.h>
+#include <geocone/boundary/loading.h>
 #include <geocone/functions/expression.h>
-#include <geocone/scene/boundary_conditions.h>
-#include <geocone/scene/loading.h>
 
 #include <map>
 #include <optional>

@@ -7,8 +7,8 @@
 #include <geocone/base/choice.h>
 #include <geocone/base/named_list.h>
 #include <geocone/base/types.h>
-#include <geocone/scene/acting_stages.h>
-#include <geocone/scene/geometry.h>
+#include <geocone/boundary/acting_stages.h>
+#include <geocone/geometry/geometry.h>
 
 #include <deal.II/base/point.h>
 

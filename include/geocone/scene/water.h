@@ -5,10 +5,10 @@
 #define geocone_scene_water_h
 
 #include <geocone/base/parameter_file.h>
+#include <geocone/boundary/loading.h>
 #include <geocone/functions/pressure_grid.h>
-#include <geocone/scene/geometry.h>
 #include <geocone/functions/triangle_field.h>
-#include <geocone/scene/loading.h>
+#include <geocone/geometry/geometry.h>
 #include <geocone/scene/seepage.h>
 
 #include <deal.II/base/parameter_acceptor.h>

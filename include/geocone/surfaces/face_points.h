@@ -4,7 +4,7 @@
 #ifndef geocone_surfaces_face_points_h
 #define geocone_surfaces_face_points_h
 
-#include <geocone/scene/boundary_conditions.h>
+#include <geocone/boundary/boundary_conditions.h>
 #include <geocone/space/space.h>
 #include <geocone/surfaces/side_part.h>
 

@@ -5,7 +5,7 @@
 #define geocone_time_stepping_check_removal_h
 
 #include <geocone/base/exceptions.h>
-#include <geocone/scene/loading.h>
+#include <geocone/boundary/loading.h>
 
 #include <string>
 

@@ -4,9 +4,9 @@
 #ifndef geocone_transfer_grid_transfer_h
 #define geocone_transfer_grid_transfer_h
 
+#include <geocone/boundary/boundary_conditions.h>
 #include <geocone/conditions/prescribed_node.h>
 #include <geocone/points/point_arrays.h>
-#include <geocone/scene/boundary_conditions.h>
 #include <geocone/transfer/transfer_kernels.h>
 
 #include <deal.II/base/aligned_vector.h>

@@ -4,7 +4,7 @@
 #ifndef geocone_transfer_nodes_of_four_templates_h
 #define geocone_transfer_nodes_of_four_templates_h
 
-#include <geocone/base/simd.h>
+#include <geocone/kernels/simd.h>
 #include <geocone/transfer/transfer_kernels.h>
 
 /*

@@ -4,7 +4,7 @@
 #ifndef geocone_transfer_transfer_kernels_templates_h
 #define geocone_transfer_transfer_kernels_templates_h
 
-#include <geocone/base/simd.h>
+#include <geocone/kernels/simd.h>
 #include <geocone/points/particle_transfer.h>
 #include <geocone/transfer/nodes_of_four.templates.h>
 #include <geocone/transfer/transfer_kernels.h>

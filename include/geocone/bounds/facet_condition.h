@@ -1,0 +1,83 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_bounds_facet_condition_h
+#define geocone_bounds_facet_condition_h
+
+#include <geocone/boundary/boundary_conditions.h>
+
+#include <deal.II/base/point.h>
+
+#include <array>
+#include <optional>
+#include <vector>
+
+namespace geocone::GEOCONE_DIM
+{
+  /** Velocity prescribed on a boundary facet in a limit analysis with velocities that
+   *  jump at facets. */
+  struct FacetCondition
+  {
+    enum class Kind
+    {
+      free,
+      fixed, ///< all velocity components prescribed
+      plane  ///< only the normal component prescribed
+    };
+    Kind                   kind = Kind::free;
+    dealii::Tensor<1, dim> velocity;
+    unsigned int           axis = 0; ///< axis of the normal, for Kind::plane
+
+    /** Returns true if a component of the velocity is prescribed. */
+    bool
+    holds(const unsigned int component) const
+    {
+      return kind == Kind::fixed || (kind == Kind::plane && axis == component);
+    }
+  };
+
+  /** Boundary facet of a mesh with its vertices and its outward normal. */
+  struct FacetPlace
+  {
+    std::array<dealii::Point<dim>, dim> vertices;
+    dealii::Tensor<1, dim>              normal;
+  };
+
+  /** Velocity components that boundary conditions prescribe on a facet, from which its
+   *  FacetCondition follows. */
+  class HeldComponents
+  {
+  public:
+    /** Adds the components prescribed by a boundary condition (m/s).
+     *  @throws InputError if the velocity differs between the vertices or from another
+     *  condition, or for a normal velocity that is not zero or not along an axis */
+    void
+    add(const BoundaryCondition &condition, const FacetPlace &place);
+
+    /** Returns the condition of the facet.
+     *  @throws InputError if the prescribed components are neither all of them nor the
+     *  normal one */
+    FacetCondition
+    condition(const FacetPlace &place) const;
+
+  private:
+    std::array<std::optional<double>, dim> value;
+    const BoundaryCondition               *last = nullptr;
+  };
+
+  /** Returns the velocity (m/s) that is prescribed on facets and is not zero, or no
+   *  value. @throws InputError for several different velocities */
+  std::optional<dealii::Tensor<1, dim>>
+  prescribed_velocity(const std::vector<FacetCondition> &held);
+
+  /** Returns the tractions (Pa) of a load at the vertices of a facet.
+   *  @param held condition of the facet
+   *  @throws InputError for a traction that is not linear on the facet, or that acts on
+   *  a component with a prescribed velocity */
+  std::array<dealii::Tensor<1, dim>, dim>
+  tractions_at_vertices(const BoundaryCondition &load,
+                        const FacetPlace        &place,
+                        const FacetCondition    &held);
+} // namespace geocone::GEOCONE_DIM
+
+#endif

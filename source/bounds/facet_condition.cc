@@ -1,0 +1,165 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/exceptions.h>
+#include <geocone/bounds/facet_condition.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace geocone::GEOCONE_DIM
+{
+  using dealii::Point;
+  using dealii::Tensor;
+
+  namespace
+  {
+    const std::string where_facets =
+      dim == 3 ? "where loads are bounded in three dimensions"
+               : "where loads are bounded around an axis";
+  } // namespace
+
+  void
+  HeldComponents::add(const BoundaryCondition &condition,
+                      const FacetPlace        &place)
+  {
+    last           = &condition;
+    const auto set = [&](const unsigned int d, const double v) {
+      if (value[d] && std::abs(*value[d] - v) > 1e-12 * std::abs(v))
+        throw InputError(condition.parameter("Sides"),
+                         condition.part(),
+                         "one prescribed velocity where loads are bounded",
+                         "two conditions differ on a face of the mesh: leave "
+                         "one of them out there");
+      value[d] = v;
+    };
+    for (unsigned int d = 0; d < dim; ++d)
+      if (condition.components[d])
+        {
+          const double v =
+            condition.components[d]->value(place.vertices[0], 0.);
+          for (const Point<dim> &x : place.vertices)
+            if (std::abs(condition.components[d]->value(x, 0.) - v) >
+                1e-12 * std::abs(v))
+              throw InputError(
+                condition.parameter(std::string("Velocity ") + "xyz"[d]),
+                condition.formula(d),
+                "one velocity for all that is pushed where loads are bounded",
+                "the bounded load is the reaction to one translation");
+          set(d, v);
+        }
+    if (condition.normal)
+      {
+        if (condition.normal->value(place.vertices[0], 0.) != 0.)
+          throw InputError(condition.parameter("Velocity normal"),
+                           condition.formula(dim),
+                           "0 where loads are bounded",
+                           "push by Velocity x, y or z");
+        bool is_along = false;
+        for (unsigned int d = 0; d < dim; ++d)
+          if (std::abs(place.normal[d]) > 1. - 1e-12)
+            {
+              is_along = true;
+              set(d, 0.);
+            }
+        if (!is_along)
+          throw InputError(condition.parameter("Velocity normal"),
+                           0,
+                           "a plane normal to an axis " + where_facets,
+                           "turn the body, or hold all components there");
+      }
+  }
+
+  FacetCondition
+  HeldComponents::condition(const FacetPlace &place) const
+  {
+    FacetCondition held;
+    unsigned int   n_held = 0;
+    for (unsigned int d = 0; d < dim; ++d)
+      if (value[d])
+        {
+          ++n_held;
+          held.axis        = d;
+          held.velocity[d] = *value[d];
+        }
+    if (n_held == 0)
+      return held;
+    held.kind =
+      n_held == dim ? FacetCondition::Kind::fixed : FacetCondition::Kind::plane;
+    if (n_held < dim &&
+        (n_held > 1 || std::abs(place.normal[held.axis]) < 1. - 1e-12))
+      throw InputError(last->parameter("Velocity x"),
+                       "components that are neither all of them nor that "
+                       "normal to the side",
+                       "all of them, or the normal one alone, on a plane "
+                       "normal to an axis, " +
+                         where_facets,
+                       "hold all components, or set the others to free");
+    return held;
+  }
+
+  std::optional<Tensor<1, dim>>
+  prescribed_velocity(const std::vector<FacetCondition> &held)
+  {
+    std::optional<Tensor<1, dim>> velocity;
+    for (const FacetCondition &facet : held)
+      if (facet.velocity.norm() > 0.)
+        {
+          if (velocity &&
+              (*velocity - facet.velocity).norm() > 1e-9 * velocity->norm())
+            throw InputError("Boundary conditions/Names",
+                             "several velocities that are not zero",
+                             "one velocity for all that is pushed where loads "
+                             "are bounded",
+                             "the bounded load is the reaction to one "
+                             "translation");
+          velocity = facet.velocity;
+        }
+    return velocity;
+  }
+
+  std::array<Tensor<1, dim>, dim>
+  tractions_at_vertices(const BoundaryCondition &load,
+                        const FacetPlace        &place,
+                        const FacetCondition    &held)
+  {
+    const auto traction = [&](const Point<dim> &x) {
+      Tensor<1, dim> t = load.vector_on_side(x, place.normal, 0.);
+      for (unsigned int d = 0; d < dim; ++d)
+        if (load.components[d])
+          t[d] += load.components[d]->value(x, 0.);
+      return t;
+    };
+    Point<dim>                      middle;
+    Tensor<1, dim>                  mean;
+    std::array<Tensor<1, dim>, dim> t;
+    double                          largest = 0., on_held = 0.;
+    for (unsigned int i = 0; i < dim; ++i)
+      {
+        t[i] = traction(place.vertices[i]);
+        middle += place.vertices[i] / double(dim);
+        mean += t[i] / double(dim);
+        largest = std::max(largest, t[i].norm());
+        for (unsigned int d = 0; d < dim; ++d)
+          if (held.holds(d))
+            on_held += std::abs(t[i][d]);
+      }
+    if (held.kind == FacetCondition::Kind::fixed ? largest > 0.
+                                                 : on_held > 1e-12 * largest)
+      throw InputError(load.parameter("Sides"),
+                       load.part(),
+                       "tractions along components that are free where loads "
+                       "are bounded",
+                       "leave the traction out where the velocity is "
+                       "prescribed");
+    if ((traction(middle) - mean).norm() > 1e-9 * largest)
+      throw InputError(load.parameter("Traction x"),
+                       load.part(),
+                       "tractions that are linear in each face of the mesh "
+                       "where loads are bounded",
+                       "divide the side where its traction has a kink, or take "
+                       "finer cells there");
+    return t;
+  }
+} // namespace geocone::GEOCONE_DIM

@@ -1,0 +1,79 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/bounds/plane_strength.h>
+#include <geocone/plane_bounds/bound_solution.h>
+
+#include <array>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace geocone::GEOCONE_DIM
+{
+  namespace
+  {
+    /** Solves a plane problem. @tparam columns number of dofs of a point */
+    template <int columns>
+    BoundSolution
+    solve_with_columns(const BoundProblem &plane, const ConicOptions &options)
+    {
+      using Cones     = PointGroupOf<PlaneCone, columns>;
+      using Cylinders = PointGroupOf<PlaneCylinder, columns>;
+      std::vector<PlaneCone> laws;
+      for (const PointCone &cone : plane.cone)
+        if (!cone.is_cylinder())
+          laws.push_back({{}, cone.a});
+      auto cones = std::make_unique<Cones>(laws);
+      auto cylinders =
+        std::make_unique<Cylinders>(std::vector<PlaneCylinder>(1));
+      for (unsigned int p = 0; p < plane.n_points(); ++p)
+        {
+          const PointCone        &cone = plane.cone[p];
+          const unsigned int     *dofs = plane.B.dofs_of(p);
+          const double            V    = plane.volume[p];
+          typename Cones::Strains B    = plane.B.matrix<columns>(p);
+          if (cone.is_cylinder())
+            cylinders->add(B, dofs, V, 0, cone.k);
+          else
+            {
+              B.row(0) /= cone.a;
+              cones->add(B, dofs, V, cones->n_points(), cone.k);
+            }
+        }
+
+      ConicProblem problem;
+      problem.is_prescribed                    = plane.is_prescribed;
+      problem.prescribed                       = plane.prescribed;
+      problem.dead                             = plane.dead;
+      problem.live                             = plane.live;
+      std::vector<const PointGroup *> group_of = {cones.get(), cylinders.get()};
+      if (cones->n_points() > 0)
+        problem.groups.push_back(std::move(cones));
+      if (cylinders->n_points() > 0)
+        problem.groups.push_back(std::move(cylinders));
+
+      BoundSolution solution = {geocone::solve(problem, options), {}};
+      std::array<unsigned int, 2> place = {{0, 0}};
+      for (const PointCone &cone : plane.cone)
+        {
+          const bool is_cylinder = cone.is_cylinder();
+          solution.s.push_back(
+            group_of[is_cylinder]->stress(place[is_cylinder]++));
+          if (!is_cylinder)
+            solution.s.back()[0] /= cone.a;
+        }
+      return solution;
+    }
+  } // namespace
+
+  BoundSolution
+  solve(const BoundProblem &plane, const ConicOptions &options)
+  {
+    BoundSolution solution;
+    plane.B.with_n_columns([&](const auto size) {
+      solution = solve_with_columns<decltype(size)::value>(plane, options);
+    });
+    return solution;
+  }
+} // namespace geocone::GEOCONE_DIM

@@ -1,0 +1,501 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/exceptions.h>
+#include <geocone/base/stop_request.h>
+#include <geocone/base/unused_parameters.h>
+#include <geocone/mesh/fitted_mesh.h>
+#include <geocone/output/model_of_triangles.h>
+#include <geocone/output/simplex_table.h>
+#include <geocone/reliability/reliability.h>
+#include <geocone/reliability/statistics.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace geocone::GEOCONE_DIM
+{
+  namespace
+  {
+    const UsedWhere used_reliability[] = {
+      {"Analysis/Sampling", "Analysis/Kind", {"reliability"}},
+      {"Analysis/Samples", "Analysis/Kind", {"reliability"}},
+      {"Analysis/Confidence", "Analysis/Kind", {"reliability"}}};
+
+    /** Samples of a step, on any number of ranks. */
+    constexpr unsigned int batch = 16;
+
+    /** Trial samples of importance sampling. */
+    constexpr unsigned int n_pilots = 16;
+
+    /** Marks the triangles with most of a refinement indicator, a third at most.
+     *  @return empty if there is nothing to be refined */
+    std::vector<bool>
+    largest(std::vector<double> indicator)
+    {
+      constexpr double part = 0.8;
+      for (double &of_cell : indicator)
+        of_cell = std::isfinite(of_cell) ? std::max(of_cell, 0.) : 0.;
+      std::vector<unsigned int> order(indicator.size());
+      std::iota(order.begin(), order.end(), 0U);
+      std::sort(order.begin(), order.end(), [&](const auto a, const auto b) {
+        return indicator[a] > indicator[b];
+      });
+      const double total =
+        std::accumulate(indicator.begin(), indicator.end(), 0.);
+      if (total == 0.)
+        return {};
+      std::vector<bool> marked(indicator.size(), false);
+      double            sum = 0.;
+      for (std::size_t i = 0; i <= order.size() / 3 && sum <= part * total; ++i)
+        {
+          marked[order[i]] = true;
+          sum += indicator[order[i]];
+        }
+      return marked;
+    }
+  } // namespace
+
+  void
+  ReliabilityOutput::prepare(const RunOptions &options)
+  {
+    make_folder(options);
+    fields =
+      std::make_unique<FieldFiles>("sample", FieldsFormat(fields_format));
+    const auto add = [&](const std::string &column, const auto member) {
+      table.add(column, [member](const SampleRecord &s) { return s.*member; });
+    };
+    add("sample (-)", &SampleRecord::number);
+    add("verdict (-)", &SampleRecord::verdict);
+    add("weight (-)", &SampleRecord::weight);
+    for (const auto &[column, member] :
+         {std::pair<const char *, double SampleRecord::*>(
+            "lower bound of the load factor (-)", &SampleRecord::lower),
+          {"upper bound of the load factor (-)", &SampleRecord::upper}})
+      table.add(
+        column,
+        [member = member](const SampleRecord &s) { return s.*member; },
+        Finite::may_be);
+    add("triangles (-)", &SampleRecord::cells);
+    add("factorisations (-)", &SampleRecord::factorisations);
+    add("CPU time (s)", &SampleRecord::cpu_seconds);
+    open_table("samples.csv");
+  }
+
+  void
+  ReliabilityOutput::write_fields(const double number, const FieldTable &table)
+  {
+    fields->write(table, path, number, comm);
+  }
+
+  void
+  ReliabilityOutput::report_results(std::ostream &out) const
+  {
+    const Json &found = summary["reliability"];
+    out << format("%u %u %u\n",
+                  found["samples"].get<unsigned int>(),
+                  found["failed"].get<unsigned int>(),
+                  found["undecided"].get<unsigned int>());
+  }
+
+  Reliability::Reliability(const MPI_Comm       comm,
+                           const ParameterFile &file,
+                           Log                 &log)
+    : BoundAnalysis(comm, file, log)
+    , reliability_output(comm, log)
+    , fields(file)
+  {
+    declare_parameters(bounded_load);
+    sampling.declare(*this,
+                     "Sampling",
+                     ". Of the random fields. Monte Carlo: by their "
+                     "distribution. Importance: nine samples of ten around the "
+                     "design point, which gradients of the bounds find, with "
+                     "weights; small probabilities need few samples.");
+    add_parameter(
+      "Samples", n_samples, "Number of samples of the random fields [-].");
+    add_parameter("Confidence",
+                  confidence,
+                  "Probability [-] with which the limits of the probability "
+                  "of failure include it: at least this with Monte Carlo "
+                  "sampling, about this with importance sampling.");
+  }
+
+  void
+  Reliability::prepare_water(const RunOptions &)
+  {
+    if (scene.water.seepage.acts())
+      throw InputError("Seepage/Names",
+                       "set",
+                       "none with " + where(),
+                       "bodies of random soil have no water; leave it out");
+  }
+
+  std::vector<std::string>
+  Reliability::prepare(const RunOptions &options)
+  {
+    check_parameters();
+    if (n_samples == 0 || n_samples > 10000000)
+      throw InputError("Analysis/Samples",
+                       n_samples,
+                       "1 to 10000000",
+                       "100 over the probability of failure give it to 20 % by "
+                       "Monte Carlo sampling");
+    if (sampling == Sampling::importance && n_samples < 20)
+      throw InputError("Analysis/Samples",
+                       n_samples,
+                       ">= 20 with importance sampling",
+                       "its limits are those of a mean of many samples");
+    if (!(confidence > 0. && confidence < 1.))
+      throw InputError(
+        "Analysis/Confidence", confidence, "> 0, < 1", "0.95 is usual");
+    prepare_scene(options);
+    if (scene.water.acts())
+      throw InputError("Water/Table",
+                       "set",
+                       "none with " + where(),
+                       "give undrained strengths and total unit weights");
+    prepare_triangles();
+    first_mesh.emplace(fitted_mesh(mesh_parameters, scene, comm));
+    const Triangles triangles(first_mesh->mesh);
+    if (triangles.cells.size() > most_cells)
+      throw InputError("Analysis/Maximum cells",
+                       most_cells,
+                       format("%zu at least, the triangles of the mesh",
+                              triangles.cells.size()),
+                       "raise it, or take larger cells");
+    bounded_load.prepare_reduction(scene, triangles, kind_word());
+    fields.prepare(scene);
+    fields.prepare_on(triangles);
+    first = std::make_unique<Body>(
+      scene, bounded_load, *first_mesh, triangles.cells.size());
+    print_start(options,
+                triangles.cells.size(),
+                "",
+                dealii::BoundingBox<dim>(triangles.vertices));
+    if (!options.dry_run)
+      fields.factorise(triangles);
+    std::vector<std::string> warnings;
+    if (bounded_load.non_associated())
+      warnings.push_back("flow is taken as associated: with less dilatancy a "
+                         "body may fail under smaller loads");
+    return warnings;
+  }
+
+  std::vector<unsigned int>
+  Reliability::programme() const
+  {
+    return {(n_samples + batch - 1) / batch};
+  }
+
+  std::string
+  Reliability::headline(const std::string &name) const
+  {
+    return name + format(": probability of failure by %u samples on %zu "
+                         "triangles",
+                         n_samples,
+                         first->triangles.cells.size());
+  }
+
+  Json
+  Reliability::model()
+  {
+    return model_of(scene, model_mesh_of(first->triangles));
+  }
+
+  bool
+  Reliability::is_decided_by_earlier(const RandomFactors &factors,
+                                     SampleRecord        &record) const
+  {
+    using Kind = SampleVerdict::Kind;
+    for (const Mechanism &mechanism : mechanisms)
+      if (const double load = mechanism.bound(factors); load < 1.)
+        {
+          record.verdict = static_cast<int>(Kind::fails);
+          record.upper   = load;
+          return true;
+        }
+    for (const StressField &field : stresses)
+      if (const double load = field.bound(factors); load >= 1.)
+        {
+          record.verdict = static_cast<int>(Kind::stands);
+          record.lower   = load;
+          return true;
+        }
+    return false;
+  }
+
+  LimitState
+  Reliability::limit_state(const Eigen::VectorXd &numbers)
+  {
+    LoadResponse response =
+      first->sampled.respond(fields.factors(numbers), tolerance);
+    if (response.mechanism)
+      mechanisms.add({std::move(*response.mechanism)});
+    if (response.stresses)
+      stresses.add({std::move(*response.stresses)});
+    return {std::log(response.load),
+            fields.gradient(numbers, std::move(response.elasticity))};
+  }
+
+  void
+  Reliability::find_design_points()
+  {
+    try
+      {
+        const auto state = [&](const Eigen::VectorXd &u) {
+          return limit_state(u);
+        };
+        designs = design_points(fields.rank(), state);
+        // Numbers that no sample has.
+        std::vector<Eigen::VectorXd> pilots;
+        for (unsigned int i = 0; i < n_pilots; ++i)
+          pilots.push_back(fields.numbers_of(-1U - i));
+        for (DesignPoint &design : designs)
+          design.distance = distance_of_centre(design, pilots, state);
+      }
+    catch (const Stopped &)
+      {} // all ranks are together here
+    stop_if_asked(comm);
+    // Ranks of different machines may round differently.
+    StateRow of_first;
+    of_first(designs, mechanisms, stresses);
+    StateRow row(dealii::Utilities::MPI::broadcast(comm, of_first.values()));
+    row(designs, mechanisms, stresses);
+    for (const DesignPoint &point : designs)
+      log.print(
+        format("design point: reliability index %.4g, load factor %.4g; "
+               "samples around it at the distance %.4g",
+               point.index(),
+               point.load_factor,
+               point.distance));
+    const DesignPoint &design = designs.front();
+    if (design.mean_fails())
+      log.warn(format("the body with mean properties fails (load factor %.4g): "
+                      "samples are those of Monte Carlo",
+                      design.load_factor));
+    else if (!design.converged)
+      log.warn(format("the design point was not found: load factor %.4g after "
+                      "%u iterations, at the reliability index %.4g; the "
+                      "limits hold, but may be wide",
+                      design.load_factor,
+                      design.iterations,
+                      design.index()));
+  }
+
+  std::vector<bool>
+  Reliability::solve_on(const Body          &body,
+                        const RandomFactors &factors,
+                        Sample              &sample) const
+  {
+    SampleRecord &record  = sample.record;
+    SampleVerdict verdict = body.sampled.judge(factors, tolerance);
+    record.factorisations += verdict.factorisations;
+    record.cells = body.triangles.cells.size();
+    // Bounds of all meshes are valid.
+    record.lower   = std::fmax(record.lower, verdict.lower);
+    record.upper   = std::fmin(record.upper, verdict.upper);
+    record.verdict = static_cast<int>(verdict.kind);
+    if (verdict.mechanism)
+      sample.mechanism = {std::move(*verdict.mechanism)};
+    if (verdict.stresses)
+      sample.stresses = {std::move(*verdict.stresses)};
+    return largest(std::move(verdict.refinement_indicator));
+  }
+
+  Reliability::Sample
+  Reliability::solve(const unsigned int number) const
+  {
+    dealii::Timer       time;
+    const Eigen::VectorXd numbers = numbers_of(number);
+    const RandomFactors   factors = fields.factors(numbers);
+    const unsigned int    n_first = first->triangles.cells.size();
+    Sample                sample;
+    sample.record.number = number;
+    sample.record.weight = density().weight(numbers);
+    sample.record.cells  = n_first;
+    if (!is_decided_by_earlier(factors, sample.record))
+      {
+        NestedMesh          nested = *first_mesh;
+        std::optional<Body> refined;
+        std::vector<bool>   marked = solve_on(*first, factors, sample);
+        for (unsigned int l = 1; l < most_levels && !marked.empty(); ++l)
+          {
+            nested = bisected(nested, marked);
+            if (nested.mesh.cells.size() > most_cells)
+              break;
+            refined.emplace(scene, bounded_load, nested, n_first);
+            marked = solve_on(*refined, factors, sample);
+          }
+      }
+    sample.record.cpu_seconds = time.cpu_time();
+    return sample;
+  }
+
+  Simulation::StepOutcome
+  Reliability::advance(TimePoint &now)
+  {
+    namespace mpi = dealii::Utilities::MPI;
+    if (sampling == Sampling::importance && designs.empty())
+      find_design_points();
+    const unsigned int first   = now.in_stage * batch + 1,
+                       last    = std::min(first + batch - 1, n_samples),
+                       n_ranks = mpi::n_mpi_processes(comm);
+    StateRow of_rank;
+    try
+      {
+        for (unsigned int s = first + mpi::this_mpi_process(comm); s <= last;
+             s += n_ranks)
+          {
+            Sample sample = solve(s);
+            of_rank(sample);
+          }
+      }
+    catch (const Stopped &)
+      {} // all ranks are together here
+    stop_if_asked(comm);
+    std::vector<Sample> samples;
+    for (const auto &values : mpi::all_gather(comm, of_rank.values()))
+      for (StateRow row(values); !row.at_end();)
+        {
+          samples.emplace_back();
+          row(samples.back());
+        }
+    std::sort(samples.begin(), samples.end(), [](const auto &a, const auto &b) {
+      return a.record.number < b.record.number;
+    });
+    for (Sample &sample : samples)
+      {
+        reliability_output.add_record(sample.record);
+        mechanisms.add(std::move(sample.mechanism));
+        stresses.add(std::move(sample.stresses));
+      }
+    now.time = last;
+    return last == n_samples ? StepOutcome::stage : StepOutcome::well;
+  }
+
+  std::string
+  Reliability::progress(const TimePoint &) const
+  {
+    const FailureProbability found = probability();
+    return format("%u samples  %u failed  %u undecided  %.4g <= P_f <= %.4g",
+                  found.n_samples,
+                  found.n_failed,
+                  found.n_undecided,
+                  found.limits[0],
+                  found.limits[1]);
+  }
+
+  Json
+  Reliability::topics()
+  {
+    const auto              &records = reliability_output.all_records();
+    const FailureProbability found   = probability();
+    unsigned int             finest = 0, refined = 0, without = 0;
+    double                   cpu = 0.;
+    for (const SampleRecord &record : records)
+      {
+        finest = std::max(finest, record.cells);
+        refined += record.cells > first->triangles.cells.size();
+        without += record.is_without_solution();
+        cpu += record.cpu_seconds;
+      }
+    Json json;
+    json["size"]        = {{"method", kind_word()},
+                           {"cells", first->triangles.cells.size()},
+                           {"cells_finest", finest}};
+    json["reliability"] = {
+      {"sampling", sampling.word()},
+      {"samples", found.n_samples},
+      {"failed", found.n_failed},
+      {"undecided", found.n_undecided},
+      {"refined", refined},
+      {"without_solution", without},
+      {"lower", found.lower},
+      {"upper", found.upper},
+      {"confidence", confidence},
+      {"limit_lower", found.limits[0]},
+      {"limit_upper", found.limits[1]},
+      {"cpu_s_per_sample", records.empty() ? 0. : cpu / records.size()}};
+    if (!designs.empty())
+      json["reliability"].update(
+        {{"reliability_index", designs.front().index()},
+         {"distance_of_centre", designs.front().distance},
+         {"design_points", designs.size()},
+         {"design_point_load_factor", designs.front().load_factor},
+         {"design_point_found", designs.front().converged},
+         {"mean_weight", found.mean_weight},
+         {"effective_failed", found.effective_failed}});
+    json["cost"] = times();
+    return json;
+  }
+
+  void
+  Reliability::finish(const double)
+  {
+    const FailureProbability found = probability();
+    log.print(format("%u of %u samples fail, %u are undecided: the probability "
+                     "of failure of these samples is %.4g to %.4g; with "
+                     "confidence %g it is %.4g to %.4g",
+                     found.n_failed,
+                     found.n_samples,
+                     found.n_undecided,
+                     found.lower,
+                     found.upper,
+                     confidence,
+                     found.limits[0],
+                     found.limits[1]));
+    if (found.n_undecided > 0.1 * std::max(1U, found.n_failed))
+      log.warn(format("%u samples are undecided; raise 'Analysis/Maximum "
+                      "cells' or 'Maximum levels', or take smaller cells",
+                      found.n_undecided));
+    constexpr double few = 20.;
+    if (!density().is_normal() && found.effective_failed < few)
+      log.warn(format("the failed samples have the weight of %.1f equal ones: "
+                      "the limits are asymptotic and need %g or more; take "
+                      "more samples",
+                      found.effective_failed,
+                      few));
+    if (!reliability_output.writes_fields())
+      return;
+    // The first sample that fails by a mechanism of its own on the first mesh.
+    for (const SampleRecord &record : reliability_output.all_records())
+      if (record.verdict < 0 && record.factorisations > 0 &&
+          record.cells == first->triangles.cells.size())
+        return write_sample(record.number);
+  }
+
+  void
+  Reliability::write_sample(const unsigned int number)
+  {
+    const Body         &on      = *first;
+    const RandomFactors factors = fields.factors(numbers_of(number));
+    const bool is_first = dealii::Utilities::MPI::this_mpi_process(comm) == 0;
+    Eigen::VectorXd q;
+    try
+      {
+        if (is_first)
+          q = on.sampled.velocities(factors, tolerance);
+      }
+    catch (const Stopped &)
+      {} // all ranks are together here
+    stop_if_asked(comm);
+    SimplexTable table(on.triangles, is_first);
+    using Index = unsigned int;
+    table.add("velocity", dim, [&](const Index, const Index v, const Index d) {
+      return q[dim * v + d];
+    });
+    for (const auto &[name, factor] :
+         {std::pair<const char *, const std::vector<double> &>(
+            "cohesion_factor", factors.cohesion),
+          {"tan_phi_factor", factors.tan_phi},
+          {"unit_weight_factor", factors.unit_weight}})
+      if (!factor.empty())
+        table.add_of_cells(name, factor);
+    table.add_materials();
+    reliability_output.write_fields(number, table);
+  }
+} // namespace geocone::GEOCONE_DIM

@@ -1,0 +1,285 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/exceptions.h>
+#include <geocone/base/resources.h>
+#include <geocone/base/unused_parameters.h>
+#include <geocone/mesh/bisection.h>
+#include <geocone/mesh/fitted_mesh.h>
+#include <geocone/output/model_of_tetrahedra.h>
+#include <geocone/scene/magnitudes.h>
+#include <geocone/solid_bounds/solid_certificate_files.h>
+#include <geocone/solid_bounds/solid_fields.h>
+#include <geocone/solid_bounds/solid_gap.h>
+#include <geocone/solid_bounds/solid_limit_analysis.h>
+
+#include <deal.II/base/bounding_box.h>
+
+#include <numeric>
+
+namespace geocone::GEOCONE_DIM
+{
+  namespace
+  {
+    const UsedWhere used_solid_bounds[] = {
+      {"Analysis/Velocities",
+       "Analysis/Kind",
+       {"limit load", "strength reduction"}},
+      {"Analysis/Stresses",
+       "Analysis/Kind",
+       {"limit load", "strength reduction"}}};
+  } // namespace
+
+  SolidLimitAnalysis::SolidLimitAnalysis(const MPI_Comm       comm,
+                                         const ParameterFile &file,
+                                         Log                 &log)
+    : BoundAnalysis(comm, file, log)
+  {
+    kind.declare(*this,
+                 "Kind",
+                 ". Steps: time steps with the method of 'Discretisation'. "
+                 "Limit load: strict upper and lower bounds of the limit load "
+                 "of a rigid-plastic body with associated flow, on tetrahedra, "
+                 "independent of steps, elasticity and inertia. Strength "
+                 "reduction: strict bounds of the factor of safety, by which c "
+                 "and tan(phi) are divided at collapse.");
+    declare_parameters(load);
+    limit_output.declare_certificates();
+    velocities.declare(
+      *this,
+      "Velocities",
+      ": polynomials of the upper bound in a tetrahedron; they jump at all "
+      "faces. Quadratic ones give the better bound for a given time.");
+    stresses.declare(
+      *this,
+      "Stresses",
+      ": polynomials of the lower bound in a tetrahedron, discontinuous at all "
+      "faces. Quadratic ones are better where there is friction.");
+  }
+
+  void
+  SolidLimitAnalysis::prepare_water(const RunOptions &)
+  {
+    if (scene.water.varies_in_cells())
+      scene.water.refuse(
+        where() + " in three dimensions",
+        "bounds of several meshes are those of one load, but pressures of a "
+        "file would be linear in the cells of each mesh: give a 'Water/Table'");
+  }
+
+  std::vector<std::string>
+  SolidLimitAnalysis::prepare(const RunOptions &options)
+  {
+    check_parameters();
+    prepare_scene(options);
+    mesh_parameters.prepare(scene.geometry, method);
+    tetrahedra.emplace(fitted_mesh(mesh_parameters, scene, comm));
+    if (scene.water.acts())
+      {
+        const dealii::BoundingBox<dim> body(tetrahedra->vertices);
+        const auto [low, high] = body.get_boundary_points();
+        tetrahedra.emplace(
+          divided_at(*tetrahedra, scene.water.lines(low, high)));
+      }
+    if (tetrahedra->cells.size() > most_cells)
+      throw InputError("Analysis/Maximum cells",
+                       most_cells,
+                       format(">= %zu, the tetrahedra of the first mesh",
+                              tetrahedra->cells.size()),
+                       "raise it, or take larger cells in 'Mesh'");
+    if (reduces_strength())
+      load.prepare_reduction(scene, *tetrahedra);
+    else
+      load.prepare(scene, *tetrahedra);
+    const dealii::BoundingBox<dim> body(tetrahedra->vertices);
+    print_start(options, tetrahedra->cells.size(), "", body);
+    std::vector<std::string> warnings = warn_of_magnitudes(scene, body);
+    if (const std::string remark = load.other_than_observed(scene.observation);
+        !remark.empty())
+      warnings.push_back(remark);
+    return warnings;
+  }
+
+  Json
+  SolidLimitAnalysis::model()
+  {
+    return model_of(scene, model_mesh_of(*tetrahedra));
+  }
+
+  BoundAnalysis::Side
+  SolidLimitAnalysis::figures_of(const SolidBound &side)
+  {
+    return {side.load,
+            side.certified,
+            side.rejection,
+            side.converged,
+            side.reason,
+            side.factorisations,
+            side.n_unknowns,
+            side.violation,
+            side.error};
+  }
+
+  BoundLevel
+  SolidLimitAnalysis::bound_load()
+  {
+    const SolidScene bound = load.on(scene, *tetrahedra);
+    run_both(
+      [&]() {
+        upper = certified_upper(bound, degree(velocities), inner_tolerance());
+      },
+      [&]() {
+        lower = certified_lower(bound, degree(stresses), inner_tolerance());
+      });
+    for (const SolidBound *side : {&upper, &lower})
+      if (side->grows && !side->certified)
+        throw StepFailure(
+          "the load is not bounded on this mesh: " + side->reason +
+          "\n  remedy:  no mechanism fits the domain; enlarge it, refine "
+          "the mesh, or check the supports");
+    print_reasons(figures_of(upper), figures_of(lower));
+    gap =
+      gap_of_cells(bound, degree(velocities), degree(stresses), upper, lower);
+    share = share_of_gap();
+    return level_of(figures_of(upper),
+                    figures_of(lower),
+                    tetrahedra->cells.size(),
+                    load.load_of_unit_factor());
+  }
+
+  /** Limit analyses with reduced strength on the current mesh, for SafetySearch. */
+  class SolidLimitAnalysis::Reduced : public SafetySearch::Solver
+  {
+  public:
+    explicit Reduced(SolidLimitAnalysis &of)
+      : of(of)
+    {}
+
+    std::array<SafetySearch::Attempt, 2>
+    both(const double F) override
+    {
+      SafetySearch::Attempt below, above;
+      run_both([&]() { above = one(F, SafetySearch::upper); },
+               [&]() { below = one(F, SafetySearch::lower); });
+      of.gap   = gap_of_cells(of.load.reduced(of.scene, *of.tetrahedra, F),
+                            degree(of.velocities),
+                            degree(of.stresses),
+                            of.upper,
+                            of.lower);
+      of.share = of.share_of_gap();
+      return {{below, above}};
+    }
+
+    SafetySearch::Attempt
+    one(const double F, const SafetySearch::Side side) override
+    {
+      const SolidScene bound    = of.load.reduced(of.scene, *of.tetrahedra, F);
+      const bool       is_lower = side == SafetySearch::lower;
+      SolidBound      &found    = is_lower ? of.lower : of.upper;
+      found =
+        is_lower
+          ? certified_lower(bound, degree(of.stresses), of.inner_tolerance())
+          : certified_upper(bound, degree(of.velocities), of.inner_tolerance());
+      return {found.load,
+              found.certified,
+              found.grows,
+              found.factorisations,
+              found.rejection};
+    }
+
+    void
+    keep(const SafetySearch::Side side) override
+    {
+      (side == SafetySearch::lower ? proof_lower : proof_upper) =
+        side == SafetySearch::lower ? of.lower : of.upper;
+    }
+
+    std::optional<SolidBound> proof_lower, proof_upper;
+
+  private:
+    SolidLimitAnalysis &of;
+  };
+
+  BoundLevel
+  SolidLimitAnalysis::bound_factor()
+  {
+    // A stopped level is repeated.
+    SafetySearch              next = search;
+    Reduced                   reduced(*this);
+    const SafetySearch::Level found = next.on_mesh(reduced);
+    search                          = next;
+    if (reduced.proof_lower)
+      lower = *reduced.proof_lower;
+    if (reduced.proof_upper)
+      upper = *reduced.proof_upper;
+    BoundLevel level = level_of(
+      figures_of(upper), figures_of(lower), tetrahedra->cells.size(), 1.);
+    set_factor(level, found);
+    return level;
+  }
+
+  double
+  SolidLimitAnalysis::share_of_gap() const
+  {
+    return std::accumulate(gap.begin(), gap.end(), 0.) /
+           ((upper.load - lower.lambda) * upper.work);
+  }
+
+  Simulation::StepOutcome
+  SolidLimitAnalysis::advance(TimePoint &now)
+  {
+    dealii::Timer mesh_time;
+    if (!error.empty())
+      {
+        tetrahedra.emplace(bisected(
+          *tetrahedra, error, std::size_t(growth * tetrahedra->cells.size())));
+        error.clear(); // a level that is stopped is repeated on this mesh
+      }
+    const double  mesh_seconds = mesh_time.cpu_time();
+    dealii::Timer time;
+    BoundLevel    level = reduces_strength() ? bound_factor() : bound_load();
+    level.gap_share     = share;
+    level.mesh_seconds  = mesh_seconds;
+    level.cpu_seconds   = time.cpu_time();
+    check_finite(level.upper + level.lower + level.gap);
+    add_level(level, now);
+    for_each_claim(level,
+                   best_of(limit_output.all_records()),
+                   [&](const CertificateClaim &claim) {
+                     write_certificate(limit_output.folder(),
+                                       load.on(scene, *tetrahedra),
+                                       claim.is_lower ? lower : upper,
+                                       claim);
+                   });
+    error = gap;
+    return is_complete(bracket().gap()) ? StepOutcome::stage
+                                        : StepOutcome::well;
+  }
+
+  void
+  SolidLimitAnalysis::write_fields(const double t)
+  {
+    // A run that was stopped between two meshes has no fields.
+    if (gap.size() == tetrahedra->cells.size())
+      limit_output.write_fields(
+        t, table_of_bounds(*tetrahedra, load.units, upper, lower, gap));
+  }
+
+  LoadBracket
+  SolidLimitAnalysis::bracket() const
+  {
+    return described(best_of(limit_output.all_records()));
+  }
+
+  void
+  SolidLimitAnalysis::finish(const double)
+  {
+    conclude(bracket(), upper.rejection, lower.rejection);
+  }
+
+  void
+  SolidLimitAnalysis::state(StateRow &row)
+  {
+    row(*tetrahedra, error, search);
+  }
+} // namespace geocone::GEOCONE_DIM

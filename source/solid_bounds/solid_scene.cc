@@ -1,0 +1,246 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/exceptions.h>
+#include <geocone/base/log.h>
+#include <geocone/solid_bounds/solid_scene.h>
+
+#include <geocone/mesh/empty_regions.h>
+#include <deal.II/base/bounding_box.h>
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace geocone::GEOCONE_DIM
+{
+  using dealii::Point;
+  using dealii::Tensor;
+
+  SolidScene::Load
+  SolidScene::body_force(const unsigned int cell) const
+  {
+    const Tensor<1, dim> b =
+      scene->density(tetrahedra->material[cell], tetrahedra->centre(cell)) *
+      scene->gravity.at(std::numeric_limits<double>::max()) * units.length /
+      units.stress;
+    Load       load;
+    const bool is_live =
+      factor == LoadFactor::weight || factor == LoadFactor::all;
+    (is_live ? load.live : load.dead) = b;
+    // No cell crosses the water table, at which the first mesh is divided.
+    if (scene->water.acts())
+      (factor == LoadFactor::all ? load.live : load.dead) +=
+        scene->water.force(tetrahedra->centre(cell)) * units.length /
+        units.stress;
+    return load;
+  }
+
+  std::array<double, 4>
+  SolidScene::strength_at_vertices(const unsigned int cell) const
+  {
+    std::array<double, 4> k;
+    for (unsigned int i = 0; i < 4; ++i)
+      k[i] = strengths[tetrahedra->material[cell]].k_at(
+        tetrahedra->vertices[tetrahedra->cells[cell][i]]);
+    return k;
+  }
+
+  void
+  SolidLoad::take_strengths(const Scene &scene)
+  {
+    strengths     = spatial_strengths(scene);
+    less_dilatant = std::any_of(
+      strengths.begin(), strengths.end(), [](const SpatialStrength &one) {
+        return !one.is_associated;
+      });
+  }
+
+  namespace
+  {
+    FacetPlace
+    place_of(const Tetrahedra &tetrahedra, const unsigned int facet)
+    {
+      FacetPlace place;
+      place.normal = tetrahedra.normal(facet);
+      for (unsigned int i = 0; i < dim; ++i)
+        place.vertices[i] =
+          tetrahedra.vertices[tetrahedra.facets[facet].vertices[i]];
+      return place;
+    }
+  } // namespace
+
+  std::vector<FacetCondition>
+  SolidLoad::facet_conditions(const Scene      &scene,
+                              const Tetrahedra &tetrahedra) const
+  {
+    std::vector<HeldComponents> all(tetrahedra.facets.size());
+    for (const auto &condition : scene.dirichlet.list)
+      for (const unsigned int f : tetrahedra.held_facets(*condition))
+        all[f].add(*condition, place_of(tetrahedra, f));
+    std::vector<FacetCondition> held;
+    for (unsigned int f = 0; f < all.size(); ++f)
+      held.push_back(all[f].condition(place_of(tetrahedra, f)));
+    return held;
+  }
+
+  void
+  SolidLoad::choose_units(const Scene &scene, const Tetrahedra &tetrahedra)
+  {
+    double volume = 0.;
+    units.stress  = 0.;
+    for (unsigned int c = 0; c < tetrahedra.cells.size(); ++c)
+      {
+        volume += tetrahedra.volume(c);
+        const unsigned int m = tetrahedra.material[c];
+        for (const unsigned int v : tetrahedra.cells[c])
+          {
+            const double k =
+              positive_strength(scene, strengths, m, tetrahedra.vertices[v]);
+            units.stress = std::max(units.stress, k);
+          }
+      }
+    units.length = std::cbrt(volume) / 4.;
+    // Soil that hardly has cohesion is pressed by its loads.
+    const dealii::BoundingBox<dim> body(tetrahedra.vertices);
+    double of_loads = stress_of_weight(scene, body.side_length(1));
+    for (const auto &load : scene.tractions.list)
+      for (const unsigned int f : tetrahedra.held_facets(*load))
+        for (const Tensor<1, dim> &t :
+             tractions_at_vertices(*load, place_of(tetrahedra, f), {}))
+          of_loads = std::max(of_loads, t.norm());
+    units.is_of_loads = of_loads / 8. > units.stress;
+    units.stress      = std::max(units.stress, of_loads / 8.);
+  }
+
+  namespace
+  {
+    /** @throws InputError if a rigid motion of the body is free */
+    void
+    check_rigid_motions(const Tetrahedra                  &tetrahedra,
+                        const std::vector<FacetCondition> &held,
+                        const double                       length)
+    {
+      Eigen::Matrix<double, 6, 6> squares = Eigen::Matrix<double, 6, 6>::Zero();
+      const Point<dim>            centre  = tetrahedra.centre(0);
+      for (unsigned int f = 0; f < held.size(); ++f)
+        if (held[f].kind != FacetCondition::Kind::free)
+          for (const unsigned int v : tetrahedra.facets[f].vertices)
+            for (unsigned int d = 0; d < dim; ++d)
+              if (held[f].holds(d))
+                {
+                  const Tensor<1, dim> arm =
+                    (tetrahedra.vertices[v] - centre) / length;
+                  Tensor<1, dim> e;
+                  e[d]                          = 1.;
+                  const Tensor<1, dim>        m = cross_product_3d(arm, e);
+                  Eigen::Matrix<double, 6, 1> row;
+                  row << e[0], e[1], e[2], m[0], m[1], m[2];
+                  squares += row * row.transpose();
+                }
+      const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> solver(
+        squares);
+      if (!(solver.eigenvalues()[0] > 1e-10 * solver.eigenvalues()[5]))
+        throw InputError("Boundary conditions/Names",
+                         "conditions that leave a rigid motion free",
+                         "supports that hold the body against translation and "
+                         "rotation",
+                         "nothing resists a rigid motion of the body, so no "
+                         "load has a limit: hold another side");
+    }
+  } // namespace
+
+  void
+  SolidLoad::prepare(const Scene &scene, const Tetrahedra &tetrahedra)
+  {
+    take_strengths(scene);
+    const std::vector<FacetCondition> held =
+      facet_conditions(scene, tetrahedra);
+    choose(prescribed_velocity(held), scene.gravity.acts());
+    check_loads(scene, tetrahedra, held);
+  }
+
+  void
+  SolidLoad::prepare_reduction(const Scene &scene, const Tetrahedra &tetrahedra)
+  {
+    take_strengths(scene);
+    check_reducible(scene, strengths);
+    const std::vector<FacetCondition> held =
+      facet_conditions(scene, tetrahedra);
+    choose_all(prescribed_velocity(held).has_value(), "strength reduction");
+    check_loads(scene, tetrahedra, held);
+  }
+
+  void
+  SolidLoad::check_loads(const Scene                       &scene,
+                         const Tetrahedra                  &tetrahedra,
+                         const std::vector<FacetCondition> &held)
+  {
+    std::vector<unsigned int> n_cells(scene.materials.size());
+    for (const unsigned int material : tetrahedra.material)
+      ++n_cells[material];
+    refuse_empty_regions(scene, n_cells);
+    choose_units(scene, tetrahedra);
+    check_rigid_motions(tetrahedra, held, units.length);
+    if (is_reaction())
+      load_unit = units.stress * units.length * units.length *
+                  std::abs(scene.observation.factor);
+    const SolidScene bound   = on(scene, tetrahedra);
+    bool             is_live = is_reaction();
+    for (unsigned int c = 0; c < tetrahedra.cells.size(); ++c)
+      is_live = is_live || bound.body_force(c).live.norm() > 0.;
+    for (const auto &facet : bound.traction_of_facet)
+      for (const auto &at_vertex : facet)
+        is_live = is_live || at_vertex.live.norm() > 0.;
+    if (!is_live)
+      refuse_zero_load();
+  }
+
+  SolidScene
+  SolidLoad::on(const Scene &scene, const Tetrahedra &tetrahedra) const
+  {
+    SolidScene bound;
+    bound.scene      = &scene;
+    bound.tetrahedra = &tetrahedra;
+    bound.factor     = factor();
+    bound.units      = units;
+    for (SpatialStrength one : strengths)
+      {
+        one.scale(units.stress);
+        bound.strengths.push_back(one);
+      }
+    bound.facet_conditions = facet_conditions(scene, tetrahedra);
+    for (FacetCondition &facet : bound.facet_conditions)
+      facet.velocity /= units.velocity;
+
+    bound.traction_of_facet.resize(tetrahedra.facets.size());
+    for (const auto &load : scene.tractions.list)
+      for (const unsigned int f : tetrahedra.held_facets(*load))
+        {
+          const auto t = tractions_at_vertices(
+            *load, place_of(tetrahedra, f), bound.facet_conditions[f]);
+          const bool is_live =
+            factor() == LoadFactor::tractions || factor() == LoadFactor::all;
+          for (unsigned int i = 0; i < dim; ++i)
+            {
+              SolidScene::Load &own = bound.traction_of_facet[f][i];
+              (is_live ? own.live : own.dead) += t[i] / units.stress;
+            }
+        }
+    return bound;
+  }
+
+  SolidScene
+  SolidLoad::reduced(const Scene      &scene,
+                     const Tetrahedra &tetrahedra,
+                     const double      F) const
+  {
+    SolidScene bound = on(scene, tetrahedra);
+    for (unsigned int m = 0; m < strengths.size(); ++m)
+      if (scene.materials[m].is_reduced())
+        bound.strengths[m].reduce(F);
+    return bound;
+  }
+} // namespace geocone::GEOCONE_DIM
