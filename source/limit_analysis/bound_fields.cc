@@ -1,8 +1,8 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <geocone/axisymmetric_bounds/axisymmetric_certificate.h>
 #include <geocone/cone/second_order_cone.h>
-#include <geocone/limit_analysis/axisymmetric_certificate.h>
 #include <geocone/limit_analysis/bound_fields.h>
 #include <geocone/plane_bounds/bar_cells.h>
 

@@ -1,9 +1,9 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <geocone/axisymmetric_bounds/axisymmetric_bounds.h>
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
-#include <geocone/limit_analysis/axisymmetric_bounds.h>
 #include <geocone/limit_analysis/bounded_load.h>
 #include <geocone/materials/retention.h>
 #include <geocone/mesh/empty_regions.h>

@@ -1,8 +1,8 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <geocone/axisymmetric_bounds/axisymmetric_certificate.h>
 #include <geocone/base/resources.h>
-#include <geocone/limit_analysis/axisymmetric_certificate.h>
 #include <geocone/limit_analysis/certified_bounds.h>
 #include <geocone/plane_bounds/bar_cells.h>
 
@@ -21,7 +21,7 @@ namespace geocone::GEOCONE_DIM
     constexpr double no_question = std::numeric_limits<double>::quiet_NaN();
   } // namespace
 
-  CertifiedBounds::Side
+  CertifiedSide
   certified_upper(const BoundScene   &bound,
                   const BoundProblem &above,
                   const double        tolerance,
@@ -36,7 +36,7 @@ namespace geocone::GEOCONE_DIM
     options.flow_tolerance = above.has_incompressible() ? 1e-6 : 1e-8;
     const double margin    = 10. * options.flow_tolerance;
     const auto   certified = [&]() {
-      CertifiedBounds::Side side;
+      CertifiedSide side;
       side.solution   = solve(above, options);
       side.n_unknowns = above.n_unknowns();
       side.bound      = certify_upper(bound, above, side.solution);
@@ -45,7 +45,7 @@ namespace geocone::GEOCONE_DIM
     // No field is known that repairs what is missed beside obstacles.
     if (above.n_interfaces() > 0)
       options.flow_margin = margin;
-    CertifiedBounds::Side side = certified();
+    CertifiedSide side = certified();
     // Velocities of unlimited structures are projected, which needs a wider margin.
     for (unsigned int i = 0; i < 3 && above.n_bar_cells > 0 &&
                              !side.bound.certified && side.solution.converged;
@@ -62,12 +62,12 @@ namespace geocone::GEOCONE_DIM
     // Prescribed velocities allow none of the fields that repair: once more, with a
     // margin, which costs the margin's part of the load.
     options.flow_margin          = margin;
-    CertifiedBounds::Side second = certified();
+    CertifiedSide second         = certified();
     second.solution.factorisations += side.solution.factorisations;
     return second.bound.certified ? second : side;
   }
 
-  CertifiedBounds::Side
+  CertifiedSide
   certified_upper(const BoundScene &bound, const double tolerance)
   {
     if (AxisymmetricPower power; bound.is_axisymmetric())
@@ -75,7 +75,7 @@ namespace geocone::GEOCONE_DIM
     return certified_upper(bound, upper_problem(bound), tolerance, no_question);
   }
 
-  CertifiedBounds::Side
+  CertifiedSide
   certified_lower(const BoundScene &bound, const double tolerance)
   {
     if (bound.is_axisymmetric())
@@ -83,7 +83,7 @@ namespace geocone::GEOCONE_DIM
     return certified_lower(bound, lower_problem(bound), tolerance, no_question);
   }
 
-  CertifiedBounds::Side
+  CertifiedSide
   certified_lower(const BoundScene   &bound,
                   const BoundProblem &below,
                   const double        tolerance,
@@ -97,7 +97,7 @@ namespace geocone::GEOCONE_DIM
     options.question              = question;
     if (!below.can_be_scaled())
       options.strength_margin = 1e-5;
-    CertifiedBounds::Side side;
+    CertifiedSide side;
     side.solution   = solve(below, options);
     side.n_unknowns = below.n_unknowns();
     side.bound      = certify_lower(bound, below, side.solution);
@@ -115,9 +115,9 @@ namespace geocone::GEOCONE_DIM
   }
 
   std::vector<double>
-  uneven_gap(const BoundScene            &bound,
-             const std::vector<double>   &gap,
-             const CertifiedBounds::Side &lower)
+  uneven_gap(const BoundScene          &bound,
+             const std::vector<double> &gap,
+             const CertifiedSide       &lower)
   {
     std::vector<double> refinement_indicator = gap;
     // Marks stresses at yield away from the upper bound's mechanism.

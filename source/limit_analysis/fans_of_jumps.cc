@@ -1,8 +1,8 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <geocone/axisymmetric_bounds/axisymmetric_bounds.h>
 #include <geocone/cone/second_order_cone.h>
-#include <geocone/limit_analysis/axisymmetric_bounds.h>
 #include <geocone/limit_analysis/fans_of_jumps.h>
 
 #include <deal.II/base/numbers.h>

@@ -1,10 +1,10 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <geocone/axisymmetric_bounds/axisymmetric_bounds.h>
 #include <geocone/base/constants.h>
 #include <geocone/base/log.h>
 #include <geocone/cone/second_order_cone.h>
-#include <geocone/limit_analysis/axisymmetric_bounds.h>
 #include <geocone/limit_analysis/gradients.h>
 #include <geocone/plane_bounds/bound_loads.h>
 

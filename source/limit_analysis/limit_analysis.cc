@@ -278,7 +278,7 @@ namespace geocone::GEOCONE_DIM
   }
 
   BoundAnalysis::Side
-  LimitAnalysis::figures_of(const CertifiedBounds::Side &side)
+  LimitAnalysis::figures_of(const CertifiedSide &side)
   {
     return {side.bound.load,
             side.bound.certified,

@@ -44,7 +44,7 @@ namespace geocone::GEOCONE_DIM
 
     private:
       static SafetySearch::Attempt
-      figures_of(const CertifiedBounds::Side &side)
+      figures_of(const CertifiedSide &side)
       {
         return {side.bound.load,
                 side.bound.certified,
@@ -57,7 +57,7 @@ namespace geocone::GEOCONE_DIM
       const double                      tolerance;
       StrengthReduction::Level         &level;
 
-      std::array<CertifiedBounds::Side, 2> last; ///< by SafetySearch::Side
+      std::array<CertifiedSide, 2> last; ///< by SafetySearch::Side
     };
   } // namespace
 

@@ -180,7 +180,7 @@ namespace geocone::GEOCONE_DIM
   {
     using Kind = SampleVerdict::Kind;
     SampleVerdict               verdict;
-    const CertifiedBounds::Side lower = certified_lower(
+    const CertifiedSide         lower = certified_lower(
       mean, of_sample(below, BoundSide::lower, factors), tolerance, 1.);
     verdict.factorisations = lower.solution.factorisations;
     if (lower.bound.certified)
@@ -192,8 +192,7 @@ namespace geocone::GEOCONE_DIM
         return verdict;
       }
     const BoundProblem problem = of_sample(above, BoundSide::upper, factors);
-    const CertifiedBounds::Side upper =
-      certified_upper(mean, problem, tolerance, 1.);
+    const CertifiedSide upper   = certified_upper(mean, problem, tolerance, 1.);
     verdict.factorisations += upper.solution.factorisations;
     if (upper.bound.certified)
       verdict.upper = upper.bound.load;
@@ -207,9 +206,9 @@ namespace geocone::GEOCONE_DIM
   }
 
   RandomFactors
-  SampledBody::elasticity(const BoundProblem          &problem,
-                          const RandomFactors         &factors,
-                          const CertifiedBounds::Side &upper) const
+  SampledBody::elasticity(const BoundProblem  &problem,
+                          const RandomFactors &factors,
+                          const CertifiedSide &upper) const
   {
     RandomFactors elasticity;
     elasticity.cohesion.assign(n_first, 0.);
@@ -245,13 +244,12 @@ namespace geocone::GEOCONE_DIM
   {
     constexpr double   none    = std::numeric_limits<double>::quiet_NaN();
     const BoundProblem problem = of_sample(above, BoundSide::upper, factors);
-    const CertifiedBounds::Side upper = certified_upper(
-                                  mean, problem, tolerance, none),
-                                lower = certified_lower(
-                                  mean,
-                                  of_sample(below, BoundSide::lower, factors),
-                                  tolerance,
-                                  none);
+    const CertifiedSide upper = certified_upper(mean, problem, tolerance, none),
+                        lower = certified_lower(
+                          mean,
+                          of_sample(below, BoundSide::lower, factors),
+                          tolerance,
+                          none);
     return {std::sqrt(upper.bound.load * lower.bound.load),
             elasticity(problem, factors, upper),
             upper.solution.factorisations + lower.solution.factorisations,

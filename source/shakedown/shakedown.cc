@@ -280,8 +280,7 @@ namespace geocone::GEOCONE_DIM
       format("), elastic stresses to %.2g %%, ", 100. * last.elastic_error) +
       last.mode() + format(", %.2g s", last.cpu_seconds));
     for (const auto &[name, side] :
-         {std::pair<const char *, const CertifiedBounds::Side &>("upper",
-                                                                 found.upper),
+         {std::pair<const char *, const CertifiedSide &>("upper", found.upper),
           {"lower", found.lower}})
       {
         if (!side.solution.converged)

@@ -130,7 +130,7 @@ namespace geocone::GEOCONE_DIM
   tie_states(const BoundProblem             &problem,
              const VaryingLoads             &loads,
              const std::vector<LinearField> &fields,
-             CertifiedBounds::Side          &side)
+             CertifiedSide                  &side)
   {
     Bound             &bound = side.bound;
     const unsigned int n     = 3 * problem.n_triangles;

@@ -6,40 +6,18 @@
 
 #include <geocone/limit_analysis/bounded_load.h>
 #include <geocone/mesh/fitted_mesh.h>
-#include <geocone/plane_bounds/certificate.h>
+#include <geocone/plane_bounds/certified_side.h>
 
 #include <array>
 #include <vector>
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Power of the strength of a material in a solved problem, by parameter: the
-   *  derivative of the dissipation, at constant rates, or of the yield function, at
-   *  constant stresses, with respect to the logarithm of the parameter. */
-  struct StrengthPower
-  {
-    double cohesion = 0., growth = 0., tan_phi = 0.;
-  };
-
   /** Certified lower and upper bounds on the load, computed on one mesh, in
    *  scaled units. */
   struct CertifiedBounds
   {
-    struct Side
-    {
-      BoundSolution solution;
-      Bound         bound;
-      unsigned int  n_unknowns = 0;
-
-      /** Internal power |V s.e| of each triangle (volume, stress, strain rate),
-       *  computed with the lower bound only. The strain rates e are those of
-       *  the dual velocities. */
-      std::vector<double> power;
-
-      /** Power of the strength of each material of an axisymmetric body. */
-      std::vector<StrengthPower> strength_power;
-    };
-    Side upper, lower;
+    CertifiedSide upper, lower;
 
     /** Contribution of each triangle to the gap between the bounds, see
      *  gap_of_cells(). */
@@ -60,18 +38,18 @@ namespace geocone::GEOCONE_DIM
 
   /** Solves the upper-bound problem and certifies the upper bound.
    *  @param tolerance of the interior-point method, relative to the load */
-  CertifiedBounds::Side
+  CertifiedSide
   certified_upper(const BoundScene &bound, const double tolerance);
 
   /** Solves the lower-bound problem and certifies the lower bound.
    *  @param tolerance of the interior-point method, relative to the load */
-  CertifiedBounds::Side
+  CertifiedSide
   certified_lower(const BoundScene &bound, const double tolerance);
 
   /** Solves a given upper-bound problem until it is decided whether the upper
    *  bound is below a given load. See ConicOptions::question.
    *  @param question the load */
-  CertifiedBounds::Side
+  CertifiedSide
   certified_upper(const BoundScene   &bound,
                   const BoundProblem &above,
                   const double        tolerance,
@@ -80,7 +58,7 @@ namespace geocone::GEOCONE_DIM
   /** Solves a given lower-bound problem until it is decided whether the lower
    *  bound is above a given load. See ConicOptions::question.
    *  @param question the load */
-  CertifiedBounds::Side
+  CertifiedSide
   certified_lower(const BoundScene   &bound,
                   const BoundProblem &below,
                   const double        tolerance,
@@ -96,9 +74,9 @@ namespace geocone::GEOCONE_DIM
    *  @param gap contribution of each triangle to the gap
    *  @param lower solution of the lower bound */
   std::vector<double>
-  uneven_gap(const BoundScene            &bound,
-             const std::vector<double>   &gap,
-             const CertifiedBounds::Side &lower);
+  uneven_gap(const BoundScene          &bound,
+             const std::vector<double> &gap,
+             const CertifiedSide       &lower);
 
   /** Computes Davis's estimate of the load for non-associated flow, in the unit of the
    *  load. It consists of both bounds for Davis's equivalent material on a mesh

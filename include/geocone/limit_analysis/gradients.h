@@ -33,7 +33,7 @@ namespace geocone::GEOCONE_DIM
   struct SolvedBound
   {
     const BoundScene            &scene;
-    const CertifiedBounds::Side &side;
+    const CertifiedSide         &side;
     double                       F = 1.; ///< divisor of the strength
   };
 

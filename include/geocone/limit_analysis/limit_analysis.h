@@ -79,7 +79,7 @@ namespace geocone::GEOCONE_DIM
     }
 
     static Side
-    figures_of(const CertifiedBounds::Side &side);
+    figures_of(const CertifiedSide &side);
 
     /** Returns both bounds computed on the current mesh, converted to loads, as
      *  the results of a refinement level.

@@ -26,7 +26,7 @@ namespace geocone::GEOCONE_DIM
       CertifiedBounds bounds;
 
       /** Solutions that certify the bounds on the factor of safety. */
-      CertifiedBounds::Side lower_proof, upper_proof;
+      CertifiedSide lower_proof, upper_proof;
     };
 
     /** Computes both bounds on the factor of safety, using a given mesh.

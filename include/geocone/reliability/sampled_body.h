@@ -144,9 +144,9 @@ namespace geocone::GEOCONE_DIM
     stresses_of(const RandomFactors &factors, const Bound &lower) const;
 
     RandomFactors
-    elasticity(const BoundProblem          &problem,
-               const RandomFactors         &factors,
-               const CertifiedBounds::Side &upper) const;
+    elasticity(const BoundProblem  &problem,
+               const RandomFactors &factors,
+               const CertifiedSide &upper) const;
 
     /** Upper-bound or lower-bound problem of the mean body, with its loads
      *  other than weight. */

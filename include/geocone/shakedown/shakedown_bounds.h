@@ -23,7 +23,7 @@ namespace geocone::GEOCONE_DIM
   {
     /** Static and kinematic problem with the elastic stresses of the mesh; certified:
      *  the fields are admissible for these. */
-    CertifiedBounds::Side lower, upper;
+    CertifiedSide lower, upper;
 
     /** Factor of the lower one with which the out-of-plane stresses are admissible,
      *  too, at most 1. */

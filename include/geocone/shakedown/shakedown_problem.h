@@ -57,7 +57,7 @@ namespace geocone::GEOCONE_DIM
   tie_states(const BoundProblem             &problem,
              const VaryingLoads             &loads,
              const std::vector<LinearField> &fields,
-             CertifiedBounds::Side          &side);
+             CertifiedSide                  &side);
 } // namespace geocone::GEOCONE_DIM
 
 #endif

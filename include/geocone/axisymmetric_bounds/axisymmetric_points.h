@@ -1,13 +1,13 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-#ifndef geocone_limit_analysis_axisymmetric_points_h
-#define geocone_limit_analysis_axisymmetric_points_h
+#ifndef geocone_axisymmetric_bounds_axisymmetric_points_h
+#define geocone_axisymmetric_bounds_axisymmetric_points_h
 
+#include <geocone/axisymmetric_bounds/axisymmetric_bounds.h>
+#include <geocone/axisymmetric_bounds/axisymmetric_strength.h>
 #include <geocone/bounds/cell_points.h>
-#include <geocone/limit_analysis/axisymmetric_bounds.h>
-#include <geocone/limit_analysis/axisymmetric_strength.h>
-#include <geocone/limit_analysis/certified_bounds.h>
+#include <geocone/plane_bounds/certified_side.h>
 
 #include <algorithm>
 #include <array>

@@ -1,9 +1,9 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <geocone/axisymmetric_bounds/axisymmetric_certificate.h>
+#include <geocone/axisymmetric_bounds/axisymmetric_points.h>
 #include <geocone/base/log.h>
-#include <geocone/limit_analysis/axisymmetric_certificate.h>
-#include <geocone/limit_analysis/axisymmetric_points.h>
 
 #include <algorithm>
 #include <cmath>
@@ -385,13 +385,13 @@ namespace geocone::GEOCONE_DIM
     return result;
   }
 
-  CertifiedBounds::Side
+  CertifiedSide
   certified_upper(const AxisymmetricScene &scene,
                   const double             tolerance,
                   AxisymmetricPower       &power)
   {
     ConicProblem          problem = upper_problem(scene);
-    CertifiedBounds::Side side;
+    CertifiedSide         side;
     static_cast<ConicSolution &>(side.solution) =
       solve_for_velocities(problem, tolerance, [&](const Eigen::VectorXd &q) {
         side.bound = certify_upper(scene, q, power);
@@ -402,7 +402,7 @@ namespace geocone::GEOCONE_DIM
     return side;
   }
 
-  CertifiedBounds::Side
+  CertifiedSide
   certified_lower(const AxisymmetricScene &scene, const double tolerance)
   {
     ConicProblem problem = lower_problem(scene);
@@ -412,7 +412,7 @@ namespace geocone::GEOCONE_DIM
     options.stresses       = true;
     if (problem.dead.squaredNorm() > 0.)
       options.strength_margin = 1e-5;
-    CertifiedBounds::Side side;
+    CertifiedSide side;
     static_cast<ConicSolution &>(side.solution) = solve(problem, options);
     side.n_unknowns                             = problem.n_unknowns();
     auto stress =

@@ -1,8 +1,8 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-#ifndef geocone_limit_analysis_axisymmetric_bounds_h
-#define geocone_limit_analysis_axisymmetric_bounds_h
+#ifndef geocone_axisymmetric_bounds_axisymmetric_bounds_h
+#define geocone_axisymmetric_bounds_axisymmetric_bounds_h
 
 #include <geocone/bounds/bernstein.h>
 #include <geocone/bounds/facet_condition.h>

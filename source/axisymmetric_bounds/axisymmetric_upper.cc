@@ -1,8 +1,8 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <geocone/axisymmetric_bounds/axisymmetric_points.h>
 #include <geocone/bounds/held_bodies.h>
-#include <geocone/limit_analysis/axisymmetric_points.h>
 
 #include <cmath>
 #include <memory>

@@ -1,11 +1,11 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-#ifndef geocone_limit_analysis_axisymmetric_certificate_h
-#define geocone_limit_analysis_axisymmetric_certificate_h
+#ifndef geocone_axisymmetric_bounds_axisymmetric_certificate_h
+#define geocone_axisymmetric_bounds_axisymmetric_certificate_h
 
-#include <geocone/limit_analysis/axisymmetric_bounds.h>
-#include <geocone/limit_analysis/certified_bounds.h>
+#include <geocone/axisymmetric_bounds/axisymmetric_bounds.h>
+#include <geocone/plane_bounds/certified_side.h>
 
 #include <vector>
 
@@ -46,14 +46,14 @@ namespace geocone::GEOCONE_DIM
 
   /** Solves the upper-bound problem of an axisymmetric body and certifies the upper
    *  bound. @param tolerance of the interior-point method, relative to the load */
-  CertifiedBounds::Side
+  CertifiedSide
   certified_upper(const AxisymmetricScene &scene,
                   const double             tolerance,
                   AxisymmetricPower       &power);
 
   /** Solves the lower-bound problem of an axisymmetric body and certifies the lower
    *  bound. @param tolerance of the interior-point method, relative to the load */
-  CertifiedBounds::Side
+  CertifiedSide
   certified_lower(const AxisymmetricScene &scene, const double tolerance);
 
   /**
