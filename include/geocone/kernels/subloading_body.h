@@ -174,134 +174,46 @@ namespace geocone
           const Vector &strain,
           const Number &volume) const
     {
-      const Number zero(0.), one(1.), two(2.), third(1. / 3.);
-      const Number slope(c.slope), phi_slope(c.phi_slope), xi(c.xi), pe(c.pe);
-      const Number p = mean(y.stress), pa = mean(y.a), over = one / R;
-      const Number K     = Number(1. / c.kappa) * (p + pe),
-                   two_G = Number(2. * c.shear_ratio) * K;
-
-      // The gradients N, m = 2 slope sh + I/3 (2 ph - pcb - 2 slope sh:beta).
-      const Number p_sy = pa + over * (p - pa), ph = p_sy + xi * y.pcb;
-      const Number p_y = c.rotates_with_ph ? ph : p_sy;
-      Vector       d, sy, sh;
-      for (int i = 0; i < n; ++i)
-        {
-          d[i]  = y.stress[i] - y.a[i];
-          sy[i] = y.a[i] + over * d[i];
-          sh[i] = sy[i] - p_y * y.beta[i];
-        }
-      for (int i = 0; i < 3; ++i)
-        sh[i] = sh[i] - p_sy;
-      const Number sh_sh = dot(sh, sh), sh_beta = dot(sh, y.beta);
-      const Number along   = ph + ph - y.pcb;
-      const Number trace_N = along - two * slope * sh_beta;
-      const Number trace_m = along - two * phi_slope * sh_beta;
-      const Number dev_m2  = Number(4. * c.phi_slope * c.phi_slope) * sh_sh;
-      const Number norm_m  = sqrt(dev_m2 + third * trace_m * trace_m);
-      // ln 0 at R = Rmin: a value so large that the response is elastic.
-      const Number U =
-        Number(-c.cR) *
-        log(max(Number(1e-30),
-                Number(1. / (1. - c.Rmin)) * (R - Number(c.Rmin))));
-
-      Number lode(1.), eta_b(0.);
-      Vector h_beta;
-      if (c.cbeta > 0.)
-        {
-          Vector s = y.stress;
-          for (int i = 0; i < 3; ++i)
-            s[i] = s[i] - p;
-          const Number norm_s = sqrt(dot(s, s));
-          // On the axis the direction is undefined.
-          const Number axis = Number(1e-12) * abs(p);
-          if (any_greater(norm_s, axis))
-            eta_b = critical_ratio(s, norm_s, lode);
-          const Number of_s =
-            where_greater(norm_s,
-                          axis,
-                          Number(0.81649658092772603273) * eta_b / norm_s,
-                          zero);
-          const Number rate =
-            Number(c.cbeta / c.patm) * sqrt(dev_m2) * max(p, zero);
-          for (int i = 0; i < n; ++i)
-            h_beta[i] = rate * (of_s * s[i] - y.beta[i]);
-        }
-      else
-        for (int i = 0; i < n; ++i)
-          h_beta[i] = zero;
-
-      const Number h_Rb = Number(c.cb) * (Number(c.Rbf) - y.Rb) * norm_m;
-      Number       h_pc = (y.pcb + Number(c.pe / (1. - c.xi)) * y.Rb) *
-                      Number(1. / (c.lambda - c.kappa)) * trace_m +
-                    y.pcb / y.Rb * h_Rb;
-      // Otherwise pcb of soil that has lost all contact would vanish, and the
-      // soil could not carry any load when recompressed.
-      h_pc =
-        where_greater(y.pcb, Number(c.smallest_size), h_pc, max(h_pc, zero));
-      const Number growth = h_pc / y.pcb;
-
-      // The similarity centre moves to st, and with the surface. In (24) beta
-      // multiplies p or, by another reading, ph = p + xi pcb. f is homogeneous
-      // in (sigma, a, pcb) and invariant under the rotation, so that df = 0
-      // gives H with few terms.
-      const Number offset     = c.rotates_with_ph ? xi * y.pcb : zero;
-      const Number half       = Number(0.5 - c.xi) * y.pcb;
-      const Number to_st_rate = Number(c.ca) * norm_m, far(1. - c.delta);
-      const Number turned     = pa + offset;
-      const Number of_d       = U * norm_m * over;
-      Vector       st, N, m, h_a;
-      Number       H(0.);
-      for (int i = 0; i < n; ++i)
-        {
-          Number centre = (half + offset) * y.beta[i];
-          N[i]          = two * slope * sh[i];
-          m[i]          = two * phi_slope * sh[i];
-          if (i < 3)
-            {
-              centre += half;
-              N[i] += third * trace_N;
-              m[i] += third * trace_m;
-            }
-          st[i]              = centre + far * (sy[i] - centre);
-          const Number to_st = to_st_rate * (st[i] - y.a[i]);
-          h_a[i]             = to_st + growth * y.a[i] + turned * h_beta[i];
-          H += N[i] * (growth * y.stress[i] + (p + offset) * h_beta[i] +
-                       (one - R) * to_st + of_d * d[i]);
-        }
-      const Number N_D_m = K * trace_N * trace_m +
-                           two_G * Number(4. * c.slope * c.phi_slope) * sh_sh;
+      const Number    zero(0.), two(2.), slope(c.slope);
+      const Gradients g    = gradients(y, R);
+      const Rotation  turn = rotation(y, g);
+      const Hardening h    = hardening(y, R, g, turn);
+      const Number    N_D_m =
+        g.K * g.trace_N * g.trace_m +
+        g.two_G * Number(4. * c.slope * c.phi_slope) * g.sh_sh;
       const Number N_D_strain =
-        K * trace_N * volume + two_G * two * slope * dot(sh, strain);
-      const Number denominator = N_D_m + H;
+        g.K * g.trace_N * volume + g.two_G * two * slope * dot(g.sh, strain);
+      const Number denominator = N_D_m + h.H;
 
       Result r;
       r.stable              = is_less(zero, denominator);
       const Number d_lambda = where_greater(
         N_D_strain, zero, r.stable * (N_D_strain / denominator), zero);
-      r.plastic_strain = d_lambda * norm_m;
+      r.plastic_strain = d_lambda * g.norm_m;
 
       State       &k = r.increment;
       const Number mean_part =
-        (K - third * two_G) * (volume - d_lambda * trace_m);
+        (g.K - Number(1. / 3.) * g.two_G) * (volume - d_lambda * g.trace_m);
       for (int i = 0; i < n; ++i)
         {
-          k.stress[i] = two_G * (strain[i] - d_lambda * m[i]);
-          k.a[i]      = d_lambda * h_a[i];
-          k.beta[i]   = d_lambda * h_beta[i];
+          k.stress[i] = g.two_G * (strain[i] - d_lambda * h.m[i]);
+          k.a[i]      = d_lambda * h.h_a[i];
+          k.beta[i]   = d_lambda * turn.h_beta[i];
         }
       for (int i = 0; i < 3; ++i)
         k.stress[i] += mean_part;
-      k.pcb = d_lambda * h_pc;
-      k.Rb  = d_lambda * h_Rb;
+      k.pcb = d_lambda * h.h_pc;
+      k.Rb  = d_lambda * h.h_Rb;
 
       if constexpr (Result::has_all)
         {
-          r.K = K, r.G = c.shear_ratio * K, r.p_y = p_y, r.U = U;
-          r.sy = sy, r.st = st, r.sh = sh, r.N = N, r.m = m;
-          r.trace_m = trace_m, r.norm_m = norm_m;
-          r.lode = lode, r.eta_b = eta_b;
-          r.h_a = h_a, r.h_beta = h_beta, r.h_pc = h_pc, r.h_Rb = h_Rb;
-          r.H = H, r.N_D_m = N_D_m, r.N_D_strain = N_D_strain;
+          r.K = g.K, r.G = c.shear_ratio * g.K, r.p_y = g.p_y, r.U = h.U;
+          r.sy = g.sy, r.st = h.st, r.sh = g.sh, r.N = h.N, r.m = h.m;
+          r.trace_m = g.trace_m, r.norm_m = g.norm_m;
+          r.lode = turn.lode, r.eta_b = turn.eta_b;
+          r.h_a = h.h_a, r.h_beta = turn.h_beta, r.h_pc = h.h_pc,
+          r.h_Rb = h.h_Rb;
+          r.H = h.H, r.N_D_m = N_D_m, r.N_D_strain = N_D_strain;
           r.d_lambda = d_lambda;
         }
       return r;
@@ -383,6 +295,149 @@ namespace geocone
       c; ///< copied, so that stores do not alias it
 
   private:
+    /** Traces, norms and vectors of the gradients N of the yield function and m of the
+     *  plastic potential: N, m = 2 slope sh + I/3 (2 ph - pcb - 2 slope sh:beta). */
+    struct Gradients
+    {
+      Number p, pa;    ///< mean of stress and similarity centre (Pa)
+      Number K, two_G; ///< tangential moduli (Pa)
+      Number over;     ///< 1/R
+      Number p_y;      ///< pressure that is multiplied by beta (Pa)
+      Vector d;        ///< stress less similarity centre (Pa)
+      Vector sy,
+        sh; ///< stress on the yield surface, and its deviator from beta (Pa)
+      Number sh_sh, trace_N, trace_m;
+      Number dev_m2, norm_m; ///< |dev m|^2, |m|
+    };
+
+    Gradients
+    gradients(const State &y, const Number &R) const
+    {
+      const Number one(1.), two(2.), slope(c.slope), phi_slope(c.phi_slope);
+      Gradients    g;
+      g.p = mean(y.stress), g.pa = mean(y.a), g.over = one / R;
+      g.K               = Number(1. / c.kappa) * (g.p + Number(c.pe));
+      g.two_G           = Number(2. * c.shear_ratio) * g.K;
+      const Number p_sy = g.pa + g.over * (g.p - g.pa),
+                   ph   = p_sy + Number(c.xi) * y.pcb;
+      g.p_y             = c.rotates_with_ph ? ph : p_sy;
+      for (int i = 0; i < n; ++i)
+        {
+          g.d[i]  = y.stress[i] - y.a[i];
+          g.sy[i] = y.a[i] + g.over * g.d[i];
+          g.sh[i] = g.sy[i] - g.p_y * y.beta[i];
+        }
+      for (int i = 0; i < 3; ++i)
+        g.sh[i] = g.sh[i] - p_sy;
+      g.sh_sh              = dot(g.sh, g.sh);
+      const Number sh_beta = dot(g.sh, y.beta), along = ph + ph - y.pcb;
+      g.trace_N = along - two * slope * sh_beta;
+      g.trace_m = along - two * phi_slope * sh_beta;
+      g.dev_m2  = Number(4. * c.phi_slope * c.phi_slope) * g.sh_sh;
+      g.norm_m  = sqrt(g.dev_m2 + Number(1. / 3.) * g.trace_m * g.trace_m);
+      return g;
+    }
+
+    /** Rotational hardening: rate of beta, per plastic multiplier. */
+    struct Rotation
+    {
+      Vector h_beta;
+      Number lode  = Number(1.); ///< Willam and Warnke's h
+      Number eta_b = Number(0.); ///< limit of the stress ratio
+    };
+
+    Rotation
+    rotation(const State &y, const Gradients &g) const
+    {
+      const Number zero(0.);
+      Rotation     turn;
+      if (c.cbeta > 0.)
+        {
+          Vector s = y.stress;
+          for (int i = 0; i < 3; ++i)
+            s[i] = s[i] - g.p;
+          const Number norm_s = sqrt(dot(s, s));
+          // On the axis the direction is undefined.
+          const Number axis = Number(1e-12) * abs(g.p);
+          if (any_greater(norm_s, axis))
+            turn.eta_b = critical_ratio(s, norm_s, turn.lode);
+          const Number of_s =
+            where_greater(norm_s,
+                          axis,
+                          Number(0.81649658092772603273) * turn.eta_b / norm_s,
+                          zero);
+          const Number rate =
+            Number(c.cbeta / c.patm) * sqrt(g.dev_m2) * max(g.p, zero);
+          for (int i = 0; i < n; ++i)
+            turn.h_beta[i] = rate * (of_s * s[i] - y.beta[i]);
+        }
+      else
+        for (int i = 0; i < n; ++i)
+          turn.h_beta[i] = zero;
+      return turn;
+    }
+
+    /** Gradients and rates of the state variables per plastic multiplier, and the
+     *  plastic modulus H. */
+    struct Hardening
+    {
+      Number U; ///< rate of R
+      Vector st, N, m, h_a;
+      Number h_pc, h_Rb, H = Number(0.);
+    };
+
+    /** The similarity centre moves to st, and with the surface. In (24) beta multiplies
+     *  p or, by another reading, ph = p + xi pcb. f is homogeneous in (sigma, a, pcb)
+     *  and invariant under the rotation, so that df = 0 gives H with few terms. */
+    Hardening
+    hardening(const State     &y,
+              const Number    &R,
+              const Gradients &g,
+              const Rotation  &turn) const
+    {
+      const Number zero(0.), one(1.), two(2.), third(1. / 3.);
+      const Number slope(c.slope), phi_slope(c.phi_slope);
+      Hardening    h;
+      // ln 0 at R = Rmin: a value so large that the response is elastic.
+      h.U = Number(-c.cR) *
+            log(max(Number(1e-30),
+                    Number(1. / (1. - c.Rmin)) * (R - Number(c.Rmin))));
+      h.h_Rb = Number(c.cb) * (Number(c.Rbf) - y.Rb) * g.norm_m;
+      h.h_pc = (y.pcb + Number(c.pe / (1. - c.xi)) * y.Rb) *
+                 Number(1. / (c.lambda - c.kappa)) * g.trace_m +
+               y.pcb / y.Rb * h.h_Rb;
+      // Otherwise pcb of soil that has lost all contact would vanish, and the
+      // soil could not carry any load when recompressed.
+      h.h_pc = where_greater(
+        y.pcb, Number(c.smallest_size), h.h_pc, max(h.h_pc, zero));
+
+      const Number growth     = h.h_pc / y.pcb;
+      const Number offset     = c.rotates_with_ph ? Number(c.xi) * y.pcb : zero;
+      const Number half       = Number(0.5 - c.xi) * y.pcb;
+      const Number to_st_rate = Number(c.ca) * g.norm_m, far(1. - c.delta);
+      const Number turned     = g.pa + offset;
+      const Number of_d       = h.U * g.norm_m * g.over;
+      for (int i = 0; i < n; ++i)
+        {
+          Number centre = (half + offset) * y.beta[i];
+          h.N[i]        = two * slope * g.sh[i];
+          h.m[i]        = two * phi_slope * g.sh[i];
+          if (i < 3)
+            {
+              centre += half;
+              h.N[i] += third * g.trace_N;
+              h.m[i] += third * g.trace_m;
+            }
+          h.st[i]            = centre + far * (g.sy[i] - centre);
+          const Number to_st = to_st_rate * (h.st[i] - y.a[i]);
+          h.h_a[i] = to_st + growth * y.a[i] + turned * turn.h_beta[i];
+          h.H +=
+            h.N[i] * (growth * y.stress[i] + (g.p + offset) * turn.h_beta[i] +
+                      (one - R) * to_st + of_d * g.d[i]);
+        }
+      return h;
+    }
+
     /** Largest root of a x^2 + b x + c = 0 for a < 0 <= c, computed without
      *  cancellation. The case a = 0 is allowed if b < 0. */
     static Number
