@@ -194,107 +194,153 @@ namespace geocone::GEOCONE_DIM
     }
   };
 
+  /** Stress update of a group of points (SIMD lanes) by the pyramid. */
+  template <typename P>
+  class PyramidUpdate
+  {
+  public:
+    using T = std::array<P, n_spatial>;
+
+    PyramidUpdate(const PyramidConstants &pyramid, const PointBlock &block)
+      : pyramid(pyramid)
+      , block(block)
+      , memory(history(pyramid.memory))
+      , growth(history(pyramid.growth))
+      , lambda(pyramid.lambda)
+      , two_G(pyramid.two_G)
+      , nu(pyramid.lambda / (2. * pyramid.lambda + pyramid.two_G))
+      , wave_modulus(pyramid.lambda + pyramid.two_G)
+      , apex(apex_of_size(pyramid.sine))
+      , exact_apex(apex_of_size(pyramid.sine + pyramid.delayed_sine))
+      , returns(pyramid.sine, pyramid.flow, pyramid.lambda, pyramid.two_G)
+    {}
+
+    /** Updates the points from p on. */
+    void
+    operator()(const unsigned int p) const
+    {
+      const P half(0.5);
+      const auto [s, strain] = TurnedTensors<P>(block, p, nu);
+      const P pressed        = lambda * (strain[0] + strain[1] + strain[3]);
+      T       trial;
+      for (int i = 0; i < n_spatial; ++i)
+        trial[i] = s[i] + (is_shear(i) ? half * (two_G * strain[i])
+                                       : pressed + two_G * strain[i]);
+      const P size = strength(p);
+      T       end  = trial;
+      if (memory != nullptr || !inside_inscribed_cone(trial, size))
+        return_to_pyramid(p, size, trial, end);
+
+      P work(0.);
+      for (int i = 0; i < n_spatial; ++i)
+        work += (s[i] + end[i]) * strain[i];
+      for (int i = 0; i < n_mandel; ++i)
+        end[i].store(block.s[i] + p);
+      if constexpr (dim == 2)
+        (end[3] - nu * (end[0] + end[1])).store(block.history[0] + p);
+      (half * work).store(block.work + p);
+      wave_modulus.store(block.wave_modulus + p);
+    }
+
+  private:
+    double *
+    history(const unsigned int place) const
+    {
+      return place == PyramidConstants::no_place ? nullptr
+                                                 : block.history[place];
+    }
+
+    /** Apex stress of a pyramid, per size. */
+    static P
+    apex_of_size(const double sine)
+    {
+      return sine > 0. ? P(0.5 / sine) : P(1e100);
+    }
+
+    /** Size of the pyramid of each point. */
+    P
+    strength(const unsigned int p) const
+    {
+      P size(pyramid.size);
+      if (growth != nullptr)
+        size += P(pyramid.size_per_cohesion) * P::load(growth + p);
+      if (memory != nullptr)
+        size = size - P(2. * pyramid.delayed_sine) *
+                        min(P(0.) - P::load(memory + p), exact_apex * size);
+      return size;
+    }
+
+    /** Whether all points are in the cone inscribed in the pyramid, and so elastic. */
+    bool
+    inside_inscribed_cone(const T &trial, const P &size) const
+    {
+      const P mean = P(1. / 3.) * (trial[0] + trial[1] + trial[3]);
+      P       squares(0.);
+      for (int i = 0; i < n_spatial; ++i)
+        {
+          const P d = is_shear(i) ? trial[i] : trial[i] - mean;
+          squares += is_shear(i) ? P(2.) * d * d : d * d;
+        }
+      const P room = size - P(2. * pyramid.sine) * mean;
+      const P round(2. * (1. + pyramid.sine * pyramid.sine / 3.));
+      return room.least() > 0. && (room * room - round * squares).least() >= 0.;
+    }
+
+    /** Maps trial stresses back to the pyramid, with plastic strain and memory. */
+    void
+    return_to_pyramid(const unsigned int p,
+                      const P           &size,
+                      const T           &trial,
+                      T                 &end) const
+    {
+      const P                zero(0.);
+      const PrincipalAxes<P> axes(trial);
+      const P                f = returns.yield_function(axes.value, 0, 2, size);
+      P                      values[3];
+      returns(axes.value, f, size, apex * size, values);
+      const T back = axes.tensor(values);
+      for (int i = 0; i < n_spatial; ++i)
+        end[i] = where_greater(f, zero, back[i], trial[i]);
+      P change[3], sum(0.);
+      for (int i = 0; i < 3; ++i)
+        {
+          values[i] = where_greater(f, zero, values[i], axes.value[i]);
+          change[i] = axes.value[i] - values[i];
+          sum += change[i];
+        }
+      const P per_G2(1. / pyramid.two_G);
+      const P bulk(pyramid.lambda /
+                   (pyramid.two_G * (3. * pyramid.lambda + pyramid.two_G)));
+      P       plastic(0.);
+      for (int i = 0; i < 3; ++i)
+        {
+          const P e = per_G2 * change[i] - bulk * sum;
+          plastic += e * e;
+        }
+      (P::load(block.plastic_strain + p) + sqrt(plastic))
+        .store(block.plastic_strain + p);
+      if (memory != nullptr)
+        (P(pyramid.memory_factor) * P::load(memory + p) -
+         P(0.5 * (1. - pyramid.memory_factor)) * (values[0] + values[2]))
+          .store(memory + p);
+    }
+
+    const PyramidConstants &pyramid;
+    const PointBlock       &block;
+    double *const memory, *const growth;
+    const P                lambda, two_G, nu, wave_modulus, apex, exact_apex;
+    const PyramidReturn<P> returns;
+  };
+
   /** Implements advance_pyramid() for one SIMD instruction set. */
   template <typename Arch>
   void
   advance_pyramid_block(const PyramidConstants &pyramid,
                         const PointBlock       &block)
   {
-    using P = Pack<Arch>;
-    using T = std::array<P, n_spatial>;
-    const P zero(0.), half(0.5), third(1. / 3.);
-    const P twice_sine(2. * pyramid.sine);
-    const P round(2. * (1. + pyramid.sine * pyramid.sine / 3.));
-    const P lambda(pyramid.lambda), two_G(pyramid.two_G),
-      nu(pyramid.lambda / (2. * pyramid.lambda + pyramid.two_G));
-    const P per_G2(1. / pyramid.two_G);
-    const P bulk(pyramid.lambda /
-                 (pyramid.two_G * (3. * pyramid.lambda + pyramid.two_G)));
-    const P wave_modulus(pyramid.lambda + pyramid.two_G);
-    const P twice_lagging(2. * pyramid.delayed_sine);
-    // Apex stress of a pyramid, per size.
-    const auto apex_of_size = [](const double sine) {
-      return sine > 0. ? P(0.5 / sine) : P(1e100);
-    };
-    const P apex(apex_of_size(pyramid.sine)),
-      exact_apex(apex_of_size(pyramid.sine + pyramid.delayed_sine));
-    const PyramidReturn<P> returns(
-      pyramid.sine, pyramid.flow, pyramid.lambda, pyramid.two_G);
-    const auto history = [&](const unsigned int place) {
-      return place == PyramidConstants::no_place ? nullptr
-                                                 : block.history[place];
-    };
-    double *const memory = history(pyramid.memory);
-    double *const growth = history(pyramid.growth);
-
+    const PyramidUpdate<Pack<Arch>> update(pyramid, block);
     for (unsigned int p = 0; p < block.n_points; p += PointBlock::lanes)
-      {
-        const auto [s, strain] = TurnedTensors<P>(block, p, nu);
-        const P pressed        = lambda * (strain[0] + strain[1] + strain[3]);
-        T       trial;
-        for (int i = 0; i < n_spatial; ++i)
-          trial[i] = s[i] + (is_shear(i) ? half * (two_G * strain[i])
-                                         : pressed + two_G * strain[i]);
-
-        // Strength of each point.
-        P size(pyramid.size);
-        if (growth != nullptr)
-          size += P(pyramid.size_per_cohesion) * P::load(growth + p);
-        if (memory != nullptr)
-          size = size - twice_lagging *
-                          min(zero - P::load(memory + p), exact_apex * size);
-
-        // Points within the inscribed cone are elastic.
-        const P mean = third * (trial[0] + trial[1] + trial[3]);
-        P       squares(0.);
-        for (int i = 0; i < n_spatial; ++i)
-          {
-            const P d = is_shear(i) ? trial[i] : trial[i] - mean;
-            squares += is_shear(i) ? P(2.) * d * d : d * d;
-          }
-        const P room = size - twice_sine * mean;
-        T       end  = trial;
-        if (memory != nullptr || !(room.least() > 0.) ||
-            !((room * room - round * squares).least() >= 0.))
-          {
-            const PrincipalAxes<P> axes(trial);
-            const P f = returns.yield_function(axes.value, 0, 2, size);
-            P       values[3];
-            returns(axes.value, f, size, apex * size, values);
-            const T back = axes.tensor(values);
-            for (int i = 0; i < n_spatial; ++i)
-              end[i] = where_greater(f, zero, back[i], trial[i]);
-            P change[3], sum(0.);
-            for (int i = 0; i < 3; ++i)
-              {
-                values[i] = where_greater(f, zero, values[i], axes.value[i]);
-                change[i] = axes.value[i] - values[i];
-                sum += change[i];
-              }
-            P plastic(0.);
-            for (int i = 0; i < 3; ++i)
-              {
-                const P e = per_G2 * change[i] - bulk * sum;
-                plastic += e * e;
-              }
-            (P::load(block.plastic_strain + p) + sqrt(plastic))
-              .store(block.plastic_strain + p);
-            if (memory != nullptr)
-              (P(pyramid.memory_factor) * P::load(memory + p) -
-               P(0.5 * (1. - pyramid.memory_factor)) * (values[0] + values[2]))
-                .store(memory + p);
-          }
-
-        P work(0.);
-        for (int i = 0; i < n_spatial; ++i)
-          work += (s[i] + end[i]) * strain[i];
-        for (int i = 0; i < n_mandel; ++i)
-          end[i].store(block.s[i] + p);
-        if constexpr (dim == 2)
-          (end[3] - nu * (end[0] + end[1])).store(block.history[0] + p);
-        (half * work).store(block.work + p);
-        wave_modulus.store(block.wave_modulus + p);
-      }
+      update(p);
   }
 } // namespace geocone::GEOCONE_DIM
 
