@@ -441,11 +441,12 @@ namespace geocone::GEOCONE_DIM
   }
 
   Obstacles::Obstacles(const ParameterFile &file)
-    : NamedList(file,
-                "Obstacles",
-                "Names of rigid bodies in frictional contact with the soil, "
-                "comma-separated; each has a subsection of its name. FEM and "
-                "implicit MPM.")
+    : NamedList(
+        file,
+        "Obstacles",
+        "Names of rigid bodies in frictional contact with the soil, "
+        "comma-separated; each has a subsection of its name. FEM, implicit "
+        "and explicit MPM.")
   {
     make();
   }

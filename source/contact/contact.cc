@@ -242,7 +242,8 @@ namespace geocone::GEOCONE_DIM
   Contact::Projection
   Contact::project(const ContactNode &node,
                    const Local       &at,
-                   const Force       &velocity) const
+                   const Force       &velocity,
+                   const Law         &law)
   {
     Projection   result;
     const Force &n   = node.normal;
@@ -252,11 +253,11 @@ namespace geocone::GEOCONE_DIM
     result.F = at.r - result.q;
     // A node at rest without force counts as supported: it may have no other
     // support.
-    if (!(p >= -node.tension) && !(holds && node.is_closed))
+    if (!(p >= -node.tension) && !(law.holds && node.is_closed))
       return result;
-    const double mu = with_friction ? node.friction : 0.;
+    const double mu = law.with_friction ? node.friction : 0.;
     const double bound =
-      with_friction ? mu * std::max(p, -node.tension) + node.adhesion : 0.;
+      law.with_friction ? mu * std::max(p, -node.tension) + node.adhesion : 0.;
     const Force u_T = u - (u * n) * n, r_T = at.r - (at.r * n) * n,
                 pull  = r_T - rho * u_T;
     const double size = pull.norm();
@@ -290,6 +291,23 @@ namespace geocone::GEOCONE_DIM
     return result;
   }
 
+  void
+  Contact::add_to_obstacle(const ContactNode &node,
+                           const double       rho,
+                           const Projection  &at,
+                           double            *sums)
+  {
+    for (unsigned int k = 0; k < n_motions; ++k)
+      {
+        const Force G = RigidMotion::of_point(k, node.arm);
+        sums[k] += G * at.q;
+        for (unsigned int l = 0; l < n_motions; ++l)
+          sums[n_motions + n_motions * k + l] +=
+            rho * (G * (at.Q * RigidMotion::of_point(l, node.arm)));
+      }
+    sums[ObstacleMotions::n_sums - 1] += at.q.norm() * (1. + node.arm.norm());
+  }
+
   std::vector<double>
   Contact::sums_of_nodes(const std::vector<Local> &locals,
                          const MPI_Comm            comm) const
@@ -304,19 +322,12 @@ namespace geocone::GEOCONE_DIM
           const Projection at =
             project(node,
                     locals[i],
-                    obstacles.velocities()[node.obstacle].at(node.arm));
-          double *const own = &sums[ObstacleMotions::n_sums * node.obstacle];
-          for (unsigned int k = 0; k < n_motions; ++k)
-            {
-              const Force G = RigidMotion::of_point(k, node.arm);
-              own[k] += G * at.q;
-              for (unsigned int l = 0; l < n_motions; ++l)
-                own[n_motions + n_motions * k + l] +=
-                  locals[i].rho *
-                  (G * (at.Q * RigidMotion::of_point(l, node.arm)));
-            }
-          own[ObstacleMotions::n_sums - 1] +=
-            at.q.norm() * (1. + node.arm.norm());
+                    obstacles.velocities()[node.obstacle].at(node.arm),
+                    law);
+          add_to_obstacle(node,
+                          locals[i].rho,
+                          at,
+                          &sums[ObstacleMotions::n_sums * node.obstacle]);
         }
     sum_over_ranks(sums, comm);
     return sums;
@@ -386,9 +397,8 @@ namespace geocone::GEOCONE_DIM
                    const bool    has_friction,
                    const bool    holds_now)
   {
-    with_friction = has_friction;
-    holds         = holds_now;
-    relaxed       = false;
+    law     = {has_friction, holds_now};
+    relaxed = false;
     nodal_contact.assign(list.size(), NodalContact());
     rho_Q.assign(list.size(), Matrix());
     for (Vector &row : row_A)
@@ -419,7 +429,7 @@ namespace geocone::GEOCONE_DIM
           continue;
         // Supported directions do not move relative to the obstacle either.
         const Force      velocity = free_part(node.velocity, node.node);
-        const Projection at       = project(node, locals[i], velocity);
+        const Projection at       = project(node, locals[i], velocity, law);
         nodal_contact[i].force    = locals[i].r;
         nodal_contact[i].state    = at.state;
         nodal_contact[i].size =

@@ -73,6 +73,64 @@ namespace geocone::GEOCONE_DIM
     }
   } // namespace
 
+  ParticleGaps::ParticleGaps(const Obstacles               &obstacles,
+                             const std::vector<Point<dim>> &nodes)
+    : obstacles(obstacles)
+    , nodes(nodes)
+    , of_nodes(obstacles.list.size())
+    , near(obstacles.list.size())
+  {}
+
+  void
+  ParticleGaps::begin_step(const std::vector<RigidMotion> &displacements,
+                           const double                    tolerance)
+  {
+    moved      = &displacements;
+    margin     = tolerance;
+    neighbours = obstacles.neighbours(displacements, margin);
+    ++step;
+    if (near.size() > 1)
+      for (auto &of_obstacle : of_nodes)
+        of_obstacle.resize(nodes.size());
+  }
+
+  void
+  ParticleGaps::take(const Point<dim> &place, const double half_side)
+  {
+    x    = place;
+    half = half_side;
+    for (unsigned int o = 0; o < near.size(); ++o)
+      near[o] = obstacles.list[o]->nearest(x, (*moved)[o], {});
+  }
+
+  double
+  ParticleGaps::gap(const unsigned int o, const unsigned int node)
+  {
+    double distance = near[o].distance;
+    if (near.size() > 1)
+      {
+        OfNode &at = of_nodes[o][node];
+        if (at.step != step)
+          at = {obstacles.list[o]->nearest(
+                  nodes[node], (*moved)[o], {}, &neighbours[o]),
+                step};
+        if (at.nearest.distance < margin)
+          distance = std::min(
+            distance,
+            along_others(near, o, at.nearest, x - nodes[node], flush * half));
+      }
+    return distance - half;
+  }
+
+  double
+  ParticleGaps::least_gap() const
+  {
+    double least = 1e300;
+    for (const Obstacle::Nearest &one : near)
+      least = std::min(least, one.distance);
+    return least - half;
+  }
+
   std::vector<Vector>
   gaps_of_particles(const MaterialPoints           &points,
                     const Scene                    &scene,
@@ -80,15 +138,7 @@ namespace geocone::GEOCONE_DIM
                     const Space                    &space,
                     const double                    margin)
   {
-    const auto        &list = scene.obstacles.list;
-    const unsigned int n    = list.size();
-    // Nodes in obstacles with neighbours.
-    std::vector<std::vector<Obstacle::Nearest>> of_node(n);
-    const auto others = scene.obstacles.neighbours(moved, margin);
-    for (unsigned int o = 0; o < n && n > 1; ++o)
-      for (const Point<dim> &x : space.node_positions())
-        of_node[o].push_back(list[o]->nearest(x, moved[o], {}, &others[o]));
-
+    const unsigned int  n = scene.obstacles.list.size();
     std::vector<Vector> all(n);
     for (Vector &of_obstacle : all)
       {
@@ -96,32 +146,23 @@ namespace geocone::GEOCONE_DIM
         for (unsigned int node = 0; node < space.n_local_nodes(); ++node)
           of_obstacle.local_element(dim * node) = 1e300;
       }
-    std::vector<Obstacle::Nearest> near(n);
+    ParticleGaps gaps(scene.obstacles, space.node_positions());
+    gaps.begin_step(moved, margin);
     for_each_point(points,
                    [&](const unsigned int p,
                        const unsigned int /* cell */,
                        const PointFunctions &at) {
                      const Point<dim> x = position_of(scene, points, p);
-                     const double     half =
-                       scene.geometry.size_of_point(x, points.volume[p]) / 2.;
-                     for (unsigned int o = 0; o < n; ++o)
-                       near[o] = list[o]->nearest(x, moved[o], {});
+                     gaps.take(
+                       x,
+                       scene.geometry.size_of_point(x, points.volume[p]) / 2.);
                      for (unsigned int o = 0; o < n; ++o)
                        for (unsigned int i = 0; i < at.n; ++i)
                          if (at.N[i] > least_function)
                            {
-                             const unsigned int node     = at.nodes[i];
-                             double             distance = near[o].distance;
-                             if (n > 1 && of_node[o][node].distance < margin)
-                               distance = std::min(
-                                 distance,
-                                 along_others(near,
-                                              o,
-                                              of_node[o][node],
-                                              x - space.node_positions()[node],
-                                              flush * half));
-                             double &least = all[o].local_element(dim * node);
-                             least         = std::min(least, distance - half);
+                             double &least =
+                               all[o].local_element(dim * at.nodes[i]);
+                             least = std::min(least, gaps.gap(o, at.nodes[i]));
                            }
                    });
     for (Vector &of_obstacle : all)

@@ -108,12 +108,16 @@ namespace geocone::GEOCONE_DIM
     body.state_of_all(row);
     if (boundary)
       boundary->state(row);
+    if (obstacles)
+      obstacles->state_of_all(row);
   }
 
   void
   ExplicitMPM::state_of_ranks(StateRow &row)
   {
     row(sum, *nodes);
+    if (obstacles)
+      obstacles->state_of_ranks(row);
     body.state_of_ranks(row);
   }
 

@@ -67,9 +67,7 @@ namespace geocone::GEOCONE_DIM
                        std::string("MUSL | USL with ") + Drainage::parameter,
                        "take MUSL");
     scene->regions.refuse_fixed("explicit MPM");
-    scene->refuse_contact("explicit MPM",
-                          "set Discretisation/Method = FEM or MPM, or hold "
-                          "the body by 'Boundary conditions'");
+    check_contact();
     for (const auto &condition : scene->dirichlet.list)
       {
         condition->refuse_normal("free with explicit MPM",
@@ -82,6 +80,28 @@ namespace geocone::GEOCONE_DIM
                            "prescribe velocities on sides of the background "
                            "mesh, or set Discretisation/Method = MPM");
       }
+  }
+
+  void
+  ExplicitMPM::check_contact() const
+  {
+    scene->contacts.refuse("explicit MPM",
+                           "set Discretisation/Method = FEM or MPM, or leave "
+                           "it out: points of all materials share the grid");
+    if (scene->obstacles.list.empty())
+      return;
+    ExplicitObstacles::check(*scene);
+    if (parameters.order == Order::usf)
+      throw InputError("Explicit/Order",
+                       parameters.order.word(),
+                       "MUSL | USL with obstacles",
+                       "take MUSL");
+    if (body.pore_water().acts())
+      throw InputError("Obstacles/Names",
+                       scene->obstacles.list.front()->name,
+                       std::string("nothing with explicit MPM and ") +
+                         Drainage::parameter,
+                       "hold the body by 'Boundary conditions'");
   }
 
   bool
@@ -189,6 +209,11 @@ namespace geocone::GEOCONE_DIM
       std::fill(transfer.centres.begin(), transfer.centres.end(), *given);
     if (acts_on_sides())
       boundary = std::make_unique<BoundaryForces>(*scene, mesh, space);
+    if (!scene->obstacles.list.empty())
+      {
+        obstacles = std::make_unique<ExplicitObstacles>(*scene, transfer, comm);
+        obstacles->check_outside(body.groups());
+      }
     PoreWater &water = body.pore_water();
     nodes            = std::make_unique<NodalUpdate>(transfer,
                                           scene->dirichlet,
@@ -196,6 +221,7 @@ namespace geocone::GEOCONE_DIM
                                           1e-14 * largest_mass,
                                           boundary.get(),
                                           water.acts() ? &water : nullptr,
+                                          obstacles.get(),
                                           sum);
     refresh();
     if (const Stage &first = *scene->loading.list.front(); first.removes())
@@ -246,6 +272,8 @@ namespace geocone::GEOCONE_DIM
         boundary->follow_ranks();
     }
     start_nodes();
+    if (obstacles)
+      obstacles->list_points(body.groups());
     nodes->mark_held();
     body_mass     = body.mass_of_rank();
     must_refresh  = false;
@@ -262,6 +290,8 @@ namespace geocone::GEOCONE_DIM
     body.begin_step(fade_end > t ? std::max(0., 1. - dt / (fade_end - t)) : 0.);
     if (boundary)
       boundary->begin_step(t + dt / 2.);
+    if (obstacles)
+      obstacles->begin_step(body.groups(), body.last_sums(), t, dt);
     const NodalUpdate::Step at_nodes = {
       t, dt, gravity, stage.damping, measures_force};
     const auto accelerate = [&](const bool velocity_is_read, const bool moves) {
@@ -310,6 +340,8 @@ namespace geocone::GEOCONE_DIM
       exchange_nodes(true);
     else
       must_refresh = true;
+    if (obstacles)
+      obstacles->move();
     sum.stress_work += body.last_sums().work;
     sum.impulse += dt * body_mass * gravity;
     if (body.pore_water().acts())
@@ -373,6 +405,9 @@ namespace geocone::GEOCONE_DIM
     report.unbalanced_force =
       Utilities::MPI::max(nodes->unbalanced_force(), comm);
     report.reactions = nodes->take_support_impulses();
+    if (obstacles)
+      for (const Reaction &one : obstacles->take_impulses())
+        report.reactions.push_back(one);
     sum_states_over_ranks(report.reactions, comm);
     for (Reaction &reaction : report.reactions)
       {

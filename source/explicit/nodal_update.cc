@@ -16,6 +16,7 @@ namespace geocone::GEOCONE_DIM
                            const double              least_mass,
                            const BoundaryForces     *boundary,
                            PoreWater                *water,
+                           ExplicitObstacles        *obstacles,
                            Exchange                 &sum)
     : transfer(transfer)
     , conditions(conditions)
@@ -23,6 +24,7 @@ namespace geocone::GEOCONE_DIM
     , least_mass(least_mass)
     , boundary(boundary)
     , water(water)
+    , obstacles(obstacles)
     , sum(sum)
     , support_impulse(conditions.list.size())
   {}
@@ -101,6 +103,8 @@ namespace geocone::GEOCONE_DIM
       if (transfer.mass[node.node] > least_mass)
         transfer.read[node_size * node.node + node.component] =
           prescribed_velocity(node, step.t + step.dt);
+    if (obstacles != nullptr)
+      obstacles->hold(is_prescribed, least_mass);
     if (water != nullptr)
       water->divide_momentum(least_mass);
     count_gravity_work(step);
@@ -204,6 +208,8 @@ namespace geocone::GEOCONE_DIM
         v[0]              = node.velocity;
         v[change_of_node] = node.change;
       }
+    if (obstacles != nullptr)
+      obstacles->push(is_prescribed, least_mass, sum);
     if (water != nullptr)
       water->add_velocity_of_soil(dt);
     if (moves)
@@ -229,9 +235,13 @@ namespace geocone::GEOCONE_DIM
   NodalUpdate::measure_unbalanced_force()
   {
     unbalanced = 0.;
+    std::vector<char> is_supported(transfer.n_nodes(), 0);
+    if (obstacles != nullptr)
+      for (const unsigned int i : obstacles->contact_nodes())
+        is_supported[i] = 1;
     for (unsigned int i = 0; i < transfer.n_nodes(); ++i)
       for (unsigned int d = 0; d < dim; ++d)
-        if (!is_prescribed[dim * i + d])
+        if (!is_prescribed[dim * i + d] && !is_supported[i])
           unbalanced = std::max(unbalanced, std::abs(force_at(i, d)));
   }
 

@@ -18,6 +18,7 @@ namespace geocone::GEOCONE_DIM
     begin(options, of_run);
     water       = of_points.acts() ? &of_points : nullptr;
     point_files = std::make_unique<FieldFiles>("points", fields_format);
+    obstacle_files = std::make_unique<FieldFiles>("obstacles", fields_format);
     add_step_columns();
     add_body_columns();
     add_balance_columns();
@@ -85,6 +86,8 @@ namespace geocone::GEOCONE_DIM
     add_exchange("gravity work (J/m)", &Exchange::gravity_work);
     add_exchange("support work (J/m)", &Exchange::support_work);
     add_exchange("damping work (J/m)", &Exchange::damping_work);
+    if (has_obstacles())
+      add_exchange("contact dissipation (J/m)", &Exchange::contact_dissipation);
     if (water != nullptr)
       add_exchange("seepage work (J/m)", &Exchange::seepage_work);
     add_exchange("stopped energy (J/m)", &Exchange::stopped_energy);
@@ -110,19 +113,27 @@ namespace geocone::GEOCONE_DIM
         add("error of the water balance (-)",
             [this](const Record &r) { return water_error(r); });
       }
-    for (unsigned int i = 0; i < dim * scene->dirichlet.list.size(); ++i)
-      table.add("force " + scene->dirichlet.list[i / dim]->name + " " +
-                  coordinate[i % dim] + unit(" (N/m)"),
+    const auto supports = scene->supports();
+    for (unsigned int i = 0; i < dim * supports.size(); ++i)
+      table.add("force " + supports[i / dim] + " " + coordinate[i % dim] +
+                  unit(" (N/m)"),
                 [i](const Record &r) {
                   return r.last.reactions[i / dim].force[i % dim];
                 });
+    const auto &obstacles = scene->obstacles.list;
+    for (unsigned int i = 0; i < dim * obstacles.size(); ++i)
+      add("displacement " + obstacles[i / dim]->name + " " +
+            coordinate[i % dim] + " (m)",
+          [i](const Record &r) {
+            return r.moved_obstacles[i / dim].centre[i % dim];
+          });
   }
 
   void
   ExplicitOutput::state_of_run(StateRow &row)
   {
     SceneOutput::state_of_run(row);
-    row(initial, *point_files, largest_impulse);
+    row(initial, *point_files, *obstacle_files, largest_impulse);
   }
 
   void
@@ -144,8 +155,8 @@ namespace geocone::GEOCONE_DIM
       works.external +=
         e.gravity_work - (initial.energies.potential - e.removed_potential -
                           record.last.energies.potential);
-    works.dissipation =
-      e.stress_work + e.damping_work + e.seepage_work + e.stopped_energy;
+    works.dissipation = e.stress_work + e.damping_work + e.contact_dissipation +
+                        e.seepage_work + e.stopped_energy;
     balance.set(record.last.energies,
                 works,
                 e.removed_energy + e.removed_potential,
@@ -306,6 +317,20 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
+  ExplicitOutput::write_obstacles(const double                    time,
+                                  const std::vector<RigidMotion> &moved)
+  {
+    if (!with_fields || !has_obstacles())
+      return;
+    BoundingBox<dim> box = scene->geometry.bounding_box();
+    if (!records.empty())
+      box.merge_with(BoundingBox<dim>(
+        {records.back().last.lower, records.back().last.upper}));
+    obstacle_files->write(
+      table_of_obstacles(scene->obstacles, moved, box, comm), path, time, comm);
+  }
+
+  void
   ExplicitOutput::show(const std::string &name,
                        const PointArrays &group,
                        double            *values) const
@@ -339,6 +364,8 @@ namespace geocone::GEOCONE_DIM
          records.back().exchange.outflow},
         {"balance_error", water_error(records.back())}};
     json["momentum"] = momentum();
+    if (has_obstacles())
+      json["obstacles"] = obstacles();
     json["law"]      = {
            {"updates", counts.updates},
            {"substeps", counts.substeps},
@@ -401,8 +428,37 @@ namespace geocone::GEOCONE_DIM
     json[unit("gravity_work_J_per_m")] = e.gravity_work;
     json[unit("support_work_J_per_m")] = e.support_work;
     json[unit("damping_work_J_per_m")] = e.damping_work;
+    if (has_obstacles())
+      json[unit("contact_dissipation_J_per_m")] = e.contact_dissipation;
     if (water != nullptr)
       json[unit("seepage_work_J_per_m")] = e.seepage_work;
+    return json;
+  }
+
+  Json
+  ExplicitOutput::obstacles() const
+  {
+    Json               json  = Json::object();
+    const auto        &list  = scene->obstacles.list;
+    const unsigned int first = scene->dirichlet.list.size();
+    for (unsigned int o = 0; o < list.size(); ++o)
+      {
+        const auto force_of = [&](const ExplicitRecord &record) {
+          return record.last.reactions[first + o].force;
+        };
+        double largest = 0.;
+        for (const ExplicitRecord &record : records)
+          largest = std::max(largest, force_of(record).norm());
+        Json &own = json[list[o]->name];
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            own[std::string("force_") + coordinate[d] + unit("_N_per_m")] =
+              force_of(records.back())[d];
+            own[std::string("displacement_") + coordinate[d] + "_m"] =
+              records.back().moved_obstacles[o].centre[d];
+          }
+        own[unit("largest_force_N_per_m")] = largest;
+      }
     return json;
   }
 

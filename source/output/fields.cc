@@ -291,18 +291,13 @@ namespace geocone::GEOCONE_DIM
       table_of_points(mesh, points, materials, moving), folder, time, comm);
   }
 
-  void
-  Fields::write_obstacles(const std::string              &folder,
-                          const double                    time,
-                          const BackgroundMesh           &mesh,
-                          const Obstacles                &obstacles,
-                          const std::vector<RigidMotion> &moved)
+  FieldTable
+  table_of_obstacles(const Obstacles                &obstacles,
+                     const std::vector<RigidMotion> &moved,
+                     const BoundingBox<dim>         &box,
+                     const MPI_Comm                  comm)
   {
-    if (obstacles.list.empty())
-      return;
-    const MPI_Comm comm    = mesh.triangulation().get_communicator();
-    const auto [low, high] = mesh.bounding_box().get_boundary_points();
-
+    const auto [low, high] = box.get_boundary_points();
     // The first rank writes all of them.
     std::vector<double> places, numbers, displacements;
     if (Utilities::MPI::this_mpi_process(comm) == 0)
@@ -326,12 +321,32 @@ namespace geocone::GEOCONE_DIM
     FieldTable table;
     table.cell      = FieldTable::Cell::triangle;
     table.n_nodes   = numbers.size();
-    table.positions = [&](std::vector<double> &values) { values = places; };
-    table.columns   = {
-        {"obstacle", 1, [&](std::vector<double> &values) { values = numbers; }},
-        {"displacement", dim, [&](std::vector<double> &values) {
+    table.positions = [places](std::vector<double> &values) {
+      values = places;
+    };
+    table.columns = {
+      {"obstacle",
+       1,
+       [numbers](std::vector<double> &values) { values = numbers; }},
+      {"displacement", dim, [displacements](std::vector<double> &values) {
          values = displacements;
        }}};
-    solids.write(table, folder, time, comm);
+    return table;
+  }
+
+  void
+  Fields::write_obstacles(const std::string              &folder,
+                          const double                    time,
+                          const BackgroundMesh           &mesh,
+                          const Obstacles                &obstacles,
+                          const std::vector<RigidMotion> &moved)
+  {
+    const MPI_Comm comm = mesh.triangulation().get_communicator();
+    if (!obstacles.list.empty())
+      solids.write(
+        table_of_obstacles(obstacles, moved, mesh.bounding_box(), comm),
+        folder,
+        time,
+        comm);
   }
 } // namespace geocone::GEOCONE_DIM

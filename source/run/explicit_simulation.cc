@@ -116,7 +116,8 @@ namespace geocone::GEOCONE_DIM
        step_loop.last_cpu_time(),
        report,
        stepper.exchange(),
-       pressures});
+       pressures,
+       stepper.moved_obstacles()});
   }
 
   std::string
@@ -137,6 +138,7 @@ namespace geocone::GEOCONE_DIM
   ExplicitSimulation::write_fields(const double t)
   {
     explicit_output.write_points(t, stepper.points().groups());
+    explicit_output.write_obstacles(t, stepper.moved_obstacles());
   }
 
   Json

@@ -9,6 +9,8 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <functional>
+#include <limits>
 #include <map>
 
 namespace geocone::GEOCONE_DIM
@@ -488,8 +490,11 @@ namespace geocone::GEOCONE_DIM
     return shared;
   }
 
+  template <typename Combine>
   void
-  CartesianTransfer::sum_over_ranks(const std::vector<Shared> &arrays)
+  CartesianTransfer::combine_over_ranks(const std::vector<Shared> &arrays,
+                                        const double               identity,
+                                        const Combine             &combine)
   {
     if (n_ranks == 1)
       return;
@@ -547,12 +552,12 @@ namespace geocone::GEOCONE_DIM
         }
     MPI_Waitall(requests.size(), requests.data(), MPI_STATUSES_IGNORE);
 
-    // Summation in the order of the ranks, for identical results on all ranks.
+    // In the order of the ranks, for identical results on all ranks.
     for (const Shared &array : arrays)
       std::fill_n(array.values + array.per_node * offset(all.begin),
                   array.per_node * static_cast<std::size_t>(all.size()) *
                     stride,
-                  0.);
+                  identity);
     for (unsigned int r = 0; r < n_ranks; ++r)
       {
         if (shared[r].size() <= 0)
@@ -563,7 +568,63 @@ namespace geocone::GEOCONE_DIM
         const double *from = receive[r].data();
         for (const Shared &array : arrays)
           for (std::size_t i = 0; i < array.per_node * n; ++i)
-            array.values[array.per_node * first + i] += *from++;
+            {
+              double &value = array.values[array.per_node * first + i];
+              value         = combine(value, *from++);
+            }
+      }
+  }
+
+  void
+  CartesianTransfer::sum_over_ranks(const std::vector<Shared> &arrays)
+  {
+    combine_over_ranks(arrays, 0., std::plus<double>());
+  }
+
+  void
+  CartesianTransfer::minimise_over_ranks(std::vector<double> &values)
+  {
+    combine_over_ranks(
+      {{values.data(), 1}},
+      std::numeric_limits<double>::infinity(),
+      [](const double a, const double b) { return std::min(a, b); });
+  }
+
+  std::vector<Point<dim>>
+  CartesianTransfer::node_positions() const
+  {
+    std::vector<Point<dim>> positions(n_nodes());
+    for (std::size_t i = 0; i < positions.size(); ++i)
+      {
+        std::size_t rest = i; // the last direction varies fastest
+        for (unsigned int d = dim; d-- > 0; rest /= stored[d].size())
+          positions[i][d] =
+            grid.axes[d].places[stored[d].begin + rest % stored[d].size()];
+      }
+    return positions;
+  }
+
+  void
+  CartesianTransfer::for_each_node(
+    const PointArrays &group,
+    const unsigned int /* number_of_group */,
+    const unsigned int                             p,
+    const std::function<void(const unsigned int)> &f) const
+  {
+    std::array<unsigned int, dim> first;
+    GridIndex                     n;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        first[d] = grid.axes[d].interval(group.position[d][p]);
+        n[d]     = grid.degree + 1;
+      }
+    for (std::size_t i = 0; i < grid_volume(n); ++i)
+      {
+        const GridIndex               offset   = index_in_grid(i, n);
+        std::array<unsigned int, dim> function = first;
+        for (unsigned int d = 0; d < dim; ++d)
+          function[d] += offset[d];
+        f(stored_index_of(function));
       }
   }
 

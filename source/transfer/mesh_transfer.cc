@@ -7,6 +7,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 namespace geocone::GEOCONE_DIM
@@ -329,6 +330,39 @@ namespace geocone::GEOCONE_DIM
           else
             mass[i] = exchanged.local_element(dim * i);
       }
+  }
+
+  std::vector<Point<dim>>
+  MeshTransfer::node_positions() const
+  {
+    return space.node_positions();
+  }
+
+  void
+  MeshTransfer::for_each_node(
+    const PointArrays & /* group */,
+    const unsigned int                             number_of_group,
+    const unsigned int                             p,
+    const std::function<void(const unsigned int)> &f) const
+  {
+    constexpr double least_function = 1e-12; // below, the node does not move it
+    const Functions &at             = functions[number_of_group];
+    for (unsigned int i = 0; i < n; ++i)
+      if (std::abs(at.N[n * p + i]) > least_function)
+        f(at.nodes[n * p + i]);
+  }
+
+  void
+  MeshTransfer::minimise_over_ranks(std::vector<double> &values)
+  {
+    exchanged.zero_out_ghost_values();
+    for (unsigned int i = 0; i < values.size(); ++i)
+      for (unsigned int d = 0; d < dim; ++d)
+        exchanged.local_element(dim * i + d) = values[i];
+    exchanged.compress(VectorOperation::min);
+    exchanged.update_ghost_values();
+    for (unsigned int i = 0; i < values.size(); ++i)
+      values[i] = exchanged.local_element(dim * i);
   }
 
   Point<dim>

@@ -45,6 +45,10 @@ METHODS = {
     "explicit": ("explicit/collapse.prm", {
         "Loading/fall/Duration": "1.2", "Loading/fall/Step size": "0.04",
         "Mesh/Cell size": "0.05", "Mesh/Box": "0, 0; 6, 2.4", "Loading/fall/Output every": "3"}),
+    # A free obstacle on points.
+    "obstacle": ("explicit/obstacle_plate-01.prm", {
+        "Mesh/Cell size": "0.025", "Loading/settle/Step size": "0.02",
+        "Loading/settle/Duration": "1", "Loading/settle/Output every": "3"}),
     # Soil with history, stages with resets, points that are taken away in time.
     "cut": ("explicit/slope_cut-01.prm", {
         "Loading/settle/Duration": "2", "Loading/stand/Duration": "0.5",

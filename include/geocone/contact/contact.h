@@ -256,6 +256,51 @@ namespace geocone::GEOCONE_DIM
       double                 rho = 0.; ///< rho of F (kg/(m s))
     };
 
+    /** @name Contact law of a node */
+    /** @{ */
+    using Force  = dealii::Tensor<1, dim>;
+    using Matrix = dealii::Tensor<2, dim>;
+
+    /** Contact force r, velocity v and augmentation parameter rho of a node, in its
+     *  free directions. */
+    struct Local
+    {
+      Force  r, v;
+      double rho = 0.;
+    };
+
+    /** Parts of the contact law that act. */
+    struct Law
+    {
+      bool with_friction = true;
+      bool holds         = false; ///< closed contacts are bilateral
+    };
+
+    /** Contact force q of a node by the contact law, with the residual F = r -
+     *  q and the derivative Q = dq/dp. The force q is the projection of p = r -
+     *  rho (u - least n), with the relative velocity u. */
+    struct Projection
+    {
+      Force  q, F;
+      Matrix Q;
+      State  state = State::open;
+    };
+    /** @param velocity of the obstacle or other body */
+    static Projection
+    project(const ContactNode &node,
+            const Local       &at,
+            const Force       &velocity,
+            const Law         &law);
+
+    /** Adds the force on a node by an obstacle and its derivative to the sums of the
+     *  obstacle, see ObstacleMotions::Sums. */
+    static void
+    add_to_obstacle(const ContactNode &node,
+                    const double       rho,
+                    const Projection  &at,
+                    double            *sums);
+    /** @} */
+
     /** @name Functions for ContactDirection */
     /** @{ */
     /** Selects the owned nodes that are in contact or close to contact. A node
@@ -338,17 +383,6 @@ namespace geocone::GEOCONE_DIM
     free_part(const dealii::Tensor<1, dim> &x, const unsigned int node) const;
 
   private:
-    using Force  = dealii::Tensor<1, dim>;
-    using Matrix = dealii::Tensor<2, dim>;
-
-    /** Contact force r, velocity v and augmentation parameter rho of an owned
-     *  node: the input to replace(). Free directions only. */
-    struct Local
-    {
-      Force  r, v;
-      double rho = 0.;
-    };
-
     /** Augmentation parameter rho of a contact node (kg/(m s)). For obstacles rho
      *  = d_i, for a pair 1/rho = 1/d_i + sum P_ij^2/d_j, where d is the mean of
      *  IncrementalProblem::scale() at a node. The lighter body dominates,
@@ -389,20 +423,6 @@ namespace geocone::GEOCONE_DIM
     void
     add_rows_to_partners(SparseMatrix &matrix) const;
 
-    /** Contact force q of a node by the contact law, with the residual F = r -
-     *  q and the derivative Q = dq/dp. The force q is the projection of p = r -
-     *  rho (u - least n), with the relative velocity u. */
-    struct Projection
-    {
-      Force  q, F;
-      Matrix Q;
-      State  state = State::open;
-    };
-    Projection
-    project(const ContactNode &node,
-            const Local       &at,
-            const Force       &velocity) const;
-
     /** Sums contact forces and their derivatives over the contact nodes of each
      *  obstacle. The sums are sum G' q, sum rho G' Q G and the sum of magnitudes,
      *  at the current motion of the obstacle. Collective. */
@@ -427,8 +447,7 @@ namespace geocone::GEOCONE_DIM
     ObstacleMotions         obstacles;
     bool                    has_pairs     = false; ///< ContactStep::has_pairs
     double                  body_error    = 0.;    ///< out of balance (N/m)
-    bool                    with_friction = true;  ///< in the last replace()
-    bool                    holds         = false; ///< in the last replace()
+    Law                       law;                   ///< in the last replace()
     bool                    relaxed       = false; ///< relax() since replace()
   };
 } // namespace geocone::GEOCONE_DIM

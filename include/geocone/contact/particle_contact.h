@@ -15,13 +15,61 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
+   * Gaps between obstacles and a particle, as the nodes that move the particle see
+   * them. A particle is a square with the particle's volume. If another obstacle
+   * continues the surface of an obstacle, the particles in front of both count.
+   */
+  class ParticleGaps
+  {
+  public:
+    /** @param nodes positions of all nodes; must outlive this object */
+    ParticleGaps(const Obstacles                       &obstacles,
+                 const std::vector<dealii::Point<dim>> &nodes);
+
+    /** Places the obstacles.
+     *  @param moved displacements since the beginning of the run; must not change
+     *  until the next call
+     *  @param margin see Neighbours */
+    void
+    begin_step(const std::vector<RigidMotion> &moved, const double margin);
+
+    /** Selects a particle. @param half half the side of its square (m) */
+    void
+    take(const dealii::Point<dim> &x, const double half);
+
+    /** Returns the gap between an obstacle and the selected particle (m), for a node
+     *  that moves it. */
+    double
+    gap(const unsigned int obstacle, const unsigned int node);
+
+    /** Returns the smallest gap between the selected particle and an obstacle (m). */
+    double
+    least_gap() const;
+
+  private:
+    /** Distance of a node from an obstacle, known if it is of the current step. */
+    struct OfNode
+    {
+      Obstacle::Nearest nearest;
+      unsigned int      step = 0;
+    };
+
+    const Obstacles                       &obstacles;
+    const std::vector<dealii::Point<dim>> &nodes;
+    const std::vector<RigidMotion>        *moved  = nullptr;
+    double                                 margin = 0.;
+    unsigned int                           step   = 0;
+    std::vector<Neighbours>                neighbours;
+    std::vector<std::vector<OfNode>>       of_nodes; ///< by obstacle
+    std::vector<Obstacle::Nearest>         near;     ///< of the particle
+    dealii::Point<dim>                     x;
+    double                                 half = 0.;
+  };
+
+  /**
    * Computes the gap between each obstacle and the nearest particle in the support
    * of each node (m). Gaps are stored at the first dof of the node, for
-   * ObstacleContact::begin(). A particle is a square with the particle's volume.
-   * Collective.
-   *
-   * If another obstacle continues the surface of an obstacle, the particles in
-   * front of both are included.
+   * ObstacleContact::begin(). Collective.
    * @param moved displacements of the obstacles since the beginning of the run
    * @param margin see Neighbours
    */

@@ -21,10 +21,12 @@ namespace geocone::GEOCONE_DIM
     double stress_work  = 0.; ///< stress work, sum of s : de V (J/m)
     double gravity_work = 0.; ///< work of gravity, sum of m g dx (J/m)
     double damping_work = 0.; ///< dissipated by local damping (J/m)
+    double contact_dissipation =
+      0.;                     ///< by friction and impact on obstacles (J/m)
     double seepage_work = 0.; ///< dissipated by flowing pore water (J/m)
     double outflow      = 0.; ///< volume of pore water that has left (m^2)
-    /** Work done by prescribed velocities, tractions, absorbing boundaries and
-     *  the buoyancy of pore water (J/m). */
+    /** Work done by prescribed velocities, obstacles, tractions, absorbing boundaries
+     *  and the buoyancy of pore water (J/m). */
     double support_work = 0.;
 
     /** Total impulse of gravity, damping and support forces (N s/m). */
@@ -52,6 +54,7 @@ namespace geocone::GEOCONE_DIM
       row(stress_work,
           gravity_work,
           damping_work,
+          contact_dissipation,
           seepage_work,
           outflow,
           support_work,

@@ -151,6 +151,13 @@ namespace geocone::GEOCONE_DIM
     /** Number of explicit steps since the start of the run. */
     unsigned long n_steps = 0;
 
+    /** Displacements of the obstacles since the start of the run. */
+    std::vector<RigidMotion>
+    moved_obstacles() const
+    {
+      return obstacles ? obstacles->moved() : std::vector<RigidMotion>();
+    }
+
     /** Access to the background mesh and to the seeding of the points. */
     BackgroundMesh &
     background_mesh()
@@ -169,6 +176,10 @@ namespace geocone::GEOCONE_DIM
 
     void
     check_parameters() const;
+
+    /** @throws InputError for contact that explicit steps do not have */
+    void
+    check_contact() const;
 
     /** Creates the points and the transfer between points and grid. The grid is
      *  uniform if possible and if there are no boundary forces, otherwise it is a
@@ -240,6 +251,7 @@ namespace geocone::GEOCONE_DIM
     ExplicitPoints                  body;
     const Scene                    *scene = nullptr;
     std::unique_ptr<BoundaryForces> boundary; ///< boundary forces, or null
+    std::unique_ptr<ExplicitObstacles> obstacles; ///< or null
     std::unique_ptr<NodalUpdate>    nodes;
 
     dealii::Tensor<1, dim> gravity;        ///< of the last step (m/s^2)

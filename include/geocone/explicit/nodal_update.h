@@ -7,6 +7,7 @@
 #include <geocone/boundary/boundary_conditions.h>
 #include <geocone/explicit/boundary_forces.h>
 #include <geocone/explicit/exchange.h>
+#include <geocone/explicit/explicit_obstacles.h>
 #include <geocone/explicit/pore_water.h>
 #include <geocone/transfer/grid_transfer.h>
 
@@ -32,6 +33,7 @@ namespace geocone::GEOCONE_DIM
      * @param least_mass nodes with this mass or less are skipped (kg/m)
      * @param boundary boundary forces, or null
      * @param water pore water that flows, or null
+     * @param obstacles in contact with the points, or null
      * @param sum totals to which the impulses and work of this rank are added
      */
     NodalUpdate(GridTransfer             &transfer,
@@ -40,6 +42,7 @@ namespace geocone::GEOCONE_DIM
                 const double              least_mass,
                 const BoundaryForces     *boundary,
                 PoreWater                *water,
+                ExplicitObstacles        *obstacles,
                 Exchange                 &sum);
 
     /** Parameters of the nodal update in an explicit step. */
@@ -157,6 +160,7 @@ namespace geocone::GEOCONE_DIM
     const double              flip_part, least_mass;
     const BoundaryForces     *boundary;
     PoreWater                *water;
+    ExplicitObstacles        *obstacles;
     Exchange                 &sum;
 
     /** A nodal velocity component with a prescribed value in the current

@@ -5,7 +5,7 @@
 #define geocone_output_explicit_output_h
 
 #include <geocone/explicit/explicit_mpm.h>
-#include <geocone/output/field_files.h>
+#include <geocone/output/fields.h>
 #include <geocone/output/scene_output.h>
 
 #include <memory>
@@ -23,12 +23,13 @@ namespace geocone::GEOCONE_DIM
     Exchange       exchange;
     std::vector<double>
       pressures; ///< excess pore pressures at observed points (Pa)
+    std::vector<RigidMotion> moved_obstacles; ///< displacements since the start
 
     void
     state(StateRow &row)
     {
       StepRecord::state(row);
-      row(cpu, report, exchange, pressures);
+      row(cpu, report, exchange, pressures, moved_obstacles);
     }
   };
 
@@ -72,6 +73,11 @@ namespace geocone::GEOCONE_DIM
     void
     write_points(const double time, const std::vector<PointArrays> &groups);
 
+    /** Writes the field file of the obstacles if there are any and field output is
+     *  enabled. */
+    void
+    write_obstacles(const double time, const std::vector<RigidMotion> &moved);
+
     /** Returns the sections (topics) of summary.json that contain the results
      *  of all steps.
      *  @param counts since the start, of all ranks */
@@ -104,7 +110,18 @@ namespace geocone::GEOCONE_DIM
     energy() const;
     Json
     momentum() const;
+
+    /** Mean force of each obstacle on the body in the last record and the largest of
+     *  all records, and its displacement. */
+    Json
+    obstacles() const;
     /** @} */
+
+    bool
+    has_obstacles() const
+    {
+      return !scene->obstacles.list.empty();
+    }
 
     void
     update_balance(const ExplicitRecord &record);
@@ -132,7 +149,7 @@ namespace geocone::GEOCONE_DIM
 
     const PoreWater            *water = nullptr; ///< null without flow
     ExplicitState               initial;
-    std::unique_ptr<FieldFiles> point_files;
+    std::unique_ptr<FieldFiles> point_files, obstacle_files;
     double largest_impulse = 0.; ///< over all records, scale of the residual
   };
 } // namespace geocone::GEOCONE_DIM

@@ -72,6 +72,14 @@ namespace geocone::GEOCONE_DIM
   private:
     FieldFiles cells, point_clouds, solids;
   };
+  /** Surfaces of the obstacles as triangles, on the first rank.
+   *  @param moved displacements since the start
+   *  @param box that shows infinite obstacles */
+  FieldTable
+  table_of_obstacles(const Obstacles                &obstacles,
+                     const std::vector<RigidMotion> &moved,
+                     const dealii::BoundingBox<dim> &box,
+                     const MPI_Comm                  comm);
 } // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -66,6 +66,17 @@ namespace geocone::GEOCONE_DIM
     void
     exchange(const bool with_mass) override;
 
+    std::vector<dealii::Point<dim>>
+    node_positions() const override;
+    void
+    for_each_node(
+      const PointArrays                             &group,
+      const unsigned int                             number_of_group,
+      const unsigned int                             p,
+      const std::function<void(const unsigned int)> &f) const override;
+    void
+    minimise_over_ranks(std::vector<double> &values) override;
+
     bool
     covers(const dealii::Point<dim> &x) const override;
     dealii::Point<dim>
@@ -140,7 +151,15 @@ namespace geocone::GEOCONE_DIM
     std::vector<Range>
     shared_columns() const;
 
-    /** Sums nodal arrays over the ranks that share node columns. Collective. */
+    /** Combines nodal arrays over the ranks that share node columns. Collective.
+     *  @param identity value that does not change another one
+     *  @param combine sum or minimum of two values */
+    template <typename Combine>
+    void
+    combine_over_ranks(const std::vector<Shared> &arrays,
+                       const double               identity,
+                       const Combine             &combine);
+
     void
     sum_over_ranks(const std::vector<Shared> &arrays);
 

@@ -15,6 +15,7 @@
 #include <mpi.h>
 
 #include <array>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -105,6 +106,26 @@ namespace geocone::GEOCONE_DIM
      */
     virtual void
     exchange(const bool with_mass) = 0;
+
+    /** @name Contact of points with obstacles */
+    /** @{ */
+    /** Positions of the stored nodes (m). */
+    virtual std::vector<dealii::Point<dim>>
+    node_positions() const = 0;
+
+    /** Calls f(node) for each node that moves a point, at the positions of the last
+     *  sort() or, on a uniform grid, at the current position. */
+    virtual void
+    for_each_node(const PointArrays &group,
+                  const unsigned int number_of_group,
+                  const unsigned int p,
+                  const std::function<void(const unsigned int)> &f) const = 0;
+
+    /** Replaces a value per node by the minimum over the ranks that store the node.
+     *  Collective. */
+    virtual void
+    minimise_over_ranks(std::vector<double> &values) = 0;
+    /** @} */
 
     /** Returns true if the position x is in the region covered by stored
      *  nodes. */

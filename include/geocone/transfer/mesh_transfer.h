@@ -90,6 +90,17 @@ namespace geocone::GEOCONE_DIM
     void
     exchange(const bool with_mass) override;
 
+    std::vector<dealii::Point<dim>>
+    node_positions() const override;
+    void
+    for_each_node(
+      const PointArrays                             &group,
+      const unsigned int                             number_of_group,
+      const unsigned int                             p,
+      const std::function<void(const unsigned int)> &f) const override;
+    void
+    minimise_over_ranks(std::vector<double> &values) override;
+
     /** Returns true for any position, because the next sort() locates the
      *  points. */
     bool

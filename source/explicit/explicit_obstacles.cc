@@ -1,0 +1,483 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/exceptions.h>
+#include <geocone/base/log.h>
+#include <geocone/base/over_ranks.h>
+#include <geocone/explicit/explicit_obstacles.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace geocone::GEOCONE_DIM
+{
+  using namespace dealii;
+
+  namespace
+  {
+    constexpr double no_gap = std::numeric_limits<double>::infinity();
+
+    /** Distance from an obstacle, over the size of a cell, up to which a node is one of
+     *  its surface: the nearest row. Nodes in or on the obstacle alone would leave most of
+     *  a cell between an obstacle that moves and the row before it, and the soil in it
+     *  without support until that row is passed. */
+    constexpr double of_surface = 0.4999;
+
+    /** Gap of the points that are listed as near, over the size of a cell. */
+    constexpr double listed = 4.;
+
+    /** Sweeps over the contacts of a node in a corner. Each sweep reduces the error by
+     *  the squared cosine of the angle between the normals, 0.97 at most. */
+    constexpr unsigned int most_sweeps = 200;
+
+    template <typename Function>
+    void
+    for_each_point_of(const std::vector<PointArrays> &groups, const Function &f)
+    {
+      for (unsigned int g = 0; g < groups.size(); ++g)
+        for (unsigned int p = 0; p < groups[g].n_points(); ++p)
+          f(g, p, groups[g].position.of(p));
+    }
+  } // namespace
+
+  ExplicitObstacles::ExplicitObstacles(const Scene   &scene,
+                                       GridTransfer  &transfer,
+                                       const MPI_Comm comm)
+    : scene(scene)
+    , transfer(transfer)
+    , comm(comm)
+    , displacement(scene.obstacles.list.size())
+    , velocity(scene.obstacles.list.size())
+    , impulse(scene.obstacles.list.size())
+    , particle(scene.obstacles, positions)
+    , gaps(scene.obstacles.list.size())
+  {
+    if (const std::string overlap =
+          scene.obstacles.overlap_of_free(displacement, margin());
+        !overlap.empty())
+      throw InputError("Obstacles/Names",
+                       scene.obstacles.list.front()->name,
+                       "free obstacles that do not overlap with others",
+                       overlap + ": move it, or make one body of both");
+  }
+
+  void
+  ExplicitObstacles::check(const Scene &scene)
+  {
+    for (const auto &obstacle : scene.obstacles.list)
+      {
+        if (obstacle->has_small_sliding())
+          throw InputError(obstacle->parameter("Sliding"),
+                           "small",
+                           "finite with MPM",
+                           "particles are where they are: leave it out");
+        obstacle->law.check_without_area(obstacle->parameter(""));
+        if (obstacle->law.restitution > 0.)
+          throw InputError(
+            obstacle->parameter("Restitution"),
+            obstacle->law.restitution,
+            "0 with explicit MPM",
+            "the waves in the soil make it rebound: leave it out");
+      }
+  }
+
+  void
+  ExplicitObstacles::check_outside(const std::vector<PointArrays> &groups) const
+  {
+    for (const auto &obstacle : scene.obstacles.list)
+      {
+        double least = 1e300;
+        for_each_point_of(
+          groups, [&](unsigned int, unsigned int, const Point<dim> &x) {
+            least = std::min(least, obstacle->nearest(x, {}, {}).distance);
+          });
+        least = Utilities::MPI::min(least, comm);
+        if (!(least > 0.))
+          obstacle->refuse_overlap(
+            format("a particle is %.3g m inside it", -least));
+      }
+  }
+
+  Tensor<1, dim>
+  ExplicitObstacles::centre(const unsigned int o) const
+  {
+    return scene.obstacles.list[o]->centre() + displacement[o].centre;
+  }
+
+  void
+  ExplicitObstacles::list_points(const std::vector<PointArrays> &groups)
+  {
+    positions         = transfer.node_positions();
+    travelled         = 0.;
+    near.clear();
+    for_each_point_of(
+      groups,
+      [&](const unsigned int g, const unsigned int p, const Point<dim> &x) {
+        const auto  &list = scene.obstacles.list;
+        const double half =
+          scene.geometry.size_of_point(x, groups[g].volume[p]) / 2.;
+        for (unsigned int o = 0; o < list.size(); ++o)
+          if (list[o]->nearest(x, displacement[o], {}).distance <
+              half + listed * transfer.cell_size())
+            {
+              near.push_back({{g, p}});
+              break;
+            }
+      });
+  }
+
+  double
+  ExplicitObstacles::fastest(const PassSums &points) const
+  {
+    if (points.lower[0] > points.upper[0])
+      return 0.;
+    double most = 0.;
+    for (unsigned int o = 0; o < velocity.size(); ++o)
+      for (unsigned int corner = 0; corner < (1u << dim); ++corner)
+        {
+          Point<dim> x;
+          for (unsigned int d = 0; d < dim; ++d)
+            x[d] = corner & (1u << d) ? points.upper[d] : points.lower[d];
+          most =
+            std::max(most, motions.velocities()[o].at(x - centre(o)).norm());
+        }
+    return most;
+  }
+
+  std::vector<ObstacleBody>
+  ExplicitObstacles::bodies_of_step() const
+  {
+    const auto               &list = scene.obstacles.list;
+    const double              end  = t + dt;
+    std::vector<ObstacleBody> bodies(list.size());
+    for (unsigned int o = 0; o < list.size(); ++o)
+      {
+        const Obstacle &obstacle = *list[o];
+        ObstacleBody   &body     = bodies[o];
+        // As the velocities of sides: driven motions at the end of the step.
+        body.without_contact = obstacle.velocity(end);
+        RigidMotion force    = obstacle.load(t + dt / 2.);
+        force.centre += obstacle.inertia(0) * scene.gravity.at(t + dt / 2.);
+        for (unsigned int k = 0; k < RigidMotion::n_components; ++k)
+          if (obstacle.is_free(k))
+            {
+              body.is_free[k]    = true;
+              body.inertia[k]    = obstacle.inertia(k) / dt;
+              body.velocity_n[k] = velocity[o][k];
+              body.without_contact[k] =
+                velocity[o][k] + force[k] / body.inertia[k];
+            }
+      }
+    return bodies;
+  }
+
+  std::vector<unsigned int>
+  ExplicitObstacles::find_gaps(const std::vector<PointArrays> &groups)
+  {
+    const unsigned int n = scene.obstacles.list.size();
+    for (auto &of_obstacle : gaps)
+      if (of_obstacle.size() != transfer.n_nodes())
+        of_obstacle.assign(transfer.n_nodes(), no_gap);
+    std::vector<unsigned int> touched;
+    particle.begin_step(displacement, margin());
+    for (const auto &[g, p] : near)
+      {
+        const Point<dim> x = groups[g].position.of(p);
+        particle.take(
+          x, scene.geometry.size_of_point(x, groups[g].volume[p]) / 2.);
+        if (particle.least_gap() < closable)
+          transfer.for_each_node(groups[g], g, p, [&](const unsigned int node) {
+            if (gaps[0][node] == no_gap)
+              touched.push_back(node);
+            for (unsigned int o = 0; o < n; ++o)
+              gaps[o][node] = std::min(gaps[o][node], particle.gap(o, node));
+          });
+      }
+    if (Utilities::MPI::n_mpi_processes(comm) > 1)
+      {
+        for (auto &of_obstacle : gaps)
+          transfer.minimise_over_ranks(of_obstacle);
+        touched.clear();
+        for (unsigned int node = 0; node < transfer.n_nodes(); ++node)
+          if (gaps[0][node] < no_gap)
+            touched.push_back(node);
+      }
+    std::sort(touched.begin(), touched.end());
+    return touched;
+  }
+
+  void
+  ExplicitObstacles::begin_step(const std::vector<PointArrays> &groups,
+                                const PassSums                 &points,
+                                const double                    begin,
+                                const double                    size)
+  {
+    t  = begin;
+    dt = size;
+    motions.begin_step(bodies_of_step());
+    if (const std::string overlap =
+          scene.obstacles.overlap_of_free(displacement, margin());
+        !overlap.empty())
+      throw StepFailure(overlap + "\n  remedy:  end the loading before they "
+                                  "meet, or let the soil part them");
+    const double path = dt * (std::sqrt(points.speed2) + fastest(points));
+    closable          = 0.01 * transfer.cell_size() + 4. * path;
+    travelled += path;
+    if (travelled + closable > listed * transfer.cell_size())
+      list_points(groups);
+
+    contacts.clear();
+    nodes.clear();
+    const auto others = scene.obstacles.neighbours(displacement, margin());
+    for (const unsigned int node : find_gaps(groups))
+      {
+        add_contacts(node, others);
+        for (auto &of_obstacle : gaps)
+          of_obstacle[node] = no_gap;
+      }
+    forces.assign(contacts.size(), {});
+  }
+
+  void
+  ExplicitObstacles::add_contacts(const unsigned int             number,
+                                  const std::vector<Neighbours> &others)
+  {
+    const auto       &list = scene.obstacles.list;
+    const Point<dim> &x    = positions[number];
+    Tensor<1, dim>    v;
+    for (unsigned int d = 0; d < dim; ++d)
+      v[d] = transfer.read[node_size * number + d];
+    std::vector<ContactNode> found;
+    for (unsigned int o = 0; o < list.size(); ++o)
+      {
+        ContactNode contact;
+        contact.node     = number;
+        contact.obstacle = o;
+        contact.arm      = x - centre(o);
+        contact.velocity = motions.velocities()[o].at(contact.arm);
+        const Obstacle::Nearest at = list[o]->nearest(
+          x, displacement[o], dt * (contact.velocity - v), &others[o]);
+        if (at.distance > of_surface * transfer.cell_size())
+          continue;
+        const double gap  = std::max(gaps[o][number], 0.);
+        contact.normal    = at.normal;
+        contact.least     = -gap / dt;
+        contact.is_closed = gap <= closed_gap * transfer.cell_size();
+        contact.friction  = list[o]->law.friction;
+        found.push_back(contact);
+      }
+    if (found.empty())
+      return;
+    std::stable_sort(found.begin(),
+                     found.end(),
+                     [](const ContactNode &a, const ContactNode &b) {
+                       return a.least > b.least; // the nearest first
+                     });
+    const unsigned int begin = contacts.size();
+    for (const ContactNode &contact : found)
+      if (std::all_of(contacts.begin() + begin,
+                      contacts.end(),
+                      [&](const ContactNode &other) {
+                        return std::abs(contact.normal * other.normal) <
+                               parallel;
+                      }))
+        contacts.push_back(contact);
+    nodes.push_back(
+      {number, begin, static_cast<unsigned int>(contacts.size())});
+  }
+
+  std::vector<unsigned int>
+  ExplicitObstacles::contact_nodes() const
+  {
+    std::vector<unsigned int> numbers;
+    for (const Node &node : nodes)
+      numbers.push_back(node.number);
+    return numbers;
+  }
+
+  Tensor<1, dim>
+  ExplicitObstacles::free_part(
+    Tensor<1, dim>                    x,
+    const unsigned int                node,
+    const std::vector<unsigned char> &is_prescribed) const
+  {
+    for (unsigned int d = 0; d < dim; ++d)
+      if (is_prescribed[dim * node + d])
+        x[d] = 0.;
+    return x;
+  }
+
+  void
+  ExplicitObstacles::solve(const Node                       &node,
+                           const std::vector<unsigned char> &is_prescribed)
+  {
+    const Contact::Local &free = locals[&node - nodes.data()];
+    const unsigned int    n    = node.end - node.begin;
+    Tensor<1, dim>        sum;
+    for (unsigned int k = node.begin; k < node.end; ++k)
+      {
+        forces[k].q = Tensor<1, dim>();
+        contacts[k].velocity =
+          motions.velocities()[contacts[k].obstacle].at(contacts[k].arm);
+      }
+    for (unsigned int sweep = 0; sweep < (n > 1 ? most_sweeps : 1); ++sweep)
+      {
+        double change = 0.;
+        for (unsigned int k = node.begin; k < node.end; ++k)
+          {
+            const Tensor<1, dim> others = sum - forces[k].q;
+            const Contact::Local here   = {
+                {}, free.v + others / free.rho, free.rho};
+            forces[k] = Contact::project(
+              contacts[k],
+              here,
+              free_part(contacts[k].velocity, node.number, is_prescribed),
+              {});
+            change = std::max(change, (others + forces[k].q - sum).norm());
+            sum    = others + forces[k].q;
+          }
+        if (change <= 1e-14 * sum.norm())
+          break;
+      }
+  }
+
+  void
+  ExplicitObstacles::push(const std::vector<unsigned char> &is_prescribed,
+                          const double                      least_mass,
+                          Exchange                         &sum)
+  {
+    // Supports act alone where the normal is along them.
+    const auto is_held = [&](const Node &node) {
+      return !(transfer.mass[node.number] > least_mass) ||
+             std::any_of(contacts.begin() + node.begin,
+                         contacts.begin() + node.end,
+                         [&](ContactNode &contact) {
+                           const Tensor<1, dim> normal = free_part(
+                             contact.normal, node.number, is_prescribed);
+                           const bool held =
+                             normal.norm() < least_free_component;
+                           if (!held)
+                             contact.normal = normal / normal.norm();
+                           return held;
+                         });
+    };
+    nodes.erase(std::remove_if(nodes.begin(), nodes.end(), is_held),
+                nodes.end());
+    locals.clear();
+    for (const Node &node : nodes)
+      {
+        Contact::Local local;
+        for (unsigned int d = 0; d < dim; ++d)
+          local.v[d] = transfer.read[node_size * node.number + d];
+        local.v   = free_part(local.v, node.number, is_prescribed);
+        local.rho = transfer.mass[node.number] / dt;
+        locals.push_back(local);
+      }
+    std::vector<char> is_mine(transfer.n_nodes(), 0);
+    for (const auto &[begin, end] : transfer.mine)
+      std::fill(is_mine.begin() + begin, is_mine.begin() + end, 1);
+    motions.find([&]() {
+      std::vector<double> sums(ObstacleMotions::n_sums * displacement.size());
+      for (const Node &node : nodes)
+        if (is_mine[node.number])
+          {
+            solve(node, is_prescribed);
+            for (unsigned int k = node.begin; k < node.end; ++k)
+              Contact::add_to_obstacle(
+                contacts[k],
+                transfer.mass[node.number] / dt,
+                forces[k],
+                &sums[ObstacleMotions::n_sums * contacts[k].obstacle]);
+          }
+      sum_over_ranks(sums, comm);
+      return sums;
+    });
+
+    for (const Node &node : nodes)
+      {
+        solve(node, is_prescribed);
+        double *const  v = &transfer.read[node_size * node.number];
+        const double   m = transfer.mass[node.number];
+        Tensor<1, dim> before, q;
+        for (unsigned int d = 0; d < dim; ++d)
+          before[d] = v[d] - v[change_of_node + d];
+        for (unsigned int k = node.begin; k < node.end; ++k)
+          q += forces[k].q;
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            v[d] += dt / m * q[d];
+            v[change_of_node + d] += dt / m * q[d];
+          }
+        if (!is_mine[node.number])
+          continue;
+        sum.impulse += dt * q;
+        for (unsigned int k = node.begin; k < node.end; ++k)
+          {
+            const Tensor<1, dim> of_contact = dt * forces[k].q;
+            const unsigned int   o          = contacts[k].obstacle;
+            const Tensor<1, dim> arm =
+              scene.observation.moment_centre()
+                ? positions[node.number] - *scene.observation.moment_centre()
+                : contacts[k].arm;
+            Tensor<1, dim> relative = before - contacts[k].velocity;
+            for (unsigned int d = 0; d < dim; ++d)
+              {
+                impulse[o].add(arm, d, of_contact[d]);
+                relative[d] += v[change_of_node + d] / 2.;
+              }
+            sum.contact_dissipation -= of_contact * relative;
+            sum.support_work += of_contact * contacts[k].velocity;
+          }
+      }
+  }
+
+  void
+  ExplicitObstacles::hold(const std::vector<unsigned char> &is_prescribed,
+                          const double                      least_mass)
+  {
+    for (const Node &node : nodes)
+      {
+        if (!(transfer.mass[node.number] > least_mass))
+          continue;
+        double *const v = &transfer.read[node_size * node.number];
+        for (unsigned int k = node.begin; k < node.end; ++k)
+          {
+            const ContactNode &contact = contacts[k];
+            if (forces[k].state == Contact::State::open)
+              continue;
+            Tensor<1, dim> u;
+            for (unsigned int d = 0; d < dim; ++d)
+              u[d] = v[d] - contact.velocity[d];
+            u                  = free_part(u, node.number, is_prescribed);
+            const double   u_N = u * contact.normal;
+            Tensor<1, dim> change = (contact.least - u_N) * contact.normal;
+            if (forces[k].state == Contact::State::stick)
+              change -= u - u_N * contact.normal;
+            for (unsigned int d = 0; d < dim; ++d)
+              v[d] += change[d];
+          }
+      }
+  }
+
+  void
+  ExplicitObstacles::move()
+  {
+    for (unsigned int o = 0; o < displacement.size(); ++o)
+      {
+        velocity[o] = motions.velocities()[o];
+        displacement[o].add(
+          {dt * velocity[o].centre, dt * velocity[o].rotation});
+      }
+  }
+
+  std::vector<Reaction>
+  ExplicitObstacles::take_impulses()
+  {
+    std::vector<Reaction> taken(impulse.size());
+    taken.swap(impulse);
+    return taken;
+  }
+} // namespace geocone::GEOCONE_DIM
