@@ -4,6 +4,7 @@
 #include <geocone/output/explicit_output.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace geocone::GEOCONE_DIM
@@ -326,6 +327,13 @@ namespace geocone::GEOCONE_DIM
     if (!records.empty())
       box.merge_with(BoundingBox<dim>(
         {records.back().last.lower, records.back().last.upper}));
+    for (unsigned int o = 0; o < moved.size(); ++o)
+      if (const Obstacle &obstacle = *scene->obstacles.list[o];
+          std::isfinite(obstacle.width()))
+        {
+          const Point<dim> centre = obstacle.centre() + moved[o].centre;
+          box.merge_with(BoundingBox<dim>({centre, centre}));
+        }
     obstacle_files->write(
       table_of_obstacles(scene->obstacles, moved, box, comm), path, time, comm);
   }
