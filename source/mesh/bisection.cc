@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <queue>
 #include <set>
 #include <tuple>
@@ -53,6 +54,10 @@ namespace geocone::GEOCONE_DIM
       void
       divide_at(const Line &line, const double size);
 
+      /** Divides all cells with facets that are to be apart, see divided_between(). */
+      void
+      divide_between(const FacetPair &are_apart);
+
       CoarseMesh
       mesh(
         const std::map<std::string, dealii::types::boundary_id> &sides) const;
@@ -67,6 +72,8 @@ namespace geocone::GEOCONE_DIM
         std::array<int, 4> side; ///< of the facet opposite to a vertex, or -1
         unsigned int       material, depth;
         double             error;
+        std::array<unsigned int, 4>
+          facet; ///< of the given mesh, or none, opposite to a vertex
       };
 
       /** Position of an edge in an order by length. Ties are broken by the vertices, so
@@ -129,11 +136,12 @@ namespace geocone::GEOCONE_DIM
           }
       for (unsigned int c = 0; c < error.size(); ++c)
         {
-          Cell cell = {tetrahedra.cells[c], {}, tetrahedra.material[c], 0, 0.};
+          Cell cell = {
+            tetrahedra.cells[c], {}, tetrahedra.material[c], 0, 0., {}};
           for (unsigned int i = 0; i < 4; ++i)
             {
-              cell.side[i] =
-                tetrahedra.facets[tetrahedra.facets_of_cell[c][i]].side;
+              cell.facet[i] = tetrahedra.facets_of_cell[c][i];
+              cell.side[i]  = tetrahedra.facets[cell.facet[i]].side;
               cell.error += mean[cell.vertices[i]] / n[cell.vertices[i]] / 4.;
             }
           cells.emplace_back();
@@ -204,7 +212,10 @@ namespace geocone::GEOCONE_DIM
         if (cell.vertices[i] == replaced)
           cell.vertices[i] = point;
         else if (cell.vertices[i] == other)
-          cell.side[i] = -1; // the facet between the parts
+          {
+            cell.side[i]  = -1; // the facet between the parts
+            cell.facet[i] = Tetrahedra::none;
+          }
       ++cell.depth;
       cell.error *= std::pow(2., -4. / 3.);
       return cell;
@@ -264,6 +275,30 @@ namespace geocone::GEOCONE_DIM
         }
     }
 
+    void
+    BisectedMesh::divide_between(const FacetPair &are_apart)
+    {
+      const auto vertices_to_part =
+        [&](const Cell &cell) -> std::optional<Edge> {
+        for (unsigned int i = 0; i < 4; ++i)
+          for (unsigned int j = 0; j < i; ++j)
+            if (cell.facet[i] != Tetrahedra::none &&
+                cell.facet[j] != Tetrahedra::none &&
+                are_apart(cell.facet[i], cell.facet[j]))
+              return Edge{{std::min(cell.vertices[i], cell.vertices[j]),
+                           std::max(cell.vertices[i], cell.vertices[j])}};
+        return std::nullopt;
+      };
+      for (unsigned int c = 0; c < cells.size();)
+        if (const std::optional<Edge> edge = vertices_to_part(cells[c]))
+          {
+            const auto [a, b] = *edge;
+            divide(*edge, Point<dim>(points[a] + (points[b] - points[a]) / 2.));
+          }
+        else
+          ++c;
+    }
+
     bool
     BisectedMesh::bisect_largest()
     {
@@ -313,6 +348,15 @@ namespace geocone::GEOCONE_DIM
     BisectedMesh mesh(tetrahedra, error);
     while (mesh.n_cells() < n_wanted && mesh.bisect_largest())
       {}
+    return mesh.mesh(tetrahedra.sides);
+  }
+
+  CoarseMesh
+  divided_between(const Tetrahedra &tetrahedra, const FacetPair &are_apart)
+  {
+    BisectedMesh mesh(tetrahedra,
+                      std::vector<double>(tetrahedra.cells.size(), 0.));
+    mesh.divide_between(are_apart);
     return mesh.mesh(tetrahedra.sides);
   }
 

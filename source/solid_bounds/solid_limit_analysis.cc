@@ -81,6 +81,7 @@ namespace geocone::GEOCONE_DIM
         tetrahedra.emplace(
           divided_at(*tetrahedra, scene.water.lines(low, high)));
       }
+    tetrahedra.emplace(load.divided_at_edges(scene, *tetrahedra));
     if (tetrahedra->cells.size() > most_cells)
       throw InputError("Analysis/Maximum cells",
                        most_cells,

@@ -3,6 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
+#include <geocone/mesh/bisection.h>
 #include <geocone/solid_bounds/solid_scene.h>
 
 #include <geocone/mesh/empty_regions.h>
@@ -84,6 +85,26 @@ namespace geocone::GEOCONE_DIM
     for (unsigned int f = 0; f < all.size(); ++f)
       held.push_back(all[f].condition(place_of(tetrahedra, f)));
     return held;
+  }
+
+  CoarseMesh
+  SolidLoad::divided_at_edges(const Scene      &scene,
+                              const Tetrahedra &tetrahedra) const
+  {
+    using Kind = FacetCondition::Kind;
+    const std::vector<FacetCondition> held =
+      facet_conditions(scene, tetrahedra);
+    return divided_between(
+      tetrahedra, [&](const unsigned int f, const unsigned int g) {
+        for (const unsigned int one : {f, g})
+          if (tetrahedra.facets[one].cells[1] != Tetrahedra::none ||
+              held[one].kind == Kind::fixed)
+            return false;
+        if (held[f].kind == Kind::free && held[g].kind == Kind::free)
+          return true;
+        return held[f].kind != held[g].kind &&
+               std::abs(tetrahedra.normal(f) * tetrahedra.normal(g)) > 1e-6;
+      });
   }
 
   void

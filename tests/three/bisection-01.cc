@@ -5,7 +5,7 @@
 // thin as needles. A box of two materials is bisected ten times near a point: the mesh must
 // conform, keep the volumes of its materials and the areas of its sides, equalise the
 // contributions to an error, and keep the shape of its cells. Divided at the table of ground
-// water, the body must be the same again.
+// water, or between the free faces of a cell, the body must be the same again.
 
 #include <geocone/mesh/bisection.h>
 
@@ -98,10 +98,63 @@ namespace three_bisection_01
     return shape;
   }
 
+  /** Largest difference of the volumes and the areas of two meshes. */
+  double
+  difference_of(const Shape &first, const Shape &second)
+  {
+    double difference = 0.;
+    for (const auto &[material, volume] : first.volume)
+      difference =
+        std::max(difference, std::abs(second.volume.at(material) - volume));
+    for (const auto &[side, area] : first.area)
+      difference = std::max(difference, std::abs(second.area.at(side) - area));
+    return difference;
+  }
+
+  /** True for facets of the sides 1, 3 and 5, which meet at a corner. */
+  bool
+  is_free(const Tetrahedra &mesh, const unsigned int f)
+  {
+    return mesh.facets[f].side % 2 == 1;
+  }
+
+  /** Number of cells with several of those facets. */
+  unsigned int
+  n_at_edges(const Tetrahedra &mesh)
+  {
+    unsigned int n = 0;
+    for (const auto &facets : mesh.facets_of_cell)
+      n += std::count_if(facets.begin(), facets.end(), [&](const auto f) {
+             return is_free(mesh, f);
+           }) > 1;
+    return n;
+  }
+
+  /** Divides the cells of two meshes of the box at the edges of its free sides. */
+  void
+  test_free_faces(const Tetrahedra &first, const Tetrahedra &fine)
+  {
+    for (const Tetrahedra *mesh : {&first, &fine})
+      {
+        const Tetrahedra divided(
+          divided_between(*mesh, [&](const auto f, const auto g) {
+            return is_free(*mesh, f) && is_free(*mesh, g);
+          }));
+        const Shape shape = shape_of(divided);
+        std::cout << "cells with several free faces: " << n_at_edges(*mesh)
+                  << " before, " << n_at_edges(divided)
+                  << " after; the body is kept: "
+                  << (difference_of(shape_of(*mesh), shape) < 1e-12 &&
+                      shape.is_closed)
+                  << "\n";
+      }
+  }
+
   void
   test()
   {
     Tetrahedra     mesh(box());
+    const Tetrahedra coarse = mesh;
     const Shape    first = shape_of(mesh);
     const Point<3> point(1.2, 1.7, 0.4);
     const auto     error_of = [&](const unsigned int c) {
@@ -122,12 +175,7 @@ namespace three_bisection_01
                     << " cells instead of " << wanted << "\n";
       }
     const Shape last       = shape_of(mesh);
-    double      difference = 0., most = 0., sum = 0.;
-    for (const auto &[material, volume] : first.volume)
-      difference =
-        std::max(difference, std::abs(last.volume.at(material) - volume));
-    for (const auto &[side, area] : first.area)
-      difference = std::max(difference, std::abs(last.area.at(side) - area));
+    double      difference = difference_of(first, last), most = 0., sum = 0.;
     for (unsigned int c = 0; c < mesh.cells.size(); ++c)
       {
         most = std::max(most, error_of(c));
@@ -138,11 +186,7 @@ namespace three_bisection_01
     const Tetrahedra divided(divided_at(mesh, {{{a, b}}}));
     const Shape      whole    = shape_of(divided);
     double           crossing = 0.;
-    for (const auto &[material, volume] : first.volume)
-      difference =
-        std::max(difference, std::abs(whole.volume.at(material) - volume));
-    for (const auto &[side, area] : first.area)
-      difference = std::max(difference, std::abs(whole.area.at(side) - area));
+    difference = std::max(difference, difference_of(first, whole));
     for (const auto &cell : divided.cells)
       {
         double above = 0., below = 0.;
@@ -166,6 +210,7 @@ namespace three_bisection_01
               << (most < 10. * sum / mesh.cells.size())
               << "\nworst shape at least a quarter of the first: "
               << (last.worst > 0.25 * first.worst) << "\n";
+    test_free_faces(coarse, mesh);
   }
 
   const RegisteredTest registered(__FILE__, test);

@@ -8,6 +8,7 @@
 #include <geocone/mesh/tetrahedra.h>
 
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 namespace geocone::GEOCONE_DIM
@@ -37,6 +38,19 @@ namespace geocone::GEOCONE_DIM
    */
   CoarseMesh
   divided_at(const Tetrahedra &tetrahedra, const MeshLines &lines);
+
+  /** Condition on two facets of a mesh. */
+  using FacetPair = std::function<bool(unsigned int, unsigned int)>;
+
+  /**
+   * Divides tetrahedra between boundary facets that are to belong to different cells.
+   * They are halved at the edge between the vertices opposite to the two facets, together
+   * with all cells around that edge. The new mesh is nested in the given one and keeps its
+   * materials and sides. Cells that are bisected later keep at most one of the facets.
+   * @param are_apart true for two boundary facets that no cell may have both
+   */
+  CoarseMesh
+  divided_between(const Tetrahedra &tetrahedra, const FacetPair &are_apart);
 } // namespace geocone::GEOCONE_DIM
 
 #endif

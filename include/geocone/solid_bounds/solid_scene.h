@@ -71,6 +71,12 @@ namespace geocone::GEOCONE_DIM
     void
     prepare_reduction(const Scene &scene, const Tetrahedra &tetrahedra);
 
+    /** Returns a mesh without cells that have two free facets, or a free one and one on
+     *  a smooth plane that is not normal to it. Stresses of the lower bound would have
+     *  only one component along the edge between these facets. */
+    CoarseMesh
+    divided_at_edges(const Scene &scene, const Tetrahedra &tetrahedra) const;
+
     /** Input of the upper-bound and lower-bound problems on a mesh. */
     SolidScene
     on(const Scene &scene, const Tetrahedra &tetrahedra) const;
