@@ -74,16 +74,21 @@ namespace geocone::GEOCONE_DIM
                                const Eigen::Matrix3d &s) const
   {
     const double guard = of_eigenvalues * s.norm();
+    // The excess of a stress over no strength is relative to its norm.
+    const auto over_strength = [&](const double demand) {
+      return k_here > 0.   ? demand / k_here
+             : demand > 0. ? 1. + demand / s.norm()
+                           : 0.;
+    };
     if (is_circular)
       {
         const double mean = s.trace() / 3.;
-        return ((s - mean * Eigen::Matrix3d::Identity()).norm() +
-                a * std::sqrt(3.) * mean + guard) /
-               k_here;
+        return over_strength((s - mean * Eigen::Matrix3d::Identity()).norm() +
+                             a * std::sqrt(3.) * mean + guard);
       }
     const Eigen::Vector3d l = eigenvalues_of(s);
     const double          of_pyramid =
-      ((1. + a) * l[2] - (1. - a) * l[0] + 4. * guard) / k_here;
+      over_strength((1. + a) * l[2] - (1. - a) * l[0] + 4. * guard);
     return is_cut() ? std::max(of_pyramid, (l[2] + guard) / tension)
                     : of_pyramid;
   }
@@ -282,12 +287,9 @@ namespace geocone::GEOCONE_DIM
       throw InputError(
         section_of(scene, material) + "/Cohesion",
         0,
-        std::string("> 0 Pa everywhere where loads are bounded ") +
-          (dim == 3 ? "in three dimensions" : "around an axis"),
-        dim == 3 ? "give a small cohesion, e.g. a millionth of weight times "
-                   "height"
-                 : "give a small cohesion, e.g. a hundredth of weight times "
-                   "height: it raises the bounds a little");
+        "> 0 Pa everywhere where loads are bounded around an axis",
+        "give a small cohesion, e.g. a hundredth of weight times height: it "
+        "raises the bounds a little");
     return k;
   }
 } // namespace geocone::GEOCONE_DIM

@@ -42,7 +42,7 @@ namespace geocone
     if (!is_scaled && theta < 1.)
       verdict.rejection = format(
         "its stresses exceed the strength by %.1e of the largest one, and a "
-        "dead load leaves nothing to scale",
+        "dead load or soil without cohesion leaves nothing to scale",
         verdict.violation);
     const double factor = is_scaled ? theta : 1.;
     verdict.load        = factor * load;

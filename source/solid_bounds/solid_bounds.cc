@@ -126,6 +126,74 @@ namespace geocone::GEOCONE_DIM
     return forces;
   }
 
+  std::vector<bool>
+  stress_free_nodes(const SolidScene &bound, const unsigned int order)
+  {
+    const Tetrahedra  &tetrahedra = *bound.tetrahedra;
+    const unsigned int n          = simplex_nodes::n_in_cell(order);
+    std::vector<bool>  is_free(n * tetrahedra.cells.size(), false);
+    std::vector<std::array<unsigned int, 2>> last; // cell, node
+    const auto visit = [&](const unsigned int c, const unsigned int node) {
+      if (is_free[n * c + node] ||
+          strength_at_nodes(bound, order, c)[node] > 0.)
+        return;
+      is_free[n * c + node] = true;
+      last.push_back({{c, node}});
+    };
+    const auto facets_of = [&](const unsigned int c, const auto &function) {
+      for (const unsigned int f : tetrahedra.facets_of_cell[c])
+        function(f, tetrahedra.facets[f].cells[0] == c ? 0u : 1u);
+    };
+    for (unsigned int f = 0; f < tetrahedra.facets.size(); ++f)
+      {
+        const auto nodes = nodes_in_cell(tetrahedra, order, f, 0);
+        for (unsigned int i = 0; i < nodes.size(); ++i)
+          {
+            std::array<unsigned int, 2> ends = {{i, i}};
+            if (i >= 3)
+              ends = {{simplex_nodes::edges_of_facet[i - 3][0],
+                       simplex_nodes::edges_of_facet[i - 3][1]}};
+            if (bound.is_without_traction(f, ends[0]) &&
+                bound.is_without_traction(f, ends[1]))
+              visit(tetrahedra.facets[f].cells[0], nodes[i]);
+          }
+      }
+    // Across a facet with a node whose traction vanishes.
+    while (!last.empty())
+      {
+        const auto [c, node] = last.back();
+        last.pop_back();
+        facets_of(c,
+                  [&, c = c, node = node](const unsigned int f,
+                                          const unsigned int side) {
+                    const unsigned int other =
+                      tetrahedra.facets[f].cells[1 - side];
+                    if (other == Tetrahedra::none)
+                      return;
+                    const auto here = nodes_in_cell(tetrahedra, order, f, side),
+                               there =
+                                 nodes_in_cell(tetrahedra, order, f, 1 - side);
+                    for (unsigned int i = 0; i < here.size(); ++i)
+                      if (here[i] == node)
+                        visit(other, there[i]);
+                  });
+      }
+    return is_free;
+  }
+
+  std::vector<double>
+  strength_at_nodes(const SolidScene  &bound,
+                    const unsigned int order,
+                    const unsigned int cell)
+  {
+    const auto          at_vertices = bound.strength_at_vertices(cell);
+    std::vector<double> k(at_vertices.begin(), at_vertices.end());
+    if (order == 2)
+      for (const auto &[i, j] : simplex_nodes::edges)
+        k.push_back((k[i] + k[j]) / 2.);
+    return k;
+  }
+
   CutMohrCoulombCones
   cut_law(const SpatialStrength &one)
   {
@@ -137,7 +205,12 @@ namespace geocone::GEOCONE_DIM
   {
     return SolidPoints(
       bound.strengths,
-      [](const auto &one) { return mohr_coulomb_cones(one.a); },
+      [](const auto &one) {
+        MohrCoulombCones law = mohr_coulomb_cones(one.a);
+        if (one.k == 0.)
+          law.start[6] = law.start[0]; // inside the cones without cohesion, too
+        return law;
+      },
       [](const auto &one) { return circular_cone(one.a); },
       cut_law);
   }

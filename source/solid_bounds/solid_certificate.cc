@@ -47,16 +47,15 @@ namespace geocone::GEOCONE_DIM
     for (unsigned int c = 0; c < tetrahedra.cells.size(); ++c)
       {
         const SpatialStrength &one = bound.strengths[tetrahedra.material[c]];
-        const auto             k   = bound.strength_at_vertices(c);
+        const auto             k   = strength_at_nodes(bound, order, c);
         const Mandel *const    s   = &stress[n_nodes * c];
         for (unsigned int i = 0; i < n_nodes; ++i)
           {
-            const double          k_i = i < 4 ? k[i]
-                                              : (k[simplex_nodes::edges[i - 4][0]] +
-                                        k[simplex_nodes::edges[i - 4][1]]) /
-                                         2.;
-            const Eigen::Matrix3d m   = SemidefiniteCone::matrix(s[i]);
-            check.add(one.utilisation(k_i, m), k_i, m.norm());
+            const Eigen::Matrix3d m    = SemidefiniteCone::matrix(s[i]);
+            const double          used = one.utilisation(k[i], m);
+            check.add(used, k[i] > 0. ? k[i] : m.norm(), m.norm());
+            // Without strength a part of the stresses is not nearer to its cone.
+            check.is_dead = check.is_dead || (k[i] == 0. && used > 1.);
           }
         const auto           g = tetrahedra.gradients(c);
         const Tensor<1, dim> b = total(bound.body_force(c));
@@ -263,6 +262,17 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
+    /** Returns whether a vertex of the body has friction alone. */
+    bool
+    has_no_cohesion(const SolidScene &bound)
+    {
+      for (unsigned int c = 0; c < bound.tetrahedra->cells.size(); ++c)
+        for (const double k : bound.strength_at_vertices(c))
+          if (k == 0.)
+            return true;
+      return false;
+    }
+
     void
     add_solution(SolidBound          &side,
                  const ConicSolution &solution,
@@ -306,12 +316,19 @@ namespace geocone::GEOCONE_DIM
     ConicOptions options;
     options.tolerance            = tolerance;
     options.flow_tolerance       = tolerance;
+    if (has_no_cohesion(bound))
+      {
+        // Stresses cannot be scaled back, but kept inside by more than rounding.
+        options.stresses        = true;
+        options.strength_margin = 1e-8;
+      }
     const ConicSolution solution = solve(problem, options);
     const auto          stress =
       stresses_of_cells<Mandel>(problem,
                                 bound.strengths,
                                 bound.tetrahedra->material,
-                                simplex_nodes::n_in_cell(order));
+                                simplex_nodes::n_in_cell(order),
+                                stress_free_nodes(bound, order));
     SolidBound side = certify_lower(bound, order, stress, solution.load);
     add_solution(side, solution, problem);
     return side;

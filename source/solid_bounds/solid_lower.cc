@@ -71,31 +71,36 @@ namespace geocone::GEOCONE_DIM
       const unsigned int first_w;
     };
 
-    /** Adds the stress of a cell at the coefficient between two of its vertices. */
-    void
-    add_stress(const SolidScene      &bound,
-               const unsigned int     order,
-               const unsigned int     c,
-               const unsigned int     i,
-               const unsigned int     j,
-               const EquilibriumDofs &equations,
-               SolidPoints           &points)
+    /** Equations of the stress of a cell at the coefficient between two of its
+     *  vertices. */
+    struct EquationsOfStress
     {
-      const Tetrahedra            &tetrahedra = *bound.tetrahedra;
-      const double                 L          = bound.units.length;
-      const auto                   g          = tetrahedra.gradients(c);
-      const auto                  &cell       = tetrahedra.cells[c];
-      const auto                   k          = bound.strength_at_vertices(c);
       SolidPoints::Strains         B;
       std::array<unsigned int, 12> dofs;
-      unsigned int                 n   = 0;
-      const auto                   add = [&](const unsigned int    dof,
+      double                       volume; ///< weight of the coefficient
+    };
+
+    EquationsOfStress
+    equations_of_stress(const SolidScene      &bound,
+                        const unsigned int     order,
+                        const unsigned int     c,
+                        const unsigned int     i,
+                        const unsigned int     j,
+                        const EquilibriumDofs &equations)
+    {
+      const Tetrahedra &tetrahedra = *bound.tetrahedra;
+      const double      L          = bound.units.length;
+      const auto        g          = tetrahedra.gradients(c);
+      const auto       &cell       = tetrahedra.cells[c];
+      EquationsOfStress own;
+      unsigned int      n   = 0;
+      const auto        add = [&](const unsigned int    dof,
                            const double          factor,
                            const Tensor<1, dim> &gradient) {
         for (unsigned int d = 0; d < dim; ++d, ++n)
           {
-            B.col(n) = factor * L * symmetric_product(d, gradient);
-            dofs[n] = dof + d;
+            own.B.col(n) = factor * L * symmetric_product(d, gradient);
+            own.dofs[n]  = dof + d;
           }
       };
       add(equations.of_cell(c, i), order == 1 ? -4. : -20., g[j]);
@@ -108,12 +113,64 @@ namespace geocone::GEOCONE_DIM
                 tetrahedra.facets_of_cell[c][f], cell[i], cell[j]),
               order == 1 ? -4. : -5.,
               g[f]);
-      points.add(tetrahedra.material[c],
-                 B,
-                 dofs,
-                 tetrahedra.volume(c) / (L * L * L) /
-                   simplex_nodes::n_in_cell(order),
-                 (k[i] + k[j]) / 2.);
+      own.volume =
+        tetrahedra.volume(c) / (L * L * L) / simplex_nodes::n_in_cell(order);
+      return own;
+    }
+
+    /** Pairs of vertices (i, i) or (i, j) to which the coefficients of a cell belong. */
+    std::vector<std::array<unsigned int, 2>>
+    vertices_of_nodes(const unsigned int order)
+    {
+      std::vector<std::array<unsigned int, 2>> pairs;
+      for (unsigned int i = 0; i < 4; ++i)
+        pairs.push_back({{i, i}});
+      if (order == 2)
+        for (const auto &[i, j] : simplex_nodes::edges)
+          pairs.push_back({{i, j}});
+      return pairs;
+    }
+
+    /** Removes the equations of facets and cells all of whose stresses vanish. */
+    void
+    remove_without_stress(const SolidScene        &bound,
+                          const unsigned int       order,
+                          const std::vector<bool> &vanishes,
+                          const EquilibriumDofs   &equations,
+                          ConicProblem            &problem)
+    {
+      const Tetrahedra  &tetrahedra = *bound.tetrahedra;
+      const unsigned int n          = simplex_nodes::n_in_cell(order);
+      const auto         remove     = [&](const unsigned int dof) {
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            problem.is_prescribed[dof + d] = true;
+            problem.prescribed[dof + d]    = 0.;
+          }
+      };
+      for (unsigned int c = 0; c < tetrahedra.cells.size(); ++c)
+        for (unsigned int i = 0; i < equations.n_u; ++i)
+          {
+            bool has_stress = false;
+            for (unsigned int j = 0; j < 4; ++j)
+              has_stress =
+                has_stress ||
+                !vanishes[n * c + (order == 1 ? j : simplex_nodes::node(i, j))];
+            if (!has_stress)
+              remove(equations.of_cell(c, i));
+          }
+      for (unsigned int f = 0; f < tetrahedra.facets.size(); ++f)
+        {
+          const auto &cells  = tetrahedra.facets[f].cells;
+          const auto  first  = nodes_in_cell(tetrahedra, order, f, 0);
+          const auto  second = cells[1] == Tetrahedra::none
+                                 ? std::vector<unsigned int>()
+                                 : nodes_in_cell(tetrahedra, order, f, 1);
+          for (unsigned int i = 0; i < equations.n_facet; ++i)
+            if (vanishes[n * cells[0] + first[i]] &&
+                (second.empty() || vanishes[n * cells[1] + second[i]]))
+              remove(equations.of_facet(f, i));
+        }
     }
 
     /** Adds the given tractions and the held components of a facet. */
@@ -153,14 +210,20 @@ namespace geocone::GEOCONE_DIM
     const EquilibriumDofs equations(tetrahedra, order);
     ConicProblem          problem = ConicProblem::of_dofs(equations.n());
     problem.least_start           = bound.units.is_of_loads ? 0.1 : 0.;
-    SolidPoints           points  = empty_points(bound);
+    SolidPoints             points   = empty_points(bound);
+    const std::vector<bool> vanishes = stress_free_nodes(bound, order);
+    const auto              nodes    = vertices_of_nodes(order);
     for (unsigned int c = 0; c < tetrahedra.cells.size(); ++c)
       {
-        for (unsigned int i = 0; i < 4; ++i)
-          add_stress(bound, order, c, i, i, equations, points);
-        if (order == 2)
-          for (const auto &[i, j] : simplex_nodes::edges)
-            add_stress(bound, order, c, i, j, equations, points);
+        const auto k = strength_at_nodes(bound, order, c);
+        for (unsigned int p = 0; p < nodes.size(); ++p)
+          if (!vanishes[nodes.size() * c + p])
+            {
+              const EquationsOfStress own = equations_of_stress(
+                bound, order, c, nodes[p][0], nodes[p][1], equations);
+              points.add(
+                tetrahedra.material[c], own.B, own.dofs, own.volume, k[p]);
+            }
         for (unsigned int i = 0; i < equations.n_u; ++i)
           add_load(problem,
                    equations.of_cell(c, i),
@@ -168,6 +231,7 @@ namespace geocone::GEOCONE_DIM
       }
     for (unsigned int f = 0; f < tetrahedra.facets.size(); ++f)
       add_facet(bound, f, equations, problem);
+    remove_without_stress(bound, order, vanishes, equations, problem);
     points.move_to(problem);
     return problem;
   }

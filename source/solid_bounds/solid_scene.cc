@@ -39,6 +39,16 @@ namespace geocone::GEOCONE_DIM
     return load;
   }
 
+  bool
+  SolidScene::is_without_traction(const unsigned int facet,
+                                  const unsigned int vertex) const
+  {
+    const Load &load = traction_of_facet[facet][vertex];
+    return tetrahedra->facets[facet].cells[1] == Tetrahedra::none &&
+           facet_conditions[facet].kind == FacetCondition::Kind::free &&
+           load.dead.norm() == 0. && load.live.norm() == 0.;
+  }
+
   std::array<double, 4>
   SolidScene::strength_at_vertices(const unsigned int cell) const
   {
@@ -118,8 +128,14 @@ namespace geocone::GEOCONE_DIM
         const unsigned int m = tetrahedra.material[c];
         for (const unsigned int v : tetrahedra.cells[c])
           {
-            const double k =
-              positive_strength(scene, strengths, m, tetrahedra.vertices[v]);
+            const double k = strengths[m].k_at(tetrahedra.vertices[v]);
+            if (!(k > 0. || (k == 0. && strengths[m].a > 0.)))
+              throw InputError("Materials/" + scene.materials.name(m) +
+                                 "/Cohesion",
+                               k < 0. ? "negative somewhere" : "0",
+                               "> 0 Pa everywhere, or 0 with friction, where "
+                               "loads are bounded in three dimensions",
+                               "raise it, or give a friction angle");
             units.stress = std::max(units.stress, k);
           }
       }
@@ -209,14 +225,30 @@ namespace geocone::GEOCONE_DIM
       load_unit = units.stress * units.length * units.length *
                   std::abs(scene.observation.factor);
     const SolidScene bound   = on(scene, tetrahedra);
-    bool             is_live = is_reaction();
+    bool             is_live = is_reaction(), is_dead = false;
+    const auto       add = [&](const SolidScene::Load &one) {
+      is_live = is_live || one.live.norm() > 0.;
+      is_dead = is_dead || one.dead.norm() > 0.;
+    };
     for (unsigned int c = 0; c < tetrahedra.cells.size(); ++c)
-      is_live = is_live || bound.body_force(c).live.norm() > 0.;
+      add(bound.body_force(c));
     for (const auto &facet : bound.traction_of_facet)
       for (const auto &at_vertex : facet)
-        is_live = is_live || at_vertex.live.norm() > 0.;
+        add(at_vertex);
     if (!is_live)
       refuse_zero_load();
+    if (!is_dead && std::all_of(strengths.begin(),
+                                strengths.end(),
+                                [](const SpatialStrength &one) {
+                                  return one.k == 0. && one.growth.slope == 0.;
+                                }))
+      throw InputError("Materials/" + scene.materials.name(0) + "/Cohesion",
+                       0,
+                       "> 0 Pa for some material where no load is constant",
+                       "without cohesion such loads have no factor: give a "
+                       "small one, e.g. a thousandth of the weight times the "
+                       "height, or bound the reaction to a velocity in soil "
+                       "with weight");
   }
 
   SolidScene

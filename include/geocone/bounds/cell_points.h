@@ -101,27 +101,37 @@ namespace geocone::GEOCONE_DIM
   /** Returns the stresses of all points of a solved problem whose cells come first, in
    *  the order of the cells.
    *  @param material of each cell @param n_points number of points of a cell
+   *  @param vanishes true for stresses that vanish and have no point; empty if none
    *  @tparam Stress Mandel vector */
   template <typename Stress>
   std::vector<Stress>
   stresses_of_cells(const ConicProblem                 &problem,
                     const std::vector<SpatialStrength> &strengths,
                     const std::vector<unsigned int>    &material,
-                    const unsigned int                  n_points)
+                    const unsigned int                  n_points,
+                    const std::vector<bool>            &vanishes = {})
   {
+    const auto has_point = [&](const unsigned int cell, const unsigned int i) {
+      return vanishes.empty() || !vanishes[n_points * cell + i];
+    };
     std::array<bool, SpatialStrength::n_forms> occurs = {};
-    for (const unsigned int m : material)
-      occurs[strengths[m].form()] = true;
+    for (unsigned int c = 0; c < material.size(); ++c)
+      for (unsigned int i = 0; i < n_points; ++i)
+        if (has_point(c, i))
+          occurs[strengths[material[c]].form()] = true;
     std::array<unsigned int, SpatialStrength::n_forms> next = {};
     std::vector<Stress>                                stress;
-    for (const unsigned int m : material)
+    for (unsigned int c = 0; c < material.size(); ++c)
       {
         // Forms without points have no group.
-        const SpatialStrength::Form form = strengths[m].form();
+        const SpatialStrength::Form form = strengths[material[c]].form();
         const auto                  group =
           std::count(occurs.begin(), occurs.begin() + form, true);
         for (unsigned int i = 0; i < n_points; ++i)
-          stress.push_back(problem.groups[group]->stress(next[form]++));
+          stress.push_back(
+            has_point(c, i)
+              ? Stress(problem.groups[group]->stress(next[form]++))
+              : Stress(Stress::Zero()));
       }
     return stress;
   }

@@ -73,6 +73,21 @@ namespace geocone::GEOCONE_DIM
                     const unsigned int facet);
   /** @} */
 
+  /** Returns the strength k at the nodes of a cell. */
+  std::vector<double>
+  strength_at_nodes(const SolidScene  &bound,
+                    const unsigned int order,
+                    const unsigned int cell);
+
+  /**
+   * Returns, for each node of each cell, whether any admissible stress vanishes there. A
+   * traction that vanishes on a facet makes zero a principal stress, and with friction but
+   * no strength all of them: at free surfaces, and from there across the facets of a node
+   * to all cells without strength.
+   */
+  std::vector<bool>
+  stress_free_nodes(const SolidScene &bound, const unsigned int order);
+
   /** Returns the equivalent nodal forces of a traction on a facet, divided by
    *  the area of the facet. The force at a node is the integral of the traction
    *  times the basis function. The traction is linear, with the given values at

@@ -44,6 +44,11 @@ namespace geocone::GEOCONE_DIM
       return traction_of_facet[facet];
     }
 
+    /** Returns whether a facet is a free surface without any traction at a vertex. */
+    bool
+    is_without_traction(const unsigned int facet,
+                        const unsigned int vertex) const;
+
     /** Returns the strength k at the vertices of a cell. */
     std::array<double, 4>
     strength_at_vertices(const unsigned int cell) const;
