@@ -1,6 +1,5 @@
 // The slope of slope.geo, of tetrahedra that bounds bisect. It is read by
-// prm/three/bounds_slope.prm. The cells at the crest have two free faces, which limits
-// gamma times their height in the lower bound: 1.5 c.
+// prm/three/bounds_slope.prm.
 tetrahedra = 1;
 across = 5;    // cells from the back to the face
 up     = 5;    // cells from the base to the top
