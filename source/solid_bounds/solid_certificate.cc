@@ -330,6 +330,7 @@ namespace geocone::GEOCONE_DIM
                                 simplex_nodes::n_in_cell(order),
                                 stress_free_nodes(bound, order));
     SolidBound side = certify_lower(bound, order, stress, solution.load);
+    side.dual_power = dual_power_of_cells(bound, order, stress, solution.q);
     add_solution(side, solution, problem);
     return side;
   }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/solid_bounds/solid_fields.h>
+#include <geocone/solid_bounds/solid_gap.h>
 
 #include <numeric>
 
@@ -13,16 +14,7 @@ namespace geocone::GEOCONE_DIM
     std::vector<double>
     relative_dissipation(const Tetrahedra &tetrahedra, const SolidBound &upper)
     {
-      std::vector<double> density = upper.dissipation_of_cell;
-      for (unsigned int f = 0; f < tetrahedra.facets.size(); ++f)
-        {
-          const auto &cells    = tetrahedra.facets[f].cells;
-          const bool  is_inner = cells[1] != Tetrahedra::none;
-          for (const unsigned int c : cells)
-            if (c != Tetrahedra::none)
-              density[c] +=
-                upper.dissipation_of_facet[f] / (is_inner ? 2. : 1.);
-        }
+      std::vector<double> density = dissipation_around_cells(tetrahedra, upper);
       const double total  = std::accumulate(density.begin(), density.end(), 0.);
       double       volume = 0.;
       for (unsigned int c = 0; c < density.size(); ++c)

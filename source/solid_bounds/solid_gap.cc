@@ -3,7 +3,9 @@
 
 #include <geocone/solid_bounds/solid_gap.h>
 
+#include <algorithm>
 #include <array>
+#include <numeric>
 
 namespace geocone::GEOCONE_DIM
 {
@@ -158,5 +160,54 @@ namespace geocone::GEOCONE_DIM
             gap[c] += is_inner ? part / 2. : part;
       }
     return gap;
+  }
+
+  std::vector<double>
+  dissipation_around_cells(const Tetrahedra &tetrahedra,
+                           const SolidBound &upper)
+  {
+    std::vector<double> all = upper.dissipation_of_cell;
+    for (unsigned int f = 0; f < tetrahedra.facets.size(); ++f)
+      {
+        const auto &cells    = tetrahedra.facets[f].cells;
+        const bool  is_inner = cells[1] != Tetrahedra::none;
+        for (const unsigned int c : cells)
+          if (c != Tetrahedra::none)
+            all[c] += upper.dissipation_of_facet[f] / (is_inner ? 2. : 1.);
+      }
+    return all;
+  }
+
+  std::vector<double>
+  error_of_cells(const Tetrahedra          &tetrahedra,
+                 const std::vector<double> &gap,
+                 const SolidBound          &upper,
+                 const SolidBound          &lower)
+  {
+    const auto sum_of = [](const std::vector<double> &all) {
+      return std::accumulate(all.begin(), all.end(), 0.);
+    };
+    const std::vector<double> above =
+      dissipation_around_cells(tetrahedra, upper);
+    std::vector<double> below = lower.dual_power, error = gap;
+    for (double &one : below)
+      one = std::max(one, 0.);
+    const double of_upper = sum_of(above), of_lower = sum_of(below);
+    if (!(of_upper > 0. && of_lower > 0.)) // e.g. soil without cohesion
+      return error;
+    // Shares of the lower bound at the vertices, and their excess.
+    std::vector<double> share(tetrahedra.vertices.size(), 0.), excess = share;
+    for (unsigned int c = 0; c < gap.size(); ++c)
+      for (const unsigned int v : tetrahedra.cells[c])
+        {
+          share[v] += below[c] / of_lower;
+          excess[v] += below[c] / of_lower - above[c] / of_upper;
+        }
+    const double whole = sum_of(gap);
+    for (unsigned int c = 0; c < gap.size(); ++c)
+      for (const unsigned int v : tetrahedra.cells[c])
+        if (excess[v] > 0.)
+          error[c] += whole / 4. * excess[v] * below[c] / of_lower / share[v];
+    return error;
   }
 } // namespace geocone::GEOCONE_DIM

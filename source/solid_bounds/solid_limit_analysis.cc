@@ -252,7 +252,7 @@ namespace geocone::GEOCONE_DIM
                                        claim.is_lower ? lower : upper,
                                        claim);
                    });
-    error = gap;
+    error = error_of_cells(*tetrahedra, gap, upper, lower);
     return is_complete(bracket().gap()) ? StepOutcome::stage
                                         : StepOutcome::well;
   }

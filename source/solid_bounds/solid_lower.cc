@@ -202,6 +202,28 @@ namespace geocone::GEOCONE_DIM
     }
   } // namespace
 
+  std::vector<double>
+  dual_power_of_cells(const SolidScene          &bound,
+                      const unsigned int         order,
+                      const std::vector<Mandel> &stress,
+                      const Eigen::VectorXd     &q)
+  {
+    const EquilibriumDofs equations(*bound.tetrahedra, order);
+    const auto            nodes = vertices_of_nodes(order);
+    std::vector<double>   power(bound.tetrahedra->cells.size(), 0.);
+    for (unsigned int c = 0; c < power.size(); ++c)
+      for (unsigned int p = 0; p < nodes.size(); ++p)
+        {
+          const EquationsOfStress own = equations_of_stress(
+            bound, order, c, nodes[p][0], nodes[p][1], equations);
+          Mandel rate = Mandel::Zero();
+          for (unsigned int i = 0; i < own.dofs.size(); ++i)
+            rate += q[own.dofs[i]] * own.B.col(i);
+          power[c] += own.volume * stress[nodes.size() * c + p].dot(rate);
+        }
+    return power;
+  }
+
   ConicProblem
   lower_problem(const SolidScene &bound, const unsigned int order)
   {

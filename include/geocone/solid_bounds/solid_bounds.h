@@ -121,6 +121,15 @@ namespace geocone::GEOCONE_DIM
    */
   ConicProblem
   lower_problem(const SolidScene &bound, const unsigned int order);
+
+  /** Returns the power of the stresses of each cell with the dual variables of the
+   *  lower-bound problem.
+   *  @param stress of the nodes of all cells @param q dual variables */
+  std::vector<double>
+  dual_power_of_cells(const SolidScene          &bound,
+                      const unsigned int         order,
+                      const std::vector<Mandel> &stress,
+                      const Eigen::VectorXd     &q);
 } // namespace geocone::GEOCONE_DIM
 
 #endif

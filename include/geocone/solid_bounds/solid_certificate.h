@@ -36,6 +36,10 @@ namespace geocone::GEOCONE_DIM
      *  `work`, 1 for prescribed velocities. */
     std::vector<double> dissipation_of_cell, dissipation_of_facet;
     double              work = 1.;
+
+    /** Power of the stresses of the lower bound in each cell with the velocities that are
+     *  its dual variables. It is large where the stresses limit the load. */
+    std::vector<double> dual_power;
   };
 
   /**

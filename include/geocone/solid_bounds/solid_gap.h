@@ -26,6 +26,25 @@ namespace geocone::GEOCONE_DIM
                const unsigned int order_lower,
                const SolidBound  &upper,
                const SolidBound  &lower);
+
+  /** Returns the dissipation of the upper bound in each cell, with half of that in the
+   *  jumps at its inner faces. */
+  std::vector<double>
+  dissipation_around_cells(const Tetrahedra &tetrahedra,
+                           const SolidBound &upper);
+
+  /**
+   * Returns the contribution of each cell to the error by which the mesh is refined: its
+   * part of the gap, and as much again where the stresses limit the load of the lower
+   * bound, but the mechanism of the upper bound does not dissipate. The second part is
+   * the share of the lower bound's dual power in excess of the share of the dissipation,
+   * both averaged around the vertices.
+   */
+  std::vector<double>
+  error_of_cells(const Tetrahedra          &tetrahedra,
+                 const std::vector<double> &gap,
+                 const SolidBound          &upper,
+                 const SolidBound          &lower);
 } // namespace geocone::GEOCONE_DIM
 
 #endif
