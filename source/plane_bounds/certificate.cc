@@ -194,37 +194,71 @@ namespace geocone::GEOCONE_DIM
     }
 
     /** Makes cylinders incompressible: projects onto e_n = 0 in the metric of B'B, by
-     *  the method of multipliers. */
+     *  the method of multipliers. A vertex whose edges lie nearly on two lines leaves some
+     *  rates that hardly depend on their multipliers (Scott and Vogelius 1985), as bisected
+     *  meshes have: the multipliers are found by conjugate gradients, which needs one
+     *  iteration for each such vertex. */
     bool
     make_incompressible(const BoundProblem &problem, VectorXd &q)
     {
-      constexpr double    penalty = 1e8;
-      const unsigned int  n       = problem.n_points();
-      PointMatrix         matrix(problem.is_prescribed, problem.B);
-      PointMatrix::Blocks blocks(n);
+      constexpr double          penalty = 1e8, enough = 1e-13;
+      constexpr unsigned int    most = 60;
+      const unsigned int        n    = problem.n_points();
+      PointMatrix               matrix(problem.is_prescribed, problem.B);
+      PointMatrix::Blocks       blocks(n);
+      std::vector<unsigned int> held;
       for (unsigned int p = 0; p < n; ++p)
         {
           blocks[p] = problem.volume[p] * Eigen::Matrix3d::Identity();
           if (problem.cone[p].is_incompressible())
-            blocks[p](0, 0) += problem.volume[p] * penalty;
+            {
+              blocks[p](0, 0) += problem.volume[p] * penalty;
+              held.push_back(p);
+            }
         }
       if (!matrix.factorise(blocks))
         return false;
-      const VectorXd q_0        = q;
-      VectorXd       multiplier = VectorXd::Zero(n);
-      for (unsigned int i = 0; i < 6; ++i)
+      // Response to normal stresses at the points that are held.
+      const auto response = [&](const VectorXd &normal) {
+        std::vector<Vector3d> s(n, Vector3d::Zero());
+        for (unsigned int i = 0; i < held.size(); ++i)
+          s[held[i]][0] = normal[i];
+        return matrix.solve(
+          problem.B.forces(problem.volume, s, problem.n_dofs()));
+      };
+      double     largest      = 0.;
+      const auto normal_rates = [&](const VectorXd &of) {
+        const auto e = problem.B.rates(of);
+        VectorXd   normal(held.size());
+        for (unsigned int i = 0; i < held.size(); ++i)
+          normal[i] = e[held[i]][0];
+        largest = 0.;
+        for (const Vector3d &one : e)
+          largest = std::max(largest, one.norm());
+        return normal;
+      };
+      VectorXd weight(held.size());
+      for (unsigned int i = 0; i < held.size(); ++i)
+        weight[i] = problem.volume[held[i]];
+      const auto product = [&](const VectorXd &one, const VectorXd &other) {
+        return weight.dot(one.cwiseProduct(other));
+      };
+      q -= response(penalty * normal_rates(q));
+      VectorXd rates = normal_rates(q), direction = VectorXd::Zero(held.size());
+      double   before = 0.;
+      for (unsigned int i = 0;
+           i < most && rates.lpNorm<Eigen::Infinity>() > enough * largest;
+           ++i)
         {
-          auto       s = problem.B.rates(q - q_0);
-          const auto e = problem.B.rates(q);
-          for (unsigned int p = 0; p < n; ++p)
-            if (problem.cone[p].is_incompressible())
-              s[p][0] += multiplier[p] + penalty * e[p][0];
-          q -=
-            matrix.solve(problem.B.forces(problem.volume, s, problem.n_dofs()));
-          const auto next = problem.B.rates(q);
-          for (unsigned int p = 0; p < n; ++p)
-            if (problem.cone[p].is_incompressible())
-              multiplier[p] += penalty * next[p][0];
+          const double square = product(rates, rates);
+          direction = rates + (before > 0. ? square / before : 0.) * direction;
+          before    = square;
+          const VectorXd change = response(direction);
+          const double   slope  = product(direction, normal_rates(change));
+          if (!(slope > 0.))
+            break;
+          q -= square / slope * change;
+          rates = normal_rates(q);
         }
       return true;
     }
