@@ -9,10 +9,44 @@
 
 namespace geocone
 {
+  namespace
+  {
+    /** Blocks of a set whose dofs differ from those of the block before, as of the points
+     *  of a cell. */
+    struct DistinctBlocks
+    {
+      explicit DistinctBlocks(const BlockMatrix::Set &set)
+      {
+        const unsigned int  n    = set.n_columns;
+        const unsigned int *from = set.dofs;
+        for (unsigned int p = 0; p < set.n_blocks; ++p, from += n)
+          {
+            if (p == 0 || !std::equal(from, from + n, from - n))
+              dofs.insert(dofs.end(), from, from + n);
+            number.push_back(dofs.size() / n - 1);
+          }
+      }
+
+      std::vector<unsigned int> dofs;
+      std::vector<unsigned int>
+        number; ///< of each block among the distinct ones
+    };
+  } // namespace
+
   BlockMatrix::BlockMatrix(const std::vector<bool> &is_prescribed,
-                           const std::vector<Set>  &sets)
+                           const std::vector<Set>  &all_sets)
     : row_of_dof(is_prescribed.size(), -1)
   {
+    std::vector<DistinctBlocks> distinct(all_sets.begin(), all_sets.end());
+    std::vector<Set>            sets;
+    for (unsigned int i = 0; i < all_sets.size(); ++i)
+      {
+        const unsigned int n = all_sets[i].n_columns;
+        sets.push_back(
+          {n,
+           n == 0 ? 0U : static_cast<unsigned int>(distinct[i].dofs.size() / n),
+           distinct[i].dofs.data()});
+      }
     int n_rows = 0;
     for (unsigned int i = 0; i < is_prescribed.size(); ++i)
       if (!is_prescribed[i])
@@ -29,17 +63,24 @@ namespace geocone
 
     const int *const first = matrix.outerIndexPtr();
     const int *const rows  = matrix.innerIndexPtr();
-    for (const Set &set : sets)
+    for (unsigned int i = 0; i < sets.size(); ++i)
       {
-        first_place.push_back(place.size());
-        for_entries(set, [&](const int row, const int column) {
-          place.push_back(column < 0
-                            ? -1
-                            : std::lower_bound(rows + first[column],
-                                               rows + first[column + 1],
-                                               row) -
-                                rows);
+        std::vector<int> places;
+        for_entries(sets[i], [&](const int row, const int column) {
+          places.push_back(column < 0
+                             ? -1
+                             : std::lower_bound(rows + first[column],
+                                                rows + first[column + 1],
+                                                row) -
+                                 rows);
         });
+        const std::size_t n =
+          std::size_t(sets[i].n_columns) * (sets[i].n_columns + 1) / 2;
+        first_place.push_back(place.size());
+        for (const unsigned int block : distinct[i].number)
+          place.insert(place.end(),
+                       places.begin() + n * block,
+                       places.begin() + n * (block + 1));
       }
     factors.analyse_natural_order(matrix);
   }
