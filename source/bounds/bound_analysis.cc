@@ -24,7 +24,7 @@ namespace geocone::GEOCONE_DIM
        {"limit load", "strength reduction", "shakedown"}},
       {"Analysis/Growth of meshes",
        "Analysis/Kind",
-       {"limit load", "strength reduction", "shakedown"}},
+       {"limit load", "strength reduction", "reliability", "shakedown"}},
       {"Analysis/Maximum cells",
        "Analysis/Kind",
        {"limit load", "strength reduction", "reliability", "shakedown"}},

@@ -497,7 +497,10 @@ namespace geocone
         return true;
       const bool is_above =
         equilibrium < options.equilibrium_tolerance && load > options.question;
-      if (!(options.stresses ? is_below : is_above))
+      const double distance = options.stresses ? options.question - load
+                                               : load + gap - options.question;
+      if (!(options.stresses ? is_below : is_above) ||
+          gap > options.located * distance)
         return false;
       solution.reason = "the optimum of this mesh does not answer the question";
       return true;

@@ -17,20 +17,20 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    /** No question: the optimum is wanted. */
-    constexpr double no_question = std::numeric_limits<double>::quiet_NaN();
+    constexpr BoundQuestion no_question = {}; // the optimum is wanted
   } // namespace
 
   CertifiedSide
-  certified_upper(const BoundScene   &bound,
-                  const BoundProblem &above,
-                  const double        tolerance,
-                  const double        question)
+  certified_upper(const BoundScene    &bound,
+                  const BoundProblem  &above,
+                  const double         tolerance,
+                  const BoundQuestion &question)
   {
     ConicOptions options;
     options.tolerance             = tolerance;
     options.equilibrium_tolerance = tolerance;
-    options.question              = question;
+    options.question              = question.load;
+    options.located               = question.located;
     // Remaining violations of the flow rule are repaired, which widens the
     // gap; for phi = 0 a projection removes them.
     options.flow_tolerance = above.has_incompressible() ? 1e-6 : 1e-8;
@@ -84,17 +84,18 @@ namespace geocone::GEOCONE_DIM
   }
 
   CertifiedSide
-  certified_lower(const BoundScene   &bound,
-                  const BoundProblem &below,
-                  const double        tolerance,
-                  const double        question)
+  certified_lower(const BoundScene    &bound,
+                  const BoundProblem  &below,
+                  const double         tolerance,
+                  const BoundQuestion &question)
   {
     ConicOptions options;
     options.tolerance             = tolerance;
     options.flow_tolerance        = tolerance;
     options.equilibrium_tolerance = 1e-7; // the repair may violate the cone
     options.stresses              = true;
-    options.question              = question;
+    options.question              = question.load;
+    options.located               = question.located;
     if (!below.can_be_scaled())
       options.strength_margin = 1e-5;
     CertifiedSide side;

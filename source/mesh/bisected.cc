@@ -125,4 +125,64 @@ namespace geocone::GEOCONE_DIM
     result.mesh = std::move(next);
     return result;
   }
+
+  namespace
+  {
+    /** Marks the triangles with most of an error measure, a third of all at most. */
+    std::vector<bool>
+    largest(const std::vector<double> &error, const std::size_t most)
+    {
+      constexpr double          part = 0.8;
+      std::vector<unsigned int> order(error.size());
+      std::iota(order.begin(), order.end(), 0U);
+      std::sort(order.begin(), order.end(), [&](const auto a, const auto b) {
+        return error[a] > error[b];
+      });
+      const double      total = std::accumulate(error.begin(), error.end(), 0.);
+      std::vector<bool> marked(error.size(), false);
+      double            sum = 0.;
+      for (std::size_t i = 0;
+           i <= std::min(order.size() / 3, most) && sum <= part * total;
+           ++i)
+        {
+          marked[order[i]] = true;
+          sum += error[order[i]];
+        }
+      return marked;
+    }
+  } // namespace
+
+  NestedMesh
+  bisected(NestedMesh          nested,
+           std::vector<double> error,
+           const std::size_t   n_wanted)
+  {
+    // A marked triangle and those that close the mesh add as many.
+    constexpr double added = 1.7, of_half = 0.35355339059327373;
+    while (nested.mesh.cells.size() < n_wanted &&
+           std::any_of(error.begin(), error.end(), [](const double of_cell) {
+             return of_cell > 0.;
+           }))
+      {
+        const std::size_t most = (n_wanted - nested.mesh.cells.size()) / added;
+        // Of this mesh, not of the first one.
+        NestedMesh next =
+          bisected(NestedMesh(nested.mesh), largest(error, most));
+        std::vector<unsigned int> n_parts(error.size(), 0);
+        for (const unsigned int c : next.parent)
+          ++n_parts[c];
+        std::vector<double> of_parts;
+        for (unsigned int &c : next.parent)
+          {
+            of_parts.push_back(error[c] * (n_parts[c] == 1 ? 1.
+                                           : n_parts[c] == 2
+                                             ? of_half
+                                             : of_half * of_half));
+            c = nested.parent[c];
+          }
+        error  = std::move(of_parts);
+        nested = std::move(next);
+      }
+    return nested;
+  }
 } // namespace geocone::GEOCONE_DIM

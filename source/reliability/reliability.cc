@@ -14,7 +14,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace geocone::GEOCONE_DIM
 {
@@ -30,33 +29,6 @@ namespace geocone::GEOCONE_DIM
 
     /** Trial samples of importance sampling. */
     constexpr unsigned int n_pilots = 16;
-
-    /** Marks the triangles with most of a refinement indicator, a third at most.
-     *  @return empty if there is nothing to be refined */
-    std::vector<bool>
-    largest(std::vector<double> indicator)
-    {
-      constexpr double part = 0.8;
-      for (double &of_cell : indicator)
-        of_cell = std::isfinite(of_cell) ? std::max(of_cell, 0.) : 0.;
-      std::vector<unsigned int> order(indicator.size());
-      std::iota(order.begin(), order.end(), 0U);
-      std::sort(order.begin(), order.end(), [&](const auto a, const auto b) {
-        return indicator[a] > indicator[b];
-      });
-      const double total =
-        std::accumulate(indicator.begin(), indicator.end(), 0.);
-      if (total == 0.)
-        return {};
-      std::vector<bool> marked(indicator.size(), false);
-      double            sum = 0.;
-      for (std::size_t i = 0; i <= order.size() / 3 && sum <= part * total; ++i)
-        {
-          marked[order[i]] = true;
-          sum += indicator[order[i]];
-        }
-      return marked;
-    }
   } // namespace
 
   void
@@ -286,51 +258,84 @@ namespace geocone::GEOCONE_DIM
                       design.index()));
   }
 
-  std::vector<bool>
+  std::vector<double>
   Reliability::solve_on(const Body          &body,
                         const RandomFactors &factors,
+                        const BoundSide      side,
+                        SampleSearch        &search,
                         Sample              &sample) const
   {
-    SampleRecord &record  = sample.record;
-    SampleVerdict verdict = body.sampled.judge(factors, tolerance);
+    SampleRecord      &record  = sample.record;
+    const unsigned int n_cells = body.triangles.cells.size();
+    SampleVerdict      verdict = body.sampled.judge(factors, tolerance, side);
     record.factorisations += verdict.factorisations;
-    record.cells = body.triangles.cells.size();
+    record.cells = n_cells;
     // Bounds of all meshes are valid.
     record.lower   = std::fmax(record.lower, verdict.lower);
     record.upper   = std::fmin(record.upper, verdict.upper);
     record.verdict = static_cast<int>(verdict.kind);
+    search.add(
+      side, n_cells, side == BoundSide::lower ? verdict.lower : verdict.upper);
     if (verdict.mechanism)
       sample.mechanism = {std::move(*verdict.mechanism)};
     if (verdict.stresses)
       sample.stresses = {std::move(*verdict.stresses)};
-    return largest(std::move(verdict.refinement_indicator));
+    for (double &of_cell : verdict.refinement_indicator)
+      of_cell = std::isfinite(of_cell) ? std::max(of_cell, 0.) : 0.;
+    return verdict.refinement_indicator;
+  }
+
+  void
+  Reliability::decide_by_bounds(const RandomFactors &factors,
+                                Sample              &sample) const
+  {
+    SampleSearch        search(*gap_of_mean, most_cells);
+    NestedMesh          nested = *first_mesh;
+    std::optional<Body> refined;
+    std::vector<double> indicator =
+      solve_on(*first, factors, BoundSide::lower, search, sample);
+    // The upper bound of the first mesh costs less than a wrong choice on the next one.
+    if (sample.record.is_undecided() && search.next() == BoundSide::upper)
+      indicator = solve_on(*first, factors, BoundSide::upper, search, sample);
+    constexpr double least_growth = 1.1;
+    for (unsigned int level = 1;
+         level < most_levels && sample.record.is_undecided();
+         ++level)
+      {
+        const std::size_t n_before = nested.mesh.cells.size();
+        const auto        side     = search.next();
+        if (!side || least_growth * n_before > most_cells)
+          break;
+        nested = bisected(std::move(nested),
+                          indicator,
+                          std::min<std::size_t>(growth * n_before, most_cells));
+        if (nested.mesh.cells.size() == n_before)
+          break;
+        refined.emplace(
+          scene, bounded_load, nested, first->triangles.cells.size());
+        indicator = solve_on(*refined, factors, *side, search, sample);
+      }
+    // At least once, if the choice was wrong.
+    if (sample.record.is_undecided() && !std::isfinite(sample.record.upper))
+      {
+        const unsigned int n_cells = sample.record.cells;
+        solve_on(*first, factors, BoundSide::upper, search, sample);
+        sample.record.cells = n_cells;
+      }
   }
 
   Reliability::Sample
   Reliability::solve(const unsigned int number) const
   {
-    dealii::Timer       time;
+    dealii::Timer         time;
     const Eigen::VectorXd numbers = numbers_of(number);
     const RandomFactors   factors = fields.factors(numbers);
-    const unsigned int    n_first = first->triangles.cells.size();
     Sample                sample;
     sample.record.number = number;
     sample.record.weight = density().weight(numbers);
-    sample.record.cells  = n_first;
+    sample.record.cells  = first->triangles.cells.size();
     if (!is_decided_by_earlier(factors, sample.record))
-      {
-        NestedMesh          nested = *first_mesh;
-        std::optional<Body> refined;
-        std::vector<bool>   marked = solve_on(*first, factors, sample);
-        for (unsigned int l = 1; l < most_levels && !marked.empty(); ++l)
-          {
-            nested = bisected(nested, marked);
-            if (nested.mesh.cells.size() > most_cells)
-              break;
-            refined.emplace(scene, bounded_load, nested, n_first);
-            marked = solve_on(*refined, factors, sample);
-          }
-      }
+      decide_by_bounds(factors, sample);
     sample.record.cpu_seconds = time.cpu_time();
     return sample;
   }
@@ -347,6 +352,8 @@ namespace geocone::GEOCONE_DIM
     StateRow of_rank;
     try
       {
+        if (!gap_of_mean)
+          gap_of_mean = this->first->sampled.respond({}, tolerance).gap;
         for (unsigned int s = first + mpi::this_mpi_process(comm); s <= last;
              s += n_ranks)
           {

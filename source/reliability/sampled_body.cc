@@ -176,33 +176,57 @@ namespace geocone::GEOCONE_DIM
   }
 
   SampleVerdict
-  SampledBody::judge(const RandomFactors &factors, const double tolerance) const
+  SampledBody::judge(const RandomFactors &factors,
+                     const double         tolerance,
+                     const BoundSide      side) const
   {
     using Kind = SampleVerdict::Kind;
-    SampleVerdict               verdict;
-    const CertifiedSide         lower = certified_lower(
-      mean, of_sample(below, BoundSide::lower, factors), tolerance, 1.);
-    verdict.factorisations = lower.solution.factorisations;
-    if (lower.bound.certified)
-      verdict.lower = lower.bound.load;
-    if (verdict.lower >= 1.)
-      {
-        verdict.kind     = Kind::stands;
-        verdict.stresses = stresses_of(factors, lower.bound);
-        return verdict;
-      }
-    const BoundProblem problem = of_sample(above, BoundSide::upper, factors);
-    const CertifiedSide upper   = certified_upper(mean, problem, tolerance, 1.);
-    verdict.factorisations += upper.solution.factorisations;
-    if (upper.bound.certified)
-      verdict.upper = upper.bound.load;
-    verdict.mechanism = mechanism_of(factors, upper.bound);
+    // A fifth of the distance from 1 is enough to extrapolate; most solutions end with it,
+    // and the others may end nearer to the optimum.
+    constexpr BoundQuestion question = {1., 0.2};
+    constexpr double        sharper  = 0.1;
+    const bool              is_lower = side == BoundSide::lower;
+    const BoundProblem      problem =
+      of_sample(is_lower ? below : above, side, factors);
+    const CertifiedSide found =
+      is_lower ? certified_lower(mean, problem, sharper * tolerance, question)
+               : certified_upper(mean, problem, sharper * tolerance, question);
+    SampleVerdict verdict;
+    verdict.factorisations = found.solution.factorisations;
+    if (found.bound.certified)
+      (is_lower ? verdict.lower : verdict.upper) = found.bound.load;
+    if (!is_lower)
+      verdict.mechanism = mechanism_of(factors, found.bound);
     if (verdict.upper < 1.)
       verdict.kind = Kind::fails;
+    else if (verdict.lower >= 1.)
+      {
+        verdict.kind     = Kind::stands;
+        verdict.stresses = stresses_of(factors, found.bound);
+      }
     else
-      verdict.refinement_indicator = uneven_gap(
-        mean, gap_of_cells(problem, upper.bound, lower.bound), lower);
+      {
+        verdict.refinement_indicator =
+          is_lower ? found.power : power_of_cells(problem, found.bound);
+        for (unsigned int c = 0; c < parent.size(); ++c)
+          verdict.refinement_indicator[c] *= std::sqrt(mean.triangles.area(c));
+      }
     return verdict;
+  }
+
+  std::vector<double>
+  SampledBody::power_of_cells(const BoundProblem &problem,
+                              const Bound        &upper) const
+  {
+    std::vector<double> power(parent.size(), 0.);
+    const auto          rates = problem.B.rates(upper.q);
+    for (unsigned int p = 0; p < problem.n_points(); ++p)
+      {
+        const unsigned int c = p / 3;
+        power[c < parent.size() ? c : problem.owner[c - parent.size()]] +=
+          problem.volume[p] * dissipation(problem.cone[p], rates[p]);
+      }
+    return power;
   }
 
   RandomFactors
@@ -242,15 +266,16 @@ namespace geocone::GEOCONE_DIM
   SampledBody::respond(const RandomFactors &factors,
                        const double         tolerance) const
   {
-    constexpr double   none    = std::numeric_limits<double>::quiet_NaN();
     const BoundProblem problem = of_sample(above, BoundSide::upper, factors);
-    const CertifiedSide upper = certified_upper(mean, problem, tolerance, none),
-                        lower = certified_lower(
-                          mean,
-                          of_sample(below, BoundSide::lower, factors),
-                          tolerance,
-                          none);
+    const CertifiedSide upper =
+                                  certified_upper(mean, problem, tolerance, {}),
+                                lower = certified_lower(
+                                  mean,
+                                  of_sample(below, BoundSide::lower, factors),
+                                  tolerance,
+                                  {});
     return {std::sqrt(upper.bound.load * lower.bound.load),
+            upper.bound.load / lower.bound.load - 1.,
             elasticity(problem, factors, upper),
             upper.solution.factorisations + lower.solution.factorisations,
             mechanism_of(factors, upper.bound),
@@ -261,10 +286,8 @@ namespace geocone::GEOCONE_DIM
   SampledBody::velocities(const RandomFactors &factors,
                           const double         tolerance) const
   {
-    return certified_upper(mean,
-                           of_sample(above, BoundSide::upper, factors),
-                           tolerance,
-                           std::numeric_limits<double>::quiet_NaN())
+    return certified_upper(
+             mean, of_sample(above, BoundSide::upper, factors), tolerance, {})
       .bound.q;
   }
 } // namespace geocone::GEOCONE_DIM

@@ -214,7 +214,7 @@ namespace geocone::GEOCONE_DIM
                    const VaryingLoads &loads,
                    const double        tolerance)
   {
-    constexpr double   no_question = std::numeric_limits<double>::quiet_NaN();
+    constexpr BoundQuestion no_question = {};
     const BoundProblem upper = with_dead_loads(bound, loads, BoundSide::upper),
                        lower = with_dead_loads(bound, loads, BoundSide::lower);
     const ElasticSolver compatible(bound, upper, BoundSide::upper),

@@ -83,6 +83,11 @@ namespace geocone
      *  iterations end as soon as a lower bound (stresses) above this load, or an upper
      *  bound (velocities) below this load, is found or excluded. */
     double question = std::numeric_limits<double>::quiet_NaN();
+
+    /** Gap at which the answer that the optimum of the mesh does not answer the question is
+     *  given, as a part of the distance of the bound from it: how far it is, is then known
+     *  to this part. */
+    double located = std::numeric_limits<double>::infinity();
   };
 
   struct ConicSolution

@@ -9,6 +9,7 @@
 #include <geocone/plane_bounds/certified_side.h>
 
 #include <array>
+#include <limits>
 #include <vector>
 
 namespace geocone::GEOCONE_DIM
@@ -36,6 +37,13 @@ namespace geocone::GEOCONE_DIM
     double gap_share = 0.;
   };
 
+  /** Load with which a bound is compared, see ConicOptions. */
+  struct BoundQuestion
+  {
+    double load    = std::numeric_limits<double>::quiet_NaN();
+    double located = std::numeric_limits<double>::infinity();
+  };
+
   /** Solves the upper-bound problem and certifies the upper bound.
    *  @param tolerance of the interior-point method, relative to the load */
   CertifiedSide
@@ -47,22 +55,20 @@ namespace geocone::GEOCONE_DIM
   certified_lower(const BoundScene &bound, const double tolerance);
 
   /** Solves a given upper-bound problem until it is decided whether the upper
-   *  bound is below a given load. See ConicOptions::question.
-   *  @param question the load */
+   *  bound is below a given load. See BoundQuestion. */
   CertifiedSide
-  certified_upper(const BoundScene   &bound,
-                  const BoundProblem &above,
-                  const double        tolerance,
-                  const double        question);
+  certified_upper(const BoundScene    &bound,
+                  const BoundProblem  &above,
+                  const double         tolerance,
+                  const BoundQuestion &question);
 
   /** Solves a given lower-bound problem until it is decided whether the lower
-   *  bound is above a given load. See ConicOptions::question.
-   *  @param question the load */
+   *  bound is above a given load. See BoundQuestion. */
   CertifiedSide
-  certified_lower(const BoundScene   &bound,
-                  const BoundProblem &below,
-                  const double        tolerance,
-                  const double        question);
+  certified_lower(const BoundScene    &bound,
+                  const BoundProblem  &below,
+                  const double         tolerance,
+                  const BoundQuestion &question);
 
   /** Solves the upper-bound and lower-bound problems on a mesh and certifies the results.
    *  @param tolerance of the interior-point method, relative to the load */

@@ -26,6 +26,16 @@ namespace geocone::GEOCONE_DIM
    *  @param marked whether each triangle is to be divided */
   NestedMesh
   bisected(const NestedMesh &nested, const std::vector<bool> &marked);
+
+  /** Bisects the triangles with most of an error measure until there are enough. Halves
+   *  take the part of the error that they have if it scales with A^(3/2) of the area.
+   *  @param error contribution of each triangle, >= 0
+   *  @param n_wanted number of triangles; a few more close the mesh
+   *  @return the same mesh if no triangle contributes */
+  NestedMesh
+  bisected(NestedMesh          nested,
+           std::vector<double> error,
+           const std::size_t   n_wanted);
 } // namespace geocone::GEOCONE_DIM
 
 #endif

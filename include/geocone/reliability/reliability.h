@@ -6,6 +6,10 @@
 
 #include <geocone/base/choice.h>
 #include <geocone/bounds/bound_analysis.h>
+#include <geocone/limit_analysis/sample_search.h>
+#include <geocone/reliability/failure_probability.h>
+#include <geocone/reliability/importance_sampling.h>
+#include <geocone/reliability/sampled_body.h>
 #include <geocone/mesh/bisected.h>
 #include <geocone/mesh/triangles.h>
 #include <geocone/output/field_files.h>
@@ -240,15 +244,20 @@ namespace geocone::GEOCONE_DIM
     LimitState
     limit_state(const Eigen::VectorXd &numbers);
 
-    /** Computes the bounds for a sample on a given mesh.
-     *  @return triangles to be refined, empty if the sample is decided */
-    std::vector<bool>
+    /** Computes a bound for a sample on a given mesh.
+     *  @return refinement indicator, empty if the sample is decided */
+    std::vector<double>
     solve_on(const Body          &body,
              const RandomFactors &factors,
+             const BoundSide      side,
+             SampleSearch        &search,
              Sample              &sample) const;
 
-    /** Computes the bounds for a sample on successively refined meshes until
-     *  the sample is decided or the refinement limit is reached. */
+    /** Computes bounds for a sample on successively refined meshes until it is decided, or
+     *  is expected to remain undecided on the largest mesh. */
+    void
+    decide_by_bounds(const RandomFactors &factors, Sample &sample) const;
+
     Sample
     solve(const unsigned int number) const;
 
@@ -274,6 +283,7 @@ namespace geocone::GEOCONE_DIM
 
     std::optional<NestedMesh> first_mesh;
     std::unique_ptr<Body>     first;
+    std::optional<double>     gap_of_mean; ///< body, on the first mesh
 
     /** Fields of earlier batches, the same on all ranks. */
     LatestFields<Mechanism>   mechanisms;

@@ -57,7 +57,7 @@ namespace geocone::GEOCONE_DIM
     }
   };
 
-  /** Certified result for a sample of a body: it fails under its loads, is
+  /** Certified result of a bound for a sample of a body: it fails under its loads, is
    *  stable, or is undecided. */
   struct SampleVerdict
   {
@@ -83,7 +83,8 @@ namespace geocone::GEOCONE_DIM
      *  random, or if the stresses cannot be multiplied by a factor. */
     std::optional<StressField> stresses;
 
-    /** Refinement indicator of an undecided sample (CertifiedBounds::refinement_indicator). */
+    /** Refinement indicator of an undecided sample: the dissipation in each triangle times
+     *  the root of its area. */
     std::vector<double> refinement_indicator;
   };
 
@@ -91,6 +92,7 @@ namespace geocone::GEOCONE_DIM
   struct LoadResponse
   {
     double        load = 0.;  ///< geometric mean of both bounds
+    double        gap  = 0.;  ///< upper/lower - 1
     RandomFactors elasticity; ///< d ln(load)/d ln(factor), of the upper bound
     unsigned int  factorisations = 0;
     std::optional<Mechanism>   mechanism; ///< as in SampleVerdict
@@ -113,11 +115,13 @@ namespace geocone::GEOCONE_DIM
                 std::vector<unsigned int> parent,
                 const unsigned int        n_first);
 
-    /** Compares both bounds on the load factor with 1.
+    /** Compares a bound on the load factor with 1.
      *  @param factors of the triangles of the first mesh
      *  @param tolerance of the interior-point method */
     SampleVerdict
-    judge(const RandomFactors &factors, const double tolerance) const;
+    judge(const RandomFactors &factors,
+          const double         tolerance,
+          const BoundSide      side) const;
 
     /** Computes both bounds on the load factor, and the gradient of the upper one with
      *  respect to the factors of each triangle, from its fields alone (gradients.h). The
@@ -142,6 +146,10 @@ namespace geocone::GEOCONE_DIM
     mechanism_of(const RandomFactors &factors, const Bound &upper) const;
     std::optional<StressField>
     stresses_of(const RandomFactors &factors, const Bound &lower) const;
+
+    /** Dissipation of the velocities of an upper bound in each triangle. */
+    std::vector<double>
+    power_of_cells(const BoundProblem &problem, const Bound &upper) const;
 
     RandomFactors
     elasticity(const BoundProblem  &problem,
