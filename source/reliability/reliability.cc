@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
+#include <geocone/base/shared_counter.h>
 #include <geocone/base/stop_request.h>
 #include <geocone/base/unused_parameters.h>
 #include <geocone/mesh/fitted_mesh.h>
@@ -24,8 +25,17 @@ namespace geocone::GEOCONE_DIM
       {"Analysis/Samples", "Analysis/Kind", {"reliability"}},
       {"Analysis/Confidence", "Analysis/Kind", {"reliability"}}};
 
-    /** Samples of a step, on any number of ranks. */
-    constexpr unsigned int batch = 16;
+    /** Samples of a step, on any number of ranks: few at first, whose fields decide others,
+     *  and then so many that ranks hardly wait for each other. */
+    constexpr unsigned int n_short = 8, of_short = 16, of_long = 128;
+
+    /** First sample of a step, from 1. */
+    unsigned int
+    first_of_step(const unsigned int step)
+    {
+      return 1 + of_short * std::min(step, n_short) +
+             (step > n_short ? of_long * (step - n_short) : 0);
+    }
 
     /** Trial samples of importance sampling. */
     constexpr unsigned int n_pilots = 16;
@@ -160,7 +170,10 @@ namespace geocone::GEOCONE_DIM
   std::vector<unsigned int>
   Reliability::programme() const
   {
-    return {(n_samples + batch - 1) / batch};
+    unsigned int n = 0;
+    while (first_of_step(n) <= n_samples)
+      ++n;
+    return {n};
   }
 
   std::string
@@ -346,23 +359,24 @@ namespace geocone::GEOCONE_DIM
     namespace mpi = dealii::Utilities::MPI;
     if (sampling == Sampling::importance && designs.empty())
       find_design_points();
-    const unsigned int first   = now.in_stage * batch + 1,
-                       last    = std::min(first + batch - 1, n_samples),
-                       n_ranks = mpi::n_mpi_processes(comm);
+    const unsigned int last =
+      std::min(first_of_step(now.in_stage + 1) - 1, n_samples);
     StateRow of_rank;
-    try
-      {
-        if (!gap_of_mean)
-          gap_of_mean = this->first->sampled.respond({}, tolerance).gap;
-        for (unsigned int s = first + mpi::this_mpi_process(comm); s <= last;
-             s += n_ranks)
-          {
-            Sample sample = solve(s);
-            of_rank(sample);
-          }
-      }
-    catch (const Stopped &)
-      {} // all ranks are together here
+    {
+      SharedCounter counter(comm, first_of_step(now.in_stage));
+      try
+        {
+          if (!gap_of_mean)
+            gap_of_mean = first->sampled.respond({}, tolerance).gap;
+          for (unsigned int s; (s = counter.take()) <= last;)
+            {
+              Sample sample = solve(s);
+              of_rank(sample);
+            }
+        }
+      catch (const Stopped &)
+        {} // all ranks are together here
+    }
     stop_if_asked(comm);
     std::vector<Sample> samples;
     for (const auto &values : mpi::all_gather(comm, of_rank.values()))
