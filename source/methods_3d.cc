@@ -6,6 +6,7 @@
 #include <geocone/methods.h>
 #include <geocone/run/explicit_simulation.h>
 #include <geocone/run/implicit_simulation.h>
+#include <geocone/run/seepage_simulation.h>
 #include <geocone/solid_bounds/solid_limit_analysis.h>
 
 #include <algorithm>
@@ -20,11 +21,13 @@ namespace geocone::GEOCONE_DIM
       : implicit(MPI_COMM_WORLD, file, log, {})
       , explicit_mpm(MPI_COMM_WORLD, file, log)
       , limit_analysis(MPI_COMM_WORLD, file, log)
+      , seepage(MPI_COMM_WORLD, file, log)
     {}
 
     ImplicitSimulation implicit;
     ExplicitSimulation explicit_mpm;
     SolidLimitAnalysis limit_analysis;
+    SeepageSimulation  seepage;
   };
 
   namespace
@@ -51,7 +54,9 @@ namespace geocone::GEOCONE_DIM
   Methods::Methods(const ParameterFile &file, Log &log)
   {
     check(file, "Discretisation/Method", {"FEM", "MPM", "explicit MPM"});
-    check(file, "Analysis/Kind", {"steps", "limit load", "strength reduction"});
+    check(file,
+          "Analysis/Kind",
+          {"steps", "limit load", "strength reduction", "seepage"});
     runs = std::make_unique<Runs>(file, log);
   }
 
@@ -60,6 +65,8 @@ namespace geocone::GEOCONE_DIM
   Simulation &
   Methods::chosen()
   {
+    if (runs->limit_analysis.is_seepage())
+      return runs->seepage;
     if (runs->limit_analysis.is_chosen())
       return runs->limit_analysis;
     if (ParameterFile::value("Discretisation/Method") == "explicit MPM")

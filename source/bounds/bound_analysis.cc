@@ -183,6 +183,22 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
+  BoundAnalysis::prepare_flow()
+  {
+    const Seepage &seepage = scene.water.seepage;
+    if (!seepage.acts())
+      return;
+    scene.loading.prepare(scene.materials.names(), scene.tractions.names());
+    scene.water.prepare_stages(scene.loading);
+    if (!(seepage.time >= 0. && seepage.time <= scene.loading.duration()))
+      throw InputError("Seepage/Time",
+                       seepage.time,
+                       format("0 to %g s, the duration of 'Loading'",
+                              scene.loading.duration()),
+                       "0: the initial pressures");
+  }
+
+  void
   BoundAnalysis::print_start(const RunOptions               &options,
                              const std::size_t               n_cells,
                              const std::string              &more,
@@ -308,6 +324,22 @@ namespace geocone::GEOCONE_DIM
     level.number = limit_output.all_records().size() + 1;
     limit_output.add_record(level);
     now.time = level.number;
+  }
+
+  LoadBracket
+  BoundAnalysis::certified_by(const std::vector<BoundLevel> &levels) const
+  {
+    if (!scene.water.varies_in_cells())
+      return best_of(levels);
+    // The pressures between the vertices of a mesh are its own.
+    const auto last = std::find_if(levels.rbegin(),
+                                   levels.rend(),
+                                   [](const auto &l) { return l.certified(); });
+    if (last == levels.rend())
+      return best_of(levels);
+    LoadBracket of_last = best_of({*last});
+    of_last.seconds     = best_of(levels).seconds;
+    return of_last;
   }
 
   bool

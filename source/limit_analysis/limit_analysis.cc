@@ -140,14 +140,7 @@ namespace geocone::GEOCONE_DIM
         "none with " + where() + " around an axis",
         "the flow is that of plane scenes: give its pressures by "
         "'Water/Table' or 'Water/File'");
-    scene.loading.prepare(scene.materials.names(), scene.tractions.names());
-    scene.water.prepare_stages(scene.loading);
-    if (!(seepage.time >= 0. && seepage.time <= scene.loading.duration()))
-      throw InputError("Seepage/Time",
-                       seepage.time,
-                       format("0 to %g s, the duration of 'Loading'",
-                              scene.loading.duration()),
-                       "0: the initial pressures");
+    prepare_flow();
     let_water_flow(scene, comm, log, options.dry_run, seepage.time);
   }
 
@@ -510,22 +503,6 @@ namespace geocone::GEOCONE_DIM
     if (!upper.certified || !lower.certified)
       return {};
     return points_of_bars(bounded_load.on(scene, *triangles), upper, lower);
-  }
-
-  LoadBracket
-  LimitAnalysis::certified_by(const std::vector<BoundLevel> &levels) const
-  {
-    if (!scene.water.varies_in_cells())
-      return best_of(levels);
-    // The pressures between the vertices of a mesh are its own.
-    const auto last = std::find_if(levels.rbegin(),
-                                   levels.rend(),
-                                   [](const auto &l) { return l.certified(); });
-    if (last == levels.rend())
-      return best_of(levels);
-    LoadBracket of_last = best_of({*last});
-    of_last.seconds     = best_of(levels).seconds;
-    return of_last;
   }
 
   LoadBracket

@@ -45,13 +45,16 @@ namespace geocone::GEOCONE_DIM
       "incompressible. 0: drained.");
     add_parameter("Permeability",
                   conductivities,
-                  "Hydraulic conductivity [m/s] of soil in which water flows "
-                  "('Seepage'): one value, or two along two directions at a "
-                  "right angle.");
+                  std::string("Hydraulic conductivity [m/s] of soil in which "
+                              "water flows ('Seepage'): one value, or ") +
+                    (dim == 2 ? "two along two directions at a right angle."
+                              : "three along x, y and z."));
     add_parameter("Permeability angle",
                   conductivity_angle,
-                  "Angle [degrees] from x, counterclockwise, of the direction "
-                  "of the first of two values of 'Permeability'.");
+                  std::string("Angle [degrees] from x, counterclockwise, of "
+                              "the direction of the first of ") +
+                    (dim == 2 ? "two" : "three") + " values of 'Permeability'" +
+                    (dim == 2 ? "." : "; that of the third one is z."));
     add_parameter("Drainable porosity",
                   drainable,
                   "Volume of water per volume of soil [-] that drains as the "
@@ -100,31 +103,35 @@ namespace geocone::GEOCONE_DIM
     unsaturated->prepare(parameter());
   }
 
-  dealii::SymmetricTensor<2, 2>
+  dealii::SymmetricTensor<2, dim>
   ConstitutiveLaw::permeability() const
   {
     const bool is_valid =
-      !conductivities.empty() && conductivities.size() <= 2 &&
+      (conductivities.size() == 1 || conductivities.size() == dim) &&
       std::all_of(conductivities.begin(),
                   conductivities.end(),
                   [](const double k) { return k > 0. && std::isfinite(k); });
     if (!is_valid)
       throw InputError(parameter("Permeability"),
                        dealii::Patterns::Tools::to_string(conductivities),
-                       "one or two values > 0 m/s where water flows",
+                       std::string("one or ") + (dim == 2 ? "two" : "three") +
+                         " values > 0 m/s where water flows",
                        "sand has 1e-3 to 1e-5 m/s, silt 1e-7, clay 1e-9");
     require(std::isfinite(conductivity_angle),
             "Permeability angle",
             conductivity_angle,
             "finite",
             "the angle of the first value with x in degrees");
-    const double k1 = conductivities.front(), k2 = conductivities.back(),
-                 c = std::cos(radians(conductivity_angle)),
-                 s = std::sin(radians(conductivity_angle));
-    dealii::SymmetricTensor<2, 2> k;
+    const double k1 = conductivities.front(),
+                 k2 = conductivities[conductivities.size() > 1 ? 1 : 0],
+                 c  = std::cos(radians(conductivity_angle)),
+                 s  = std::sin(radians(conductivity_angle));
+    dealii::SymmetricTensor<2, dim> k;
     k[0][0] = k1 * c * c + k2 * s * s;
     k[1][1] = k1 * s * s + k2 * c * c;
     k[0][1] = (k1 - k2) * c * s;
+    if constexpr (dim == 3)
+      k[2][2] = conductivities.back();
     return k;
   }
 

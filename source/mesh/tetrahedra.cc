@@ -3,6 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
+#include <geocone/functions/simplex_field.h>
 #include <geocone/mesh/fitted_mesh.h>
 #include <geocone/mesh/tetrahedra.h>
 
@@ -54,6 +55,36 @@ namespace geocone::GEOCONE_DIM
       return all;
     }
 
+    /** Six tetrahedra of any hexahedron, with a common vertex, that of the smallest
+     *  number. The diagonal of each face starts at its smallest vertex, so that those of
+     *  neighbours match. @param vertices in lexicographic order */
+    std::vector<std::array<unsigned int, 4>>
+    tetrahedra_at_first(const std::vector<unsigned int> &vertices)
+    {
+      const unsigned int first =
+        std::min_element(vertices.begin(), vertices.end()) - vertices.begin();
+      std::vector<std::array<unsigned int, 4>> all;
+      for (unsigned int axis = 0; axis < dim; ++axis)
+        {
+          // The face across the axis, in cyclic order, without the first vertex.
+          const unsigned int a                   = 1u << (axis + 1) % dim,
+                             b                   = 1u << (axis + 2) % dim,
+                             from                = ~first & (1u << axis);
+          const std::array<unsigned int, 4> face = {{vertices[from],
+                                                     vertices[from + a],
+                                                     vertices[from + a + b],
+                                                     vertices[from + b]}};
+          const unsigned int                k =
+            std::min_element(face.begin(), face.end()) - face.begin();
+          for (const unsigned int next : {1, 2})
+            all.push_back({{vertices[first],
+                            face[k],
+                            face[(k + next) % 4],
+                            face[(k + next + 1) % 4]}});
+        }
+      return all;
+    }
+
     /** Area of the part of a polygon that is in a box. */
     double
     area_in_box(std::vector<Point<dim>>          polygon,
@@ -97,14 +128,11 @@ namespace geocone::GEOCONE_DIM
                             cell.vertices[1],
                             cell.vertices[2],
                             cell.vertices[3]}});
-        else if (!mesh.grid[0].empty())
-          for (const auto &part : tetrahedra_of(vertices, cell.vertices))
-            cells.push_back(part);
         else
-          throw InputError("Geometry/File",
-                           "a mesh with hexahedra",
-                           "tetrahedra where loads are bounded",
-                           "mesh the domain with tetrahedra");
+          for (const auto &part : mesh.grid[0].empty()
+                                    ? tetrahedra_at_first(cell.vertices)
+                                    : tetrahedra_of(vertices, cell.vertices))
+            cells.push_back(part);
         material.resize(cells.size(), cell.material_id);
       }
 
@@ -244,16 +272,9 @@ namespace geocone::GEOCONE_DIM
   std::array<Tensor<1, dim>, 4>
   Tetrahedra::gradients(const unsigned int cell) const
   {
-    std::array<Tensor<1, dim>, 4> g;
-    for (unsigned int i = 0; i < 4; ++i)
-      {
-        const Point<dim> &a    = vertices[cells[cell][(i + 1) % 4]],
-                         &b    = vertices[cells[cell][(i + 2) % 4]],
-                         &c    = vertices[cells[cell][(i + 3) % 4]];
-        const Tensor<1, dim> n = cross_product_3d(b - a, c - a);
-        g[i]                   = n / (n * (vertices[cells[cell][i]] - a));
-      }
-    return g;
+    const auto &[i, j, k, l] = cells[cell];
+    return barycentric_gradients(
+      {{vertices[i], vertices[j], vertices[k], vertices[l]}});
   }
 
   double

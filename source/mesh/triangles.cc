@@ -3,7 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
-#include <geocone/functions/triangle_field.h>
+#include <geocone/functions/simplex_field.h>
 #include <geocone/mesh/fitted_mesh.h>
 #include <geocone/mesh/triangles.h>
 #include <geocone/shapes/part_in_box.h>

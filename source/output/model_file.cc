@@ -393,10 +393,11 @@ namespace geocone::GEOCONE_DIM
     const auto steps = scene.water.flow_steps();
     for (std::size_t i = 0; i < scene.water.flows().size(); ++i)
       {
-        Json segments = Json::array();
-        for (const auto &segment : scene.water.flows()[i].surface)
-          segments.push_back(json_of_places(segment));
-        surfaces.push_back({{"time_s", steps[i].time}, {"segments", segments}});
+        Json parts = Json::array();
+        for (const auto &part : scene.water.flows()[i].surface)
+          parts.push_back(json_of_places(part));
+        surfaces.push_back({{"time_s", steps[i].time},
+                            {dim == 2 ? "segments" : "triangles", parts}});
       }
     Json cells = Json::array();
     for (const Face &cell : mesh.cells)

@@ -157,12 +157,19 @@ namespace geocone::GEOCONE_DIM
     newton.prepare();
     step_control.prepare();
     exact_solution.prepare();
-    if constexpr (dim == 2)
-      {
-        refuse_suction(scene);
-        let_water_flow(scene, comm, log, options.dry_run);
-      }
+    refuse_suction(scene);
+    if (dim == 2)
+      let_water_flow(scene, comm, log, options.dry_run);
     const std::string remark_on_bounds = prepare_mesh(options);
+    if (dim == 3)
+      {
+        if (method.is_mpm())
+          scene.water.seepage.refuse("particles in three dimensions",
+                                     "set Discretisation/Method = FEM, or give "
+                                     "the pressures by 'Water/Table'");
+        let_water_flow(
+          scene, comm, log, options.dry_run, 0., &mesh.mesh_parameters());
+      }
     remember_friction();
     step_control.limit(scene.materials.traits().friction_memory);
     if (const std::string text = text_of_memory(scene); !text.empty())

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
+#include <geocone/output/model_of_tetrahedra.h>
 #include <geocone/output/model_of_triangles.h>
 #include <geocone/output/simplex_table.h>
 #include <geocone/run/seepage_simulation.h>
@@ -27,7 +28,7 @@ namespace geocone::GEOCONE_DIM
     fields =
       std::make_unique<FieldFiles>("seepage", FieldsFormat(fields_format));
     add("time (s)", &FlowLevel::time);
-    add("triangles (-)", &FlowLevel::triangles);
+    add(dim == 2 ? "triangles (-)" : "tetrahedra (-)", &FlowLevel::cells);
     add("discharge (" + unit + ")", &FlowLevel::discharge);
     for (unsigned int b = 0; b < names.size(); ++b)
       table.add("inflow of " + names[b] + " (" + unit + ")",
@@ -52,10 +53,10 @@ namespace geocone::GEOCONE_DIM
     if (!with_fields)
       return;
     // All ranks have the whole flow.
-    SimplexTable  table(flow.triangles(),
+    SimplexTable table(flow.current_mesh(),
                        dealii::Utilities::MPI::this_mpi_process(comm) == 0);
-    const auto   &vertices = flow.triangles().vertices;
-    const auto    q        = flow.velocities();
+    const auto  &vertices  = flow.current_mesh().vertices;
+    const auto   q         = flow.velocities();
     using Index            = unsigned int;
     table.add("pore_pressure", 1, [&](const Index, const Index v, const Index) {
       return unit_weight * flow.flow().head[v];
@@ -64,7 +65,7 @@ namespace geocone::GEOCONE_DIM
       return flow.flow().head[v] + vertices[v][1];
     });
     const auto state = [&](const Index p, const Index v) {
-      return flow.curve(p / 3).at(flow.flow().head[v]);
+      return flow.curve(p / FlowMesh::n_corners).at(flow.flow().head[v]);
     };
     table.add("relative_permeability",
               1,
@@ -86,7 +87,7 @@ namespace geocone::GEOCONE_DIM
       }
     table.add(
       "seepage_velocity", dim, [&](const Index p, const Index, const Index d) {
-        return q[p / 3][d];
+        return q[p / FlowMesh::n_corners][d];
       });
     table.add_materials();
     fields->write(table, path, time, comm);
@@ -130,7 +131,16 @@ namespace geocone::GEOCONE_DIM
     scene.water.prepare_pressures(scene.geometry);
     scene.loading.prepare(scene.materials.names(), scene.tractions.names());
     scene.water.prepare_stages(scene.loading);
-    flow.emplace(scene, comm);
+    if (dim == 3)
+      {
+        if (method.is_mpm())
+          throw InputError("Discretisation/Method",
+                           method.name(),
+                           "FEM where water flows in three dimensions",
+                           "the mesh of the flow fits the body");
+        mesh_parameters.prepare(scene.geometry, method);
+      }
+    flow.emplace(scene, comm, &mesh_parameters);
     steps = scene.water.flow_steps();
     return {};
   }
@@ -148,7 +158,7 @@ namespace geocone::GEOCONE_DIM
   Json
   SeepageSimulation::model()
   {
-    return model_of(scene, model_mesh_of(flow->triangles()));
+    return model_of(scene, model_mesh_of(flow->current_mesh()));
   }
 
   FlowLevel
@@ -156,7 +166,7 @@ namespace geocone::GEOCONE_DIM
   {
     FlowLevel record;
     record.time       = time;
-    record.triangles  = flow->triangles().cells.size();
+    record.cells      = flow->current_mesh().cells.size();
     record.iterations = flow->flow().iterations;
     record.discharge  = flow->discharge();
     record.error      = flow->flow().error;
@@ -204,7 +214,7 @@ namespace geocone::GEOCONE_DIM
   {
     Json json;
     json["size"] = {{"method", "seepage"},
-                    {"cells", flow->triangles().cells.size()}};
+                    {"cells", flow->current_mesh().cells.size()}};
     Json       inflows;
     const auto values = flow->inflows();
     for (unsigned int b = 0; b < values.size(); ++b)

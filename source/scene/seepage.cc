@@ -39,9 +39,12 @@ namespace geocone::GEOCONE_DIM
     add_parameter(
       "Drain",
       drain,
-      "Line x, y; x, y; ... [m] of a drain, filter or slotted pipe in the "
-      "body, instead of sides. Without a level it is open to the air: it "
-      "drains the water that reaches it. Empty: none.");
+      std::string(dim == 2 ? "Line x, y; x, y; ... [m]"
+                           : "Line x, y, z; x, y, z; ... [m], along edges of "
+                             "the mesh,") +
+        " of a drain, filter or slotted pipe in the body, instead of sides. "
+        "Without a level it is open to the air: it drains the water that "
+        "reaches it. Empty: none.");
   }
 
   void
@@ -137,11 +140,16 @@ namespace geocone::GEOCONE_DIM
         "impervious. The pore pressures of the flow between them act in "
         "FEM, MPM and bounds. Empty: water does not flow.")
   {
-    add_parameter("Cells",
-                  n_cells,
-                  "Approximate number of triangles of the finest mesh of the "
-                  "flow, which is refined at the free surface and where the "
-                  "velocity changes; of transient flows all have one size.");
+    add_parameter(
+      "Cells",
+      n_cells,
+      dim == 2 ? "Approximate number of triangles of the finest mesh of the "
+                 "flow, which is refined at the free surface and where the "
+                 "velocity changes; of transient flows all have one size."
+               : "Number of tetrahedra of the finest mesh of the flow. That "
+                 "of 'Mesh', whose hexahedra are divided, is bisected at "
+                 "the free surface and where the velocity changes until it "
+                 "has as many; that of transient flows is not.");
     add_parameter("Initial water table",
                   initial_text,
                   "Beginning of a transient flow of unsaturated soil: steady, "
@@ -170,11 +178,6 @@ namespace geocone::GEOCONE_DIM
     for (const auto &boundary : list)
       boundary->replace_groups(geometry.sides_of_hole);
     const std::string names = dealii::Patterns::Tools::to_string(this->names());
-    if (dim == 3)
-      throw InputError(parameter(),
-                       names,
-                       "empty in three dimensions",
-                       "give the pressures by 'Water/Table' or 'Water/File'");
     if (geometry.shape == Geometry::Shape::discs)
       throw InputError(parameter(),
                        names,

@@ -14,30 +14,30 @@ namespace geocone::GEOCONE_DIM
   using dealii::Tensor;
 
   FlowBalance::FlowBalance(
-    const Triangles                          &triangles,
-    const std::vector<SymmetricTensor<2, 2>> &permeability,
-    const std::vector<double>                &measure,
-    const FlowConditions                     &conditions)
+    const FlowMesh                             &mesh,
+    const std::vector<SymmetricTensor<2, dim>> &permeability,
+    const std::vector<double>                  &measure,
+    const FlowConditions                       &conditions)
     : conditions(conditions)
-    , n(triangles.vertices.size())
-    , edges(triangles.edges)
-    , conductance(triangles.edges.size(), 0.)
+    , n(mesh.vertices.size())
+    , connections(mesh.connections)
+    , conductance(mesh.connections.size(), 0.)
     , diagonal(n, 0.)
   {
-    double lowest = triangles.vertices[0][1], highest = lowest;
-    for (const auto &x : triangles.vertices)
+    double lowest = mesh.vertices[0][1], highest = lowest;
+    for (const auto &x : mesh.vertices)
       {
         lowest  = std::min(lowest, x[1]);
         highest = std::max(highest, x[1]);
         y.push_back(x[1]);
       }
     height = highest - lowest;
-    for (unsigned int c = 0; c < triangles.cells.size(); ++c)
-      for (unsigned int i = 0; i < 3; ++i)
-        conductance[triangles.edges_of_cell[c][i]] += edge_conductance(
-          triangles, permeability[triangles.material[c]], measure[c], c, i);
-    for (unsigned int e = 0; e < edges.size(); ++e)
-      for (const unsigned int v : edges[e].vertices)
+    for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+      for (unsigned int i = 0; i < FlowMesh::n_connections; ++i)
+        conductance[mesh.connections_of_cell[c][i]] += edge_conductance(
+          mesh, permeability[mesh.material[c]], measure[c], c, i);
+    for (unsigned int e = 0; e < connections.size(); ++e)
+      for (const unsigned int v : connections[e])
         diagonal[v] += std::abs(conductance[e]);
     set_pattern();
   }
@@ -92,9 +92,8 @@ namespace geocone::GEOCONE_DIM
     std::vector<std::vector<int>> columns(n);
     for (unsigned int v = 0; v < n; ++v)
       columns[v].push_back(v);
-    for (const auto &edge : edges)
+    for (const auto &[i, j] : connections)
       {
-        const auto [i, j] = edge.vertices;
         columns[i].push_back(j);
         columns[j].push_back(i);
       }
@@ -105,15 +104,15 @@ namespace geocone::GEOCONE_DIM
   }
 
   double
-  edge_conductance(const Triangles             &triangles,
-                   const SymmetricTensor<2, 2> &permeability,
-                   const double                 measure,
-                   const unsigned int           cell,
-                   const unsigned int           i)
+  edge_conductance(const FlowMesh                &mesh,
+                   const SymmetricTensor<2, dim> &permeability,
+                   const double                   measure,
+                   const unsigned int             cell,
+                   const unsigned int             i)
   {
-    const auto          g = triangles.gradients(cell);
-    const Tensor<1, 2> &a = g[(i + 1) % 3], &b = g[(i + 2) % 3];
-    return -triangles.area(cell) * measure * (a * (permeability * b));
+    const auto g      = mesh.gradients(cell);
+    const auto [a, b] = FlowMesh::corners_of_connections()[i];
+    return -mesh.cell_size(cell) * measure * (g[a] * (permeability * g[b]));
   }
 
   namespace

@@ -3,7 +3,9 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/stop_request.h>
+#include <geocone/functions/simplex_field.h>
 #include <geocone/mesh/adapted_sizes.h>
+#include <geocone/mesh/bisection.h>
 #include <geocone/mesh/fitted_mesh.h>
 #include <geocone/seepage/flow_on_mesh.h>
 #include <geocone/shapes/part_in_box.h>
@@ -34,9 +36,9 @@ namespace geocone::GEOCONE_DIM
         if (boundary->box_corners())
           for (unsigned int side = 0; side < geometry.sides.size(); ++side)
             {
-              const auto [a, b]   = geometry.side_ends(side);
-              const auto   part   = part_in_box(*boundary->wide_box(), a, b);
-              const double least  = 1e-6 * a.distance(b);
+              const auto [a, b]  = geometry.side_ends(side);
+              const auto   part  = part_in_box(*boundary->wide_box(), a, b);
+              const double least = 1e-6 * a.distance(b);
               if (part && (*part)[0].distance((*part)[1]) > least)
                 for (const Point<dim> &end : *part)
                   if (end.distance(a) > least && end.distance(b) > least)
@@ -67,10 +69,10 @@ namespace geocone::GEOCONE_DIM
     }
 
     /** Permeability of each material, after a check of what else the flow needs of it. */
-    std::vector<dealii::SymmetricTensor<2, 2>>
+    std::vector<dealii::SymmetricTensor<2, dim>>
     permeability_of_materials(const Scene &scene)
     {
-      std::vector<dealii::SymmetricTensor<2, 2>> all;
+      std::vector<dealii::SymmetricTensor<2, dim>> all;
       for (unsigned int m = 0; m < scene.materials.size(); ++m)
         {
           const ConstitutiveLaw &law = scene.materials.law(m);
@@ -99,17 +101,72 @@ namespace geocone::GEOCONE_DIM
                            "give all materials a curve, or none");
       return all;
     }
+
+    unsigned int
+    number_of_plane_levels(const Scene &scene, const bool is_transient)
+    {
+      // The free surface moves through the whole mesh of a transient flow.
+      return scene.geometry.shape == Geometry::Shape::file || is_transient
+               ? 1
+               : number_of_levels;
+    }
+
+    /** Triangles with given cell sizes, with edges along the drains. Collective. */
+    CoarseMesh
+    mesh_with(const Scene &scene, const CellSizes &sizes, const MPI_Comm comm)
+    {
+      MeshLines drains;
+      for (const auto &boundary : scene.water.seepage.list)
+        for (std::size_t i = 1; i < boundary->drain.size(); ++i)
+          drains.push_back({{boundary->drain[i - 1], boundary->drain[i]}});
+      return triangles_of_body(
+        scene, ends_of_boxes(scene), drains, sizes, comm);
+    }
+
+    /** Mesh of equal triangles, or that of the scene in three dimensions.
+     *  Collective. */
+    FlowMesh
+    first_mesh_of(const Scene          &scene,
+                  const bool            is_transient,
+                  const MPI_Comm        comm,
+                  const MeshParameters *parameters)
+    {
+      if (dim == 3)
+        return FlowMesh(fitted_mesh(*parameters, scene, comm, nullptr, false));
+      const unsigned int n_levels = number_of_plane_levels(scene, is_transient);
+      return FlowMesh(mesh_with(
+        scene,
+        equal_sizes(scene.geometry,
+                    scene.water.seepage.n_cells / std::pow(2., n_levels - 1)),
+        comm));
+    }
+
+    /** Finer mesh with small cells where the error is large. Collective.
+     *  @tparam Mesh a template, as triangles are created anew and tetrahedra are bisected */
+    template <typename Mesh>
+    CoarseMesh
+    refined(const Scene               &scene,
+            const Mesh                &mesh,
+            const std::vector<double> &error,
+            const std::size_t          n_cells,
+            const MPI_Comm             comm)
+    {
+      if constexpr (dim == 2)
+        return mesh_with(scene, adapted_sizes(mesh, error, n_cells), comm);
+      else
+        return bisected(mesh, error, n_cells);
+    }
   } // namespace
 
-  FlowOnMesh::FlowOnMesh(const Scene &scene, const MPI_Comm comm)
+  FlowOnMesh::FlowOnMesh(const Scene          &scene,
+                         const MPI_Comm        comm,
+                         const MeshParameters *parameters)
     : scene(scene)
     , comm(comm)
     , is_transient(scene.water.flows_in_time())
     , permeability(permeability_of_materials(scene))
     , curves(curves_of_materials(scene))
-    , first_mesh(mesh_with(equal_sizes(scene.geometry,
-                                       scene.water.seepage.n_cells /
-                                         std::pow(2., n_levels() - 1))))
+    , first_mesh(first_mesh_of(scene, is_transient, comm, parameters))
     , mesh(first_mesh)
   {
     take(first_mesh);
@@ -121,37 +178,31 @@ namespace geocone::GEOCONE_DIM
   unsigned int
   FlowOnMesh::n_levels() const
   {
-    // The free surface moves through the whole mesh of a transient flow.
-    return scene.geometry.shape == Geometry::Shape::file || is_transient
-             ? 1
-             : number_of_levels;
-  }
-
-  Triangles
-  FlowOnMesh::mesh_with(const CellSizes &sizes) const
-  {
-    MeshLines drains;
-    for (const auto &boundary : scene.water.seepage.list)
-      for (std::size_t i = 1; i < boundary->drain.size(); ++i)
-        drains.push_back({{boundary->drain[i - 1], boundary->drain[i]}});
-    return Triangles(
-      triangles_of_body(scene, ends_of_boxes(scene), drains, sizes, comm));
+    if (dim == 2)
+      return number_of_plane_levels(scene, is_transient);
+    if (is_transient)
+      return 1;
+    // Each mesh has at most twice as many cells as the last one.
+    const double ratio =
+      double(scene.water.seepage.n_cells) / first_mesh.cells.size();
+    return 1 + std::max(std::ceil(std::log2(ratio) - 1e-9), 0.);
   }
 
   void
-  FlowOnMesh::take(const Triangles &next)
+  FlowOnMesh::take(const FlowMesh &next)
   {
-    mesh             = next;
+    mesh = next;
     const auto &list = scene.water.seepage.list;
     boundary_of.assign(mesh.vertices.size(), -1);
-    boundary_of_edge.assign(mesh.edges.size(), -1);
+    boundary_of_facet.assign(mesh.facet_vertices.size(), -1);
     for (unsigned int b = 0; b < list.size(); ++b)
-      for (const unsigned int e : edges_of(*list[b]))
-        {
-          boundary_of_edge[e] = b;
-          for (const unsigned int v : mesh.edges[e].vertices)
-            boundary_of[v] = b;
-        }
+      {
+        const Part part = part_of(*list[b]);
+        for (const unsigned int f : part.facets)
+          boundary_of_facet[f] = b;
+        for (const unsigned int v : part.vertices)
+          boundary_of[v] = b;
+      }
     measure.clear();
     drainable.assign(mesh.vertices.size(), 0.);
     for (unsigned int c = 0; c < mesh.cells.size(); ++c)
@@ -162,7 +213,7 @@ namespace geocone::GEOCONE_DIM
           for (const unsigned int v : mesh.cells[c])
             drainable[v] +=
               scene.materials.law(mesh.material[c]).drainable_porosity() *
-              mesh.area(c) / 3. * measure[c];
+              mesh.cell_size(c) / FlowMesh::n_corners * measure[c];
       }
   }
 
@@ -210,9 +261,9 @@ namespace geocone::GEOCONE_DIM
   void
   FlowOnMesh::refine(const Seepage::Step &step)
   {
-    const Triangles next =
-      mesh_with(adapted_sizes(mesh, jumps(), 2. * mesh.cells.size()));
-    const TriangleField last(mesh.vertices, mesh.cells, solution.s);
+    const FlowMesh     next(refined<FlowMesh::Simplices>(
+      scene, mesh, jumps(), 2 * mesh.cells.size(), comm));
+    const SimplexField last(mesh.vertices, mesh.cells, solution.s);
     discharge_before = discharge();
     take(next);
     std::vector<double> start;
@@ -413,30 +464,43 @@ namespace geocone::GEOCONE_DIM
     return sum;
   }
 
-  std::vector<unsigned int>
-  FlowOnMesh::edges_of(const SeepageBoundary &boundary) const
+  FlowOnMesh::Part
+  FlowOnMesh::part_of(const SeepageBoundary &boundary) const
   {
-    std::vector<unsigned int> all;
+    Part part;
     if (boundary.drain.empty())
       {
-        for (const auto &held : mesh.held_edges(boundary))
-          all.push_back(held.edge);
-        return all;
+        part.facets = mesh.outer_facets(boundary);
+        for (const unsigned int f : part.facets)
+          for (const unsigned int v : mesh.facet_vertices[f])
+            part.vertices.push_back(v);
+        return part;
       }
-    for (unsigned int e = 0; e < mesh.edges.size(); ++e)
+    double rest = 0.; // without edges
+    for (std::size_t i = 1; i < boundary.drain.size(); ++i)
+      rest += boundary.drain[i].distance(boundary.drain[i - 1]);
+    const double length = rest;
+    for (unsigned int e = 0; e < mesh.connections.size(); ++e)
       {
-        const auto &[a, b] = mesh.edges[e].vertices;
-        if (boundary.is_on_drain(mesh.vertices[a]) &&
-            boundary.is_on_drain(mesh.vertices[b]))
-          all.push_back(e);
+        const auto &[a, b] = mesh.connections[e];
+        if (!boundary.is_on_drain(mesh.vertices[a]) ||
+            !boundary.is_on_drain(mesh.vertices[b]))
+          continue;
+        rest -= mesh.vertices[a].distance(mesh.vertices[b]);
+        part.vertices.insert(part.vertices.end(), {a, b});
+        if (dim == 2) // the edge is a facet
+          part.facets.push_back(e);
       }
-    if (all.empty())
-      throw InputError(boundary.parameter("Drain"),
-                       dealii::Patterns::Tools::to_string(boundary.drain),
-                       "a line in the body",
-                       "choose points inside of it; in a mesh of a file drains "
-                       "follow edges of cells");
-    return all;
+    if (part.vertices.empty() || (dim == 3 && rest > 1e-6 * length))
+      throw InputError(
+        boundary.parameter("Drain"),
+        dealii::Patterns::Tools::to_string(boundary.drain),
+        dim == 2 ? "a line in the body" : "a line along edges of the mesh",
+        dim == 2 ? "choose points inside of it; in a mesh of a file "
+                   "drains follow edges of cells"
+                 : "let it follow lines of the grid of 'Mesh', or edges "
+                   "of the cells of a file");
+    return part;
   }
 
   void
@@ -447,9 +511,8 @@ namespace geocone::GEOCONE_DIM
         {
           const SeepageBoundary &boundary = *scene.water.seepage.list[b];
           double                 lowest   = std::numeric_limits<double>::max();
-          for (const unsigned int e : edges_of(boundary))
-            for (const unsigned int v : mesh.edges[e].vertices)
-              lowest = std::min(lowest, mesh.vertices[v][1]);
+          for (const unsigned int v : part_of(boundary).vertices)
+            lowest = std::min(lowest, mesh.vertices[v][1]);
           if (!(*levels[b] > lowest))
             throw InputError(boundary.parameter("Level"),
                              *levels[b],
@@ -492,17 +555,14 @@ namespace geocone::GEOCONE_DIM
           sum += boundary->rain(time - duration * (k + 0.5) / n_used);
         rain.push_back(sum / n_used);
       }
-    for (unsigned int e = 0; e < mesh.edges.size(); ++e)
-      if (boundary_of_edge[e] >= 0)
+    for (unsigned int f = 0; f < mesh.facet_vertices.size(); ++f)
+      if (boundary_of_facet[f] >= 0)
         {
-          const auto       &ends = mesh.edges[e].vertices;
-          const Point<dim> &a    = mesh.vertices[ends[0]],
-                           &b    = mesh.vertices[ends[1]];
           const double flow =
-            rain[boundary_of_edge[e]] * std::abs(b[0] - a[0]) *
-            Geometry::measure(scene.geometry.symmetry, a + 0.5 * (b - a));
-          for (const unsigned int v : ends)
-            all.rain[v] += flow / 2.;
+            rain[boundary_of_facet[f]] * mesh.projected_size(f) *
+            Geometry::measure(scene.geometry.symmetry, mesh.facet_centre(f));
+          for (const unsigned int v : mesh.facet_vertices[f])
+            all.rain[v] += flow / dim;
         }
     return all;
   }
@@ -543,28 +603,28 @@ namespace geocone::GEOCONE_DIM
   FlowOnMesh::jumps() const
   {
     const auto          q = velocities();
-    std::vector<double> jump(mesh.edges.size(), 0.);
+    std::vector<double> jump(mesh.facet_vertices.size(), 0.);
     std::vector<double> stiffness(jump.size(), 0.);
     for (unsigned int c = 0; c < mesh.cells.size(); ++c)
       {
         const auto g = mesh.gradients(c);
-        for (unsigned int i = 0; i < 3; ++i)
+        for (unsigned int i = 0; i < FlowMesh::n_corners; ++i)
           {
-            const unsigned int e = mesh.edges_of_cell[c][i];
-            jump[e] += q[c] * g[i] / g[i].norm();
-            stiffness[e] += trace(permeability[mesh.material[c]]);
+            const unsigned int f = mesh.facets_by_cell[c][i];
+            jump[f] += q[c] * g[i] / g[i].norm();
+            stiffness[f] += trace(permeability[mesh.material[c]]);
           }
       }
+    // Size of a facet times that of the cell across it.
+    const auto weight = [&](const unsigned int f) {
+      const double size = mesh.facet_size(f);
+      return dim == 2 ? size * size : size * std::sqrt(size);
+    };
     std::vector<double> error(mesh.cells.size(), 0.);
     for (unsigned int c = 0; c < mesh.cells.size(); ++c)
-      for (const unsigned int e : mesh.edges_of_cell[c])
-        if (boundary_of_edge[e] < 0)
-          {
-            const auto  &ends = mesh.edges[e].vertices;
-            const double length =
-              mesh.vertices[ends[0]].distance(mesh.vertices[ends[1]]);
-            error[c] += length * length * jump[e] * jump[e] / stiffness[e];
-          }
+      for (const unsigned int f : mesh.facets_by_cell[c])
+        if (boundary_of_facet[f] < 0)
+          error[c] += weight(f) * jump[f] * jump[f] / stiffness[f];
     return error;
   }
 
@@ -576,27 +636,38 @@ namespace geocone::GEOCONE_DIM
       u *= scene.water.weight();
     for (unsigned int c = 0; c < mesh.cells.size(); ++c)
       for (const unsigned int v : mesh.cells[c])
-        size[v] = std::max(size[v], std::sqrt(mesh.area(c)));
+        size[v] = std::max(size[v],
+                           dim == 2 ? std::sqrt(mesh.cell_size(c))
+                                    : std::cbrt(6. * mesh.cell_size(c)));
     // Height above the free surface of unsaturated vertices: half a cell.
     const auto depth = [&](const unsigned int v) {
       return solution.head[v] > 0. || is_unsaturated()
                ? solution.head[v]
                : (solution.saturation[v] - 1.) / 2. * size[v];
     };
-    std::vector<std::array<Point<dim>, 2>> surface;
+    std::vector<std::array<Point<dim>, dim>> surface;
     for (const auto &cell : mesh.cells)
       {
-        std::vector<Point<dim>> ends;
-        for (unsigned int i = 0; i < 3; ++i)
+        std::vector<unsigned int> wet, dry;
+        for (const unsigned int v : cell)
+          (depth(v) > 0. ? wet : dry).push_back(v);
+        // Neighbours in the list are on a facet.
+        std::vector<Point<dim>> corners;
+        for (unsigned int i = 0; i < wet.size(); ++i)
+          for (unsigned int j = 0; j < dry.size(); ++j)
+            {
+              const unsigned int a = wet[i],
+                                 b = dry[i % 2 == 0 ? j : dry.size() - 1 - j];
+              corners.push_back(mesh.vertices[a] +
+                                depth(a) / (depth(a) - depth(b)) *
+                                  (mesh.vertices[b] - mesh.vertices[a]));
+            }
+        for (std::size_t i = 0; i + 1 < corners.size(); i += 2)
           {
-            const unsigned int a = cell[i], b = cell[(i + 1) % 3];
-            if ((depth(a) > 0.) != (depth(b) > 0.))
-              ends.push_back(mesh.vertices[a] +
-                             depth(a) / (depth(a) - depth(b)) *
-                               (mesh.vertices[b] - mesh.vertices[a]));
+            surface.emplace_back();
+            for (unsigned int k = 0; k < dim; ++k)
+              surface.back()[k] = corners[(i + k) % corners.size()];
           }
-        if (ends.size() == 2)
-          surface.push_back({{ends[0], ends[1]}});
       }
     return {{mesh.vertices, mesh.cells, pressure}, surface, is_unsaturated()};
   }
@@ -646,7 +717,8 @@ namespace geocone::GEOCONE_DIM
     double                         largest = 0.;
     for (const auto &k : permeability)
       largest = std::max(largest, trace(k));
-    return discharge() > 1e-14 * largest * body.side_length(1);
+    const double width = dim == 2 ? 1. : body.side_length(0);
+    return discharge() > 1e-14 * largest * body.side_length(1) * width;
   }
 
   std::string
@@ -661,16 +733,17 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
-  let_water_flow(Scene         &scene,
-                 const MPI_Comm comm,
-                 Log           &log,
-                 const bool     dry_run,
-                 const double   time)
+  let_water_flow(Scene                &scene,
+                 const MPI_Comm        comm,
+                 Log                  &log,
+                 const bool            dry_run,
+                 const double          time,
+                 const MeshParameters *parameters)
   {
     if (!scene.water.seepage.acts())
       return;
     const auto               steps = scene.water.flow_steps();
-    FlowOnMesh               flow(scene, comm);
+    FlowOnMesh               flow(scene, comm, parameters);
     std::vector<Water::Flow> flows;
     if (dry_run) // the first flow on the first mesh stands for all
       {
@@ -683,8 +756,9 @@ namespace geocone::GEOCONE_DIM
           dealii::Timer timer;
           flow.solve(step);
           if (step.duration == 0.)
-            log.print(format("seepage: %zu triangles, ",
-                             flow.triangles().cells.size()) +
+            log.print(format("seepage: %zu %s, ",
+                             flow.current_mesh().cells.size(),
+                             dim == 2 ? "triangles" : "tetrahedra") +
                       flow.text() + format("; %.2g s", timer.cpu_time()));
           flows.push_back(flow.result());
         }

@@ -17,7 +17,7 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    using Permeabilities = std::vector<SymmetricTensor<2, 2>>;
+    using Permeabilities = std::vector<SymmetricTensor<2, dim>>;
 
     /** psi of unsaturated vertices is a tiny negative multiple of 1 - chi, of the height
      *  of the body: this determines chi where no water arrives and none can leave. */
@@ -33,11 +33,11 @@ namespace geocone::GEOCONE_DIM
     class FreeSurfaceBalance : public FlowBalance
     {
     public:
-      FreeSurfaceBalance(const Triangles           &triangles,
+      FreeSurfaceBalance(const FlowMesh            &mesh,
                          const Permeabilities      &permeability,
                          const std::vector<double> &measure,
                          const FlowConditions      &conditions)
-        : FlowBalance(triangles, permeability, measure, conditions)
+        : FlowBalance(mesh, permeability, measure, conditions)
       {}
 
       /** Sets the negative pressure of unsaturated vertices, as a part of the height of
@@ -54,9 +54,9 @@ namespace geocone::GEOCONE_DIM
         std::vector<double> r(n, 0.), outflow(n);
         scale.assign(n, 0.);
         set_values(s);
-        for (unsigned int e = 0; e < edges.size(); ++e)
+        for (unsigned int e = 0; e < connections.size(); ++e)
           {
-            const auto [i, j] = edges[e].vertices;
+            const auto [i, j] = connections[e];
             const double head = values[j].psi - values[i].psi,
                          rise = y[j] - y[i],
                          flow = conductance[e] *
@@ -90,9 +90,9 @@ namespace geocone::GEOCONE_DIM
         for (unsigned int v = 0; v < n; ++v)
           doutflow[v] = values[v].doutflow;
         begin_derivative(doutflow);
-        for (unsigned int e = 0; e < edges.size(); ++e)
+        for (unsigned int e = 0; e < connections.size(); ++e)
           {
-            const auto [i, j]    = edges[e].vertices;
+            const auto [i, j]    = connections[e];
             const unsigned int u = upstream(e);
             const double       t = conductance[e],
                          gravity = t * (y[j] - y[i]) * values[u].dchi;
@@ -143,7 +143,7 @@ namespace geocone::GEOCONE_DIM
       unsigned int
       upstream(const unsigned int e) const
       {
-        const auto [i, j] = edges[e].vertices;
+        const auto [i, j] = connections[e];
         return conductance[e] * (y[j] - y[i]) > 0. ? j : i;
       }
 
@@ -155,7 +155,7 @@ namespace geocone::GEOCONE_DIM
   } // namespace
 
   FlowSolution
-  solve_flow(const Triangles           &triangles,
+  solve_flow(const FlowMesh            &mesh,
              const Permeabilities      &permeability,
              const std::vector<double> &measure,
              const FlowConditions      &conditions,
@@ -164,11 +164,11 @@ namespace geocone::GEOCONE_DIM
     for (unsigned int v = 0; v < start.size(); ++v)
       if (conditions.kind[v] == FlowConditions::Kind::head)
         start[v] = conditions.head[v];
-    FreeSurfaceBalance balance(triangles, permeability, measure, conditions);
+    FreeSurfaceBalance balance(mesh, permeability, measure, conditions);
     FlowSolution       flow;
     const auto         solver = make_umfpack();
     solver->analyse(balance.derivative_pattern());
-    flow.s = start;
+    flow.s               = start;
     const auto converges = [&](const double epsilon) {
       balance.regularise(epsilon);
       return iterate(balance, *solver, most_iterations, wanted, flow);
@@ -211,19 +211,19 @@ namespace geocone::GEOCONE_DIM
   }
 
   Tensor<1, dim>
-  darcy_velocity(const Triangles      &triangles,
+  darcy_velocity(const FlowMesh       &mesh,
                  const Permeabilities &permeability,
                  const FlowSolution   &flow,
                  const unsigned int    cell)
   {
-    const auto   g = triangles.gradients(cell);
-    Tensor<1, 2> gradient;
-    for (unsigned int i = 0; i < 3; ++i)
+    const auto     g = mesh.gradients(cell);
+    Tensor<1, dim> gradient;
+    for (unsigned int i = 0; i < FlowMesh::n_corners; ++i)
       {
-        const unsigned int v = triangles.cells[cell][i];
+        const unsigned int v = mesh.cells[cell][i];
         gradient += flow.head[v] * g[i];
-        gradient[1] += flow.saturation[v] / 3.;
+        gradient[1] += flow.saturation[v] / FlowMesh::n_corners;
       }
-    return -1. * (permeability[triangles.material[cell]] * gradient);
+    return -1. * (permeability[mesh.material[cell]] * gradient);
   }
 } // namespace geocone::GEOCONE_DIM

@@ -31,26 +31,26 @@ namespace geocone::GEOCONE_DIM
     public:
       /** @param step size (s); 0: steady
        *  @param water_before at the vertices (m^2) */
-      RichardsBalance(const Triangles                          &triangles,
-                      const std::vector<SymmetricTensor<2, 2>> &permeability,
-                      const std::vector<double>                &measure,
-                      const std::vector<const Retention *>     &curves,
-                      const std::vector<UnsaturatedFlow::Part> &volumes,
-                      const FlowConditions                     &conditions,
-                      const double                              step,
-                      const std::vector<double>                &water_before)
-        : FlowBalance(triangles, permeability, measure, conditions)
+      RichardsBalance(const FlowMesh                             &mesh,
+                      const std::vector<SymmetricTensor<2, dim>> &permeability,
+                      const std::vector<double>                  &measure,
+                      const std::vector<const Retention *>       &curves,
+                      const std::vector<UnsaturatedFlow::Part>   &volumes,
+                      const FlowConditions                       &conditions,
+                      const double                                step,
+                      const std::vector<double>                  &water_before)
+        : FlowBalance(mesh, permeability, measure, conditions)
         , volumes(volumes)
         , step(step)
         , water_before(water_before)
       {
         std::map<std::pair<unsigned int, const Retention *>, double> sums;
-        for (unsigned int c = 0; c < triangles.cells.size(); ++c)
-          for (unsigned int i = 0; i < 3; ++i)
+        for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+          for (unsigned int i = 0; i < FlowMesh::n_connections; ++i)
             {
-              const unsigned int m = triangles.material[c];
-              sums[{triangles.edges_of_cell[c][i], curves[m]}] +=
-                edge_conductance(triangles, permeability[m], measure[c], c, i);
+              const unsigned int m = mesh.material[c];
+              sums[{mesh.connections_of_cell[c][i], curves[m]}] +=
+                edge_conductance(mesh, permeability[m], measure[c], c, i);
             }
         for (const auto &[key, sum] : sums)
           flows.push_back({key.first, key.second, sum});
@@ -71,7 +71,7 @@ namespace geocone::GEOCONE_DIM
           }
         for (const ConductancePart &part : flows)
           {
-            const auto [i, j] = edges[part.edge].vertices;
+            const auto [i, j] = connections[part.edge];
             const double head = psi[j] - psi[i], rise = y[j] - y[i],
                          k = part.curve->at(psi[upstream(part)]).permeability,
                          flow = part.conductance * k * (head + rise),
@@ -115,7 +115,7 @@ namespace geocone::GEOCONE_DIM
         };
         for (const ConductancePart &part : flows)
           {
-            const auto [i, j]     = edges[part.edge].vertices;
+            const auto [i, j]     = connections[part.edge];
             const unsigned int u  = upstream(part);
             const auto         at = part.curve->at(psi[u]);
             const double       t  = part.conductance * at.permeability,
@@ -145,7 +145,7 @@ namespace geocone::GEOCONE_DIM
       unsigned int
       upstream(const ConductancePart &part) const
       {
-        const auto [i, j] = edges[part.edge].vertices;
+        const auto [i, j] = connections[part.edge];
         return part.conductance * (psi[j] + y[j] - psi[i] - y[i]) > 0. ? j : i;
       }
 
@@ -157,15 +157,15 @@ namespace geocone::GEOCONE_DIM
     };
 
     std::vector<UnsaturatedFlow::Part>
-    parts_of_vertices(const Triangles                      &triangles,
+    parts_of_vertices(const FlowMesh                       &mesh,
                       const std::vector<double>            &measure,
                       const std::vector<const Retention *> &curves)
     {
       std::map<std::pair<unsigned int, const Retention *>, double> sums;
-      for (unsigned int c = 0; c < triangles.cells.size(); ++c)
-        for (const unsigned int v : triangles.cells[c])
-          sums[{v, curves[triangles.material[c]]}] +=
-            triangles.area(c) / 3. * measure[c];
+      for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+        for (const unsigned int v : mesh.cells[c])
+          sums[{v, curves[mesh.material[c]]}] +=
+            mesh.cell_size(c) / FlowMesh::n_corners * measure[c];
       std::vector<UnsaturatedFlow::Part> parts;
       for (const auto &[key, sum] : sums)
         parts.push_back({key.first, key.second, sum});
@@ -174,15 +174,15 @@ namespace geocone::GEOCONE_DIM
   } // namespace
 
   UnsaturatedFlow::UnsaturatedFlow(
-    const Triangles                          &triangles,
-    const std::vector<SymmetricTensor<2, 2>> &permeability,
-    const std::vector<double>                &measure,
-    const std::vector<const Retention *>     &curves)
-    : triangles(triangles)
+    const FlowMesh                             &mesh,
+    const std::vector<SymmetricTensor<2, dim>> &permeability,
+    const std::vector<double>                  &measure,
+    const std::vector<const Retention *>       &curves)
+    : mesh(mesh)
     , permeability(permeability)
     , measure(measure)
     , curves(curves)
-    , parts(parts_of_vertices(triangles, measure, curves))
+    , parts(parts_of_vertices(mesh, measure, curves))
   {}
 
   std::pair<FlowSolution, bool>
@@ -196,7 +196,7 @@ namespace geocone::GEOCONE_DIM
     constexpr double          wanted = 1e-13;
     const std::vector<double> water_before =
       step > 0. ? water(before) : std::vector<double>();
-    RichardsBalance balance(triangles,
+    RichardsBalance balance(mesh,
                             permeability,
                             measure,
                             curves,
@@ -235,7 +235,8 @@ namespace geocone::GEOCONE_DIM
     for (unsigned int v = 0; v < head.size(); ++v)
       if (conditions.kind[v] == FlowConditions::Kind::seepage_face)
         head[v] = std::min(head[v], 0.);
-    double                 h          = 1e-3 * std::sqrt(volume) / fastest;
+    double h =
+      1e-3 * (dim == 2 ? std::sqrt(volume) : std::cbrt(volume)) / fastest;
     const double           longest    = 1e9 * h;
     constexpr unsigned int most_steps = 300;
     for (unsigned int i = 0; i < most_steps && h < longest; ++i)
@@ -289,22 +290,22 @@ namespace geocone::GEOCONE_DIM
   }
 
   dealii::Tensor<1, dim>
-  unsaturated_velocity(const Triangles                          &triangles,
-                       const std::vector<SymmetricTensor<2, 2>> &permeability,
-                       const Retention                          &curve,
-                       const std::vector<double>                &head,
-                       const unsigned int                        cell)
+  unsaturated_velocity(const FlowMesh                             &mesh,
+                       const std::vector<SymmetricTensor<2, dim>> &permeability,
+                       const Retention                            &curve,
+                       const std::vector<double>                  &head,
+                       const unsigned int                          cell)
   {
-    const auto             g = triangles.gradients(cell);
+    const auto             g = mesh.gradients(cell);
     dealii::Tensor<1, dim> gradient;
     gradient[1] = 1.;
     double k    = 0.;
-    for (unsigned int i = 0; i < 3; ++i)
+    for (unsigned int i = 0; i < FlowMesh::n_corners; ++i)
       {
-        const double psi = head[triangles.cells[cell][i]];
+        const double psi = head[mesh.cells[cell][i]];
         gradient += psi * g[i];
-        k += curve.at(psi).permeability / 3.;
+        k += curve.at(psi).permeability / FlowMesh::n_corners;
       }
-    return -k * (permeability[triangles.material[cell]] * gradient);
+    return -k * (permeability[mesh.material[cell]] * gradient);
   }
 } // namespace geocone::GEOCONE_DIM

@@ -4,10 +4,16 @@
 #include <geocone/base/exceptions.h>
 #include <geocone/base/resources.h>
 #include <geocone/base/unused_parameters.h>
+#include <geocone/materials/retention.h>
+#include <geocone/solid_bounds/solid_certificate_files.h>
+#include <geocone/solid_bounds/solid_fields.h>
+#include <geocone/solid_bounds/solid_gap.h>
+#include <geocone/solid_bounds/solid_limit_analysis.h>
 #include <geocone/mesh/bisection.h>
 #include <geocone/mesh/fitted_mesh.h>
 #include <geocone/output/model_of_tetrahedra.h>
 #include <geocone/scene/magnitudes.h>
+#include <geocone/seepage/flow_on_mesh.h>
 #include <geocone/solid_bounds/solid_certificate_files.h>
 #include <geocone/solid_bounds/solid_fields.h>
 #include <geocone/solid_bounds/solid_gap.h>
@@ -42,7 +48,8 @@ namespace geocone::GEOCONE_DIM
                  "of a rigid-plastic body with associated flow, on tetrahedra, "
                  "independent of steps, elasticity and inertia. Strength "
                  "reduction: strict bounds of the factor of safety, by which c "
-                 "and tan(phi) are divided at collapse.");
+                 "and tan(phi) are divided at collapse. Seepage: flow of water "
+                 "through the pores at rest.");
     declare_parameters(load);
     limit_output.declare_certificates();
     velocities.declare(
@@ -60,11 +67,15 @@ namespace geocone::GEOCONE_DIM
   void
   SolidLimitAnalysis::prepare_water(const RunOptions &)
   {
-    if (scene.water.varies_in_cells())
-      scene.water.refuse(
-        where() + " in three dimensions",
-        "bounds of several meshes are those of one load, but pressures of a "
-        "file would be linear in the cells of each mesh: give a 'Water/Table'");
+    prepare_flow();
+    for (unsigned int m = 0; m < scene.materials.size(); ++m)
+      if (scene.water.seepage.acts() &&
+          scene.materials.law(m).retention().adds_strength())
+        throw InputError("Materials/" + scene.materials.name(m) +
+                           "/Bishop parameter",
+                         "chi of a suction",
+                         "none with " + where() + " in three dimensions",
+                         "leave it out, which is conservative");
   }
 
   std::vector<std::string>
@@ -74,6 +85,12 @@ namespace geocone::GEOCONE_DIM
     prepare_scene(options);
     mesh_parameters.prepare(scene.geometry, method);
     tetrahedra.emplace(fitted_mesh(mesh_parameters, scene, comm));
+    let_water_flow(scene,
+                   comm,
+                   log,
+                   options.dry_run,
+                   scene.water.seepage.time,
+                   &mesh_parameters);
     if (scene.water.acts())
       {
         const dealii::BoundingBox<dim> body(tetrahedra->vertices);
@@ -245,7 +262,7 @@ namespace geocone::GEOCONE_DIM
     check_finite(level.upper + level.lower + level.gap);
     add_level(level, now);
     for_each_claim(level,
-                   best_of(limit_output.all_records()),
+                   certified_by(limit_output.all_records()),
                    [&](const CertificateClaim &claim) {
                      write_certificate(limit_output.folder(),
                                        load.on(scene, *tetrahedra),
@@ -269,7 +286,7 @@ namespace geocone::GEOCONE_DIM
   LoadBracket
   SolidLimitAnalysis::bracket() const
   {
-    return described(best_of(limit_output.all_records()));
+    return described(certified_by(limit_output.all_records()));
   }
 
   void

@@ -31,11 +31,9 @@ namespace geocone::GEOCONE_DIM
     const bool is_live =
       factor == LoadFactor::weight || factor == LoadFactor::all;
     (is_live ? load.live : load.dead) = b;
-    // No cell crosses the water table, at which the first mesh is divided.
     if (scene->water.acts())
       (factor == LoadFactor::all ? load.live : load.dead) +=
-        scene->water.force(tetrahedra->centre(cell)) * units.length /
-        units.stress;
+        seepage_force(cell) * units.length / units.stress;
     return load;
   }
 
@@ -47,6 +45,21 @@ namespace geocone::GEOCONE_DIM
     return tetrahedra->facets[facet].cells[1] == Tetrahedra::none &&
            facet_conditions[facet].kind == FacetCondition::Kind::free &&
            load.dead.norm() == 0. && load.live.norm() == 0.;
+  }
+
+  Tensor<1, dim>
+  SolidScene::seepage_force(const unsigned int cell) const
+  {
+    // No cell crosses the water table, at which the first mesh is divided.
+    const Water &water = scene->water;
+    if (!water.varies_in_cells())
+      return water.force(tetrahedra->centre(cell));
+    const auto     g = tetrahedra->gradients(cell);
+    Tensor<1, dim> force;
+    for (unsigned int i = 0; i < 4; ++i)
+      force -=
+        water.pressure(tetrahedra->vertices[tetrahedra->cells[cell][i]]) * g[i];
+    return force;
   }
 
   std::array<double, 4>

@@ -5,14 +5,19 @@ run()
 {
   "$program" "$root/tests/three/bounds_solver.prm" --quiet --output "$1" \
     --set 'Analysis/Kind = strength reduction' --set "Materials/clay/Density = $2" \
-    --set "Water/Table = $3"
+    --set "Water/Table = $3" "${@:4}"
 }
 run dry 100 ''
 run submerged 1081 '0, 3' # 9810 N/m^3 over g = 10 m/s^2
+# The water as the flow between equal levels: at rest.
+run flow 1081 '' --set 'Materials/clay/Permeability = 1e-9' --set 'Seepage/Names = lake' \
+  --set 'Seepage/lake/Sides = left, top' --set 'Seepage/lake/Level = 3' --set 'Seepage/Cells = 20'
 PYTHONPATH=$root/python /usr/bin/python3 -B - <<'PYTHON'
 from geocone.reader import Run
 
 for bound in "lower", "upper":
-    dry, submerged = (Run(name).value(f"safety/{bound}") for name in ("dry", "submerged"))
+    dry, submerged, flow = (Run(name).value(f"safety/{bound}")
+                            for name in ("dry", "submerged", "flow"))
     assert abs(dry / submerged - 1.) < 1e-4, (bound, dry, submerged)
+    assert abs(flow / submerged - 1.) < 1e-6, (bound, flow, submerged)
 PYTHON

@@ -133,6 +133,12 @@ namespace geocone::GEOCONE_DIM
       const LoadBracket                                   &best,
       const std::function<void(const CertificateClaim &)> &write) const;
 
+    /** Returns the largest lower bound and the smallest upper bound on the load
+     *  that have been certified on any mesh. If water pressures differ between
+     *  meshes, the bracket of the last mesh with both bounds is returned. */
+    LoadBracket
+    certified_by(const std::vector<BoundLevel> &levels) const;
+
     /** Returns true if no further mesh is required. @param gap certified so far */
     bool
     is_complete(const std::optional<double> &gap) const;
@@ -143,6 +149,11 @@ namespace geocone::GEOCONE_DIM
     {
       return growth * n_cells > 1.15 * most_cells || number == programme()[0];
     }
+
+    /** Prepares the stages whose flow problems determine the pore pressures.
+     *  @throws InputError if 'Seepage/Time' is not in them */
+    void
+    prepare_flow();
 
     /** Prepares the parameters of a mesh of triangles. @throws InputError for
      *  quadrilaterals */

@@ -127,12 +127,6 @@ namespace geocone::GEOCONE_DIM
     std::vector<std::array<double, 2>>
     estimates_by_davis() const;
 
-    /** Returns the largest lower bound and the smallest upper bound on the load
-     *  that have been certified on any mesh. If water pressures differ between
-     *  meshes, the bracket of the last mesh with both bounds is returned. */
-    LoadBracket
-    certified_by(const std::vector<BoundLevel> &levels) const;
-
     /** Computes, on the current mesh, the gradients of both bounds. */
     std::vector<Gradient>
     gradients_of_last() const;

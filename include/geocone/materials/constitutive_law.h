@@ -89,7 +89,7 @@ namespace geocone::GEOCONE_DIM
     }
 
     /** Hydraulic conductivity (m/s). @throws InputError if it is not given */
-    dealii::SymmetricTensor<2, 2>
+    dealii::SymmetricTensor<2, dim>
     permeability() const;
 
     /** Drainable porosity (-): volume of water drained per unit volume of soil

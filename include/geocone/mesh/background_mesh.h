@@ -76,6 +76,13 @@ namespace geocone::GEOCONE_DIM
     void
     prepare(const Scene &scene, const Method &method);
 
+    /** @pre prepare() */
+    const MeshParameters &
+    mesh_parameters() const
+    {
+      return parameters;
+    }
+
     /**
      * Computes the grid line coordinates (m) of a uniform grid of rectangles
      * without creating the mesh. Empty for other meshes. @throws InputError as

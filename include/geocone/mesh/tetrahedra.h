@@ -18,9 +18,8 @@ namespace geocone::GEOCONE_DIM
   /** Tetrahedral mesh, stored in plain arrays of vertices, cells and facets. */
   struct Tetrahedra
   {
-    /** Constructs the tetrahedral mesh from a coarse mesh. @param mesh
-     *  tetrahedral mesh, or a tensor grid; each hexahedron becomes six
-     *  tetrahedra */
+    /** Constructs the tetrahedral mesh from a coarse mesh. Each hexahedron
+     *  becomes six tetrahedra. */
     explicit Tetrahedra(const CoarseMesh &mesh);
 
     static constexpr unsigned int none = -1;

@@ -4,6 +4,8 @@
 #ifndef geocone_run_seepage_simulation_h
 #define geocone_run_seepage_simulation_h
 
+#include <geocone/mesh/mesh_parameters.h>
+#include <geocone/mesh/method.h>
 #include <geocone/output/field_files.h>
 #include <geocone/output/table_output.h>
 #include <geocone/run/simulation.h>
@@ -21,7 +23,7 @@ namespace geocone::GEOCONE_DIM
   struct FlowLevel
   {
     double              time      = 0.; ///< (s)
-    unsigned int        triangles = 0, iterations = 0;
+    unsigned int        cells = 0, iterations = 0;
     double              discharge = 0., error = 0.; ///< (m^2/s), (-)
     double              stored = 0.; ///< stored water, transient flow (m^2)
     std::vector<double> inflows;     ///< inflow at each boundary (m^2/s)
@@ -32,7 +34,7 @@ namespace geocone::GEOCONE_DIM
     state(StateRow &row)
     {
       row(time,
-          triangles,
+          cells,
           iterations,
           discharge,
           error,
@@ -140,6 +142,8 @@ namespace geocone::GEOCONE_DIM
     solve_next();
 
     Scene                      scene;
+    Method                     method;
+    MeshParameters             mesh_parameters; ///< three dimensions
     SeepageOutput              seepage_output;
     std::optional<FlowOnMesh>  flow;
     std::vector<Seepage::Step> steps;   ///< flows to be solved

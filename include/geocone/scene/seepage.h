@@ -106,7 +106,7 @@ namespace geocone::GEOCONE_DIM
     std::vector<Step>
     steps(const Stage &stage, const double begin, const Levels &before) const;
 
-    /** Target number of triangles in the finest mesh of the seepage problem. */
+    /** Target number of cells in the finest mesh of the seepage problem. */
     unsigned int n_cells = 5000;
 
     /** Height y (m) of a water table; the initial pressures are hydrostatic

@@ -7,6 +7,8 @@
 #include <geocone/base/parameter_file.h>
 #include <geocone/boundary/loading.h>
 #include <geocone/functions/pressure_grid.h>
+#include <geocone/boundary/loading.h>
+#include <geocone/functions/simplex_field.h>
 #include <geocone/functions/triangle_field.h>
 #include <geocone/geometry/geometry.h>
 #include <geocone/scene/seepage.h>
@@ -90,8 +92,10 @@ namespace geocone::GEOCONE_DIM
      *  surface. */
     struct Flow
     {
-      TriangleField                                  pressure; ///< (Pa)
-      std::vector<std::array<dealii::Point<dim>, 2>> surface;  ///< free surface
+      SimplexField pressure; ///< (Pa)
+
+      /** Free surface: line segments, or triangles in three dimensions. */
+      std::vector<std::array<dealii::Point<dim>, dim>> surface;
 
       bool has_suction = false; ///< pressure < 0 above the free surface
     };

@@ -7,6 +7,7 @@
 #include <geocone/linear/linear_solver.h>
 #include <geocone/seepage/flow_solution.h>
 
+#include <array>
 #include <vector>
 
 namespace geocone::GEOCONE_DIM
@@ -45,10 +46,11 @@ namespace geocone::GEOCONE_DIM
   protected:
     using Kind = FlowConditions::Kind;
 
-    FlowBalance(const Triangles                                  &triangles,
-                const std::vector<dealii::SymmetricTensor<2, 2>> &permeability,
-                const std::vector<double>                        &measure,
-                const FlowConditions                             &conditions);
+    FlowBalance(
+      const FlowMesh                                     &mesh,
+      const std::vector<dealii::SymmetricTensor<2, dim>> &permeability,
+      const std::vector<double>                          &measure,
+      const FlowConditions                               &conditions);
 
     /** Adds the flow through the boundary to the residual, and replaces the
      *  residual at vertices with a prescribed head.
@@ -73,11 +75,11 @@ namespace geocone::GEOCONE_DIM
         matrix.value[matrix.entry(row, column)] += value;
     }
 
-    const FlowConditions               &conditions;
-    const unsigned int                  n;
-    const std::vector<Triangles::Edge> &edges;
-    std::vector<double>                 conductance; ///< of edges (m/s)
-    std::vector<double> diagonal; ///< sums of absolute conductances
+    const FlowConditions                           &conditions;
+    const unsigned int                              n;
+    const std::vector<std::array<unsigned int, 2>> &connections;
+    std::vector<double> conductance; ///< of connections (m/s)
+    std::vector<double> diagonal;    ///< sums of absolute conductances
     std::vector<double> y, scale;
     double              height = 0.;
     SparseMatrix        matrix;
@@ -87,14 +89,14 @@ namespace geocone::GEOCONE_DIM
     set_pattern();
   };
 
-  /** Conductance T_ij of the edge of a cell opposite to its vertex i, without
-   *  the relative permeability (m/s). */
+  /** Conductance T_ij of connection i of a cell, without the relative
+   *  permeability (m/s; m^2/s in three dimensions). */
   double
-  edge_conductance(const Triangles                     &triangles,
-                   const dealii::SymmetricTensor<2, 2> &permeability,
-                   const double                         measure,
-                   const unsigned int                   cell,
-                   const unsigned int                   i);
+  edge_conductance(const FlowMesh                        &mesh,
+                   const dealii::SymmetricTensor<2, dim> &permeability,
+                   const double                           measure,
+                   const unsigned int                     cell,
+                   const unsigned int                     i);
 
   /** Solves the equations of a flow problem by a nonsmooth Newton method with a
    *  line search.

@@ -5,8 +5,8 @@
 #define geocone_seepage_flow_on_mesh_h
 
 #include <geocone/base/log.h>
-#include <geocone/functions/triangle_field.h>
 #include <geocone/mesh/gmsh_mesh.h>
+#include <geocone/mesh/mesh_parameters.h>
 #include <geocone/scene/scene.h>
 #include <geocone/seepage/flow_solution.h>
 #include <geocone/seepage/unsaturated_flow.h>
@@ -20,17 +20,20 @@ namespace geocone::GEOCONE_DIM
 {
   /** Seepage through the body of a scene. Steady flow is solved on meshes
    *  refined at the free surface and where the velocity varies, transient flow
-   *  on one mesh. If the materials have retention curves, the soil above the
+   *  on one mesh. In three dimensions the first mesh is that of the scene. If the materials have retention curves, the soil above the
    *  free surface is unsaturated (UnsaturatedFlow), otherwise it has no
    *  suction. */
   class FlowOnMesh
   {
   public:
     /** Creates the first mesh of the seepage analysis. Collective.
+     *  @param parameters of the mesh of the scene, in three dimensions
      *  @throws InputError for materials without a permeability or, in transient
      *  flow, a drainable porosity, and for water levels that are not above the
      *  lowest point of their boundary */
-    FlowOnMesh(const Scene &scene, const MPI_Comm comm);
+    FlowOnMesh(const Scene          &scene,
+               const MPI_Comm        comm,
+               const MeshParameters *parameters);
 
     /** Solves steady flow on successively refined meshes, or one time step of
      *  transient flow on the current mesh. Collective.
@@ -63,8 +66,8 @@ namespace geocone::GEOCONE_DIM
     Water::Flow
     result() const;
 
-    const Triangles &
-    triangles() const
+    const FlowMesh &
+    current_mesh() const
     {
       return mesh;
     }
@@ -75,7 +78,7 @@ namespace geocone::GEOCONE_DIM
       return solution;
     }
 
-    /** Darcy velocity of each cell (m/s). */
+    /** Darcy velocity at the centre of each cell (m/s). */
     std::vector<dealii::Tensor<1, dim>>
     velocities() const;
 
@@ -137,16 +140,18 @@ namespace geocone::GEOCONE_DIM
     /** Sets the current mesh and computes its seepage boundaries and drainable
      *  volumes. The latter belong to the vertices. */
     void
-    take(const Triangles &next);
+    take(const FlowMesh &next);
 
-    /** Generates a triangle mesh with given cell sizes. Collective. */
-    Triangles
-    mesh_with(const CellSizes &sizes) const;
+    /** Part of the mesh on a seepage boundary or on a drain. */
+    struct Part
+    {
+      std::vector<unsigned int> facets; ///< none of a drain in three dimensions
+      std::vector<unsigned int> vertices;
+    };
 
-    /** Indices of the mesh edges on a seepage boundary or on a drain.
-     *  @throws InputError if there are none */
-    std::vector<unsigned int>
-    edges_of(const SeepageBoundary &boundary) const;
+    /** @throws InputError if there is none, or no edges follow a drain */
+    Part
+    part_of(const SeepageBoundary &boundary) const;
 
     /** Checks water levels. @throws InputError for a level that is not above
      *  the lowest point of its boundary */
@@ -169,7 +174,7 @@ namespace geocone::GEOCONE_DIM
     std::vector<double>
     hydrostatic(const Seepage::Levels &levels) const;
 
-    /** Refines the mesh adaptively to twice as many triangles and solves steady
+    /** Refines the mesh adaptively to twice as many cells and solves steady
      *  flow. Collective. */
     void
     refine(const Seepage::Step &step);
@@ -206,7 +211,7 @@ namespace geocone::GEOCONE_DIM
     accept(const UnsaturatedFlow &flow, FlowSolution next, const double h);
 
     /** Error indicator of each cell, computed from the jumps of the normal
-     *  velocity across the edges of the cell. */
+     *  velocity across the facets of the cell. */
     std::vector<double>
     jumps() const;
 
@@ -214,25 +219,25 @@ namespace geocone::GEOCONE_DIM
     std::vector<double>
     saturation() const;
 
-    const Scene                               &scene;
-    const MPI_Comm                             comm;
-    const bool                                 is_transient; ///< in any step
-    std::vector<dealii::SymmetricTensor<2, 2>> permeability;
+    const Scene                                 &scene;
+    const MPI_Comm                               comm;
+    const bool                                   is_transient; ///< in any step
+    std::vector<dealii::SymmetricTensor<2, dim>> permeability;
     std::vector<const Retention *> curves; ///< by material; empty: no suction
-    Triangles                      first_mesh;
+    FlowMesh                       first_mesh;
 
     /** @name The current mesh */
     /** @{ */
-    Triangles           mesh;
+    FlowMesh            mesh;
     std::vector<double> measure;     ///< area factor by cell
     std::vector<int>    boundary_of; ///< by vertex; -1: none
-    std::vector<int>    boundary_of_edge;
+    std::vector<int>    boundary_of_facet;
     std::vector<double> drainable; ///< drainable volume by vertex (m^2)
     /** @} */
 
-    FlowSolution          solution;
-    std::optional<double> discharge_before;
-    double                rate_of_storage = 0.; ///< (m^2/s)
+    FlowSolution                solution;
+    std::optional<double>       discharge_before;
+    double                      rate_of_storage = 0.; ///< (m^2/s)
 
     /** @name Time steps in unsaturated soil */
     /** @{ */
@@ -249,13 +254,15 @@ namespace geocone::GEOCONE_DIM
    *  to Scene::water. Collective.
    *  @param dry_run whether to solve only the first flow problem, on a coarse
    *  mesh
-   *  @param time at which the pressures are the initial pore pressures (s) */
+   *  @param time at which the pressures are the initial pore pressures (s)
+   *  @param parameters of the mesh of the scene, in three dimensions */
   void
-  let_water_flow(Scene         &scene,
-                 const MPI_Comm comm,
-                 Log           &log,
-                 const bool     dry_run,
-                 const double   time = 0.);
+  let_water_flow(Scene                &scene,
+                 const MPI_Comm        comm,
+                 Log                  &log,
+                 const bool            dry_run,
+                 const double          time       = 0.,
+                 const MeshParameters *parameters = nullptr);
 } // namespace geocone::GEOCONE_DIM
 
 #endif

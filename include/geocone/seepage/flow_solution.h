@@ -4,7 +4,7 @@
 #ifndef geocone_seepage_flow_solution_h
 #define geocone_seepage_flow_solution_h
 
-#include <geocone/mesh/triangles.h>
+#include <geocone/seepage/flow_mesh.h>
 
 #include <deal.II/base/symmetric_tensor.h>
 
@@ -64,7 +64,7 @@ namespace geocone::GEOCONE_DIM
    *   div q = 0, q = -k (grad psi + chi e_y),
    *   psi >= 0, 1 - chi >= 0, psi (1 - chi) = 0,
    * with the outflow Q >= 0, psi = 0 and (1 - chi) Q = 0 on seepage faces. psi
-   * is linear in triangles; the gravity part of the flow along an edge uses the
+   * is linear in triangles or tetrahedra; the gravity part of the flow along an edge uses the
    * upstream chi, so that the scheme is monotone and chi is in [0, 1] where no
    * off-diagonal entry of the conductance matrix is positive. In a time step of
    * transient flow div q = -n d(chi)/dt by backward Euler, with the drainable
@@ -80,18 +80,19 @@ namespace geocone::GEOCONE_DIM
    * @throws RunError if Newton's method does not converge
    */
   FlowSolution
-  solve_flow(const Triangles                                  &triangles,
-             const std::vector<dealii::SymmetricTensor<2, 2>> &permeability,
-             const std::vector<double>                        &measure,
-             const FlowConditions                             &conditions,
-             std::vector<double>                               start);
+  solve_flow(const FlowMesh                                     &mesh,
+             const std::vector<dealii::SymmetricTensor<2, dim>> &permeability,
+             const std::vector<double>                          &measure,
+             const FlowConditions                               &conditions,
+             std::vector<double>                                 start);
 
   /** Darcy velocity q in a cell (m/s). */
   dealii::Tensor<1, dim>
-  darcy_velocity(const Triangles                                  &triangles,
-                 const std::vector<dealii::SymmetricTensor<2, 2>> &permeability,
-                 const FlowSolution                               &flow,
-                 const unsigned int                                cell);
+  darcy_velocity(
+    const FlowMesh                                     &mesh,
+    const std::vector<dealii::SymmetricTensor<2, dim>> &permeability,
+    const FlowSolution                                 &flow,
+    const unsigned int                                  cell);
 } // namespace geocone::GEOCONE_DIM
 
 #endif

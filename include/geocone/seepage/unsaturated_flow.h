@@ -18,7 +18,7 @@ namespace geocone::GEOCONE_DIM
    *   d(theta)/dt + div q = 0, q = -k k_r (grad psi + e_y).
    * On seepage faces and under rain, psi <= 0, Q >= 0 and psi Q = 0, where Q is
    * the outflow, or the part of the rain that does not infiltrate. psi is
-   * linear in triangles, theta is lumped at vertices, and k_r of an edge is
+   * linear in cells, theta is lumped at vertices, and k_r of an edge is
    * evaluated at its upstream vertex. The scheme is monotone where no
    * off-diagonal entry of the conductance matrix is positive, and exact for
    * hydrostatic pressures. The variable s of a vertex is psi; on seepage faces
@@ -31,10 +31,10 @@ namespace geocone::GEOCONE_DIM
      *  @param curves of each material
      *  @pre all arguments outlive the object */
     UnsaturatedFlow(
-      const Triangles                                  &triangles,
-      const std::vector<dealii::SymmetricTensor<2, 2>> &permeability,
-      const std::vector<double>                        &measure,
-      const std::vector<const Retention *>             &curves);
+      const FlowMesh                                     &mesh,
+      const std::vector<dealii::SymmetricTensor<2, dim>> &permeability,
+      const std::vector<double>                          &measure,
+      const std::vector<const Retention *>               &curves);
 
     /** Solves one time step by the backward Euler method.
      *  @param step size (s); 0: steady flow
@@ -75,22 +75,22 @@ namespace geocone::GEOCONE_DIM
     };
 
   private:
-    const Triangles                                  &triangles;
-    const std::vector<dealii::SymmetricTensor<2, 2>> &permeability;
-    const std::vector<double>                        &measure;
-    const std::vector<const Retention *>             &curves;
-    std::vector<Part>                                 parts;
+    const FlowMesh                                     &mesh;
+    const std::vector<dealii::SymmetricTensor<2, dim>> &permeability;
+    const std::vector<double>                          &measure;
+    const std::vector<const Retention *>               &curves;
+    std::vector<Part>                                   parts;
   };
 
   /** Darcy velocity q in a cell (m/s), with the mean relative permeability of
    *  the vertices of the cell. @param head pressure heads (m) */
   dealii::Tensor<1, dim>
   unsaturated_velocity(
-    const Triangles                                  &triangles,
-    const std::vector<dealii::SymmetricTensor<2, 2>> &permeability,
-    const Retention                                  &curve,
-    const std::vector<double>                        &head,
-    const unsigned int                                cell);
+    const FlowMesh                                     &mesh,
+    const std::vector<dealii::SymmetricTensor<2, dim>> &permeability,
+    const Retention                                    &curve,
+    const std::vector<double>                          &head,
+    const unsigned int                                  cell);
 } // namespace geocone::GEOCONE_DIM
 
 #endif

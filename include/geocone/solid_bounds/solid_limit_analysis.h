@@ -31,7 +31,14 @@ namespace geocone::GEOCONE_DIM
     bool
     is_chosen() const
     {
-      return kind != Kind::steps;
+      return kind == Kind::limit_load || kind == Kind::strength_reduction;
+    }
+
+    /** Returns true if only the flow of water is computed. */
+    bool
+    is_seepage() const
+    {
+      return kind == Kind::seepage;
     }
 
   private:
@@ -97,11 +104,13 @@ namespace geocone::GEOCONE_DIM
     {
       steps,
       limit_load,
-      strength_reduction
+      strength_reduction,
+      seepage
     };
     Choice<Kind> kind = {{{"steps", Kind::steps},
                           {"limit load", Kind::limit_load},
-                          {"strength reduction", Kind::strength_reduction}}};
+                          {"strength reduction", Kind::strength_reduction},
+                          {"seepage", Kind::seepage}}};
 
     enum class Order
     {

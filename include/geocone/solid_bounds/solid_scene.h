@@ -38,6 +38,11 @@ namespace geocone::GEOCONE_DIM
     };
     Load
     body_force(const unsigned int cell) const;
+
+    /** Negative gradient of the pore pressure (N/m^3), which is linear between
+     *  its values at the vertices of a cell unless it is hydrostatic. */
+    dealii::Tensor<1, dim>
+    seepage_force(const unsigned int cell) const;
     std::array<Load, 3>
     tractions(const unsigned int facet) const
     {

@@ -69,7 +69,7 @@ class Model:
         segments = []
         for surface in self.data.get("free_surfaces", []):
             if surface["time_s"] <= time * (1. + 1e-9):
-                segments = surface["segments"]
+                segments = surface.get("segments", [])  # none in three dimensions
         return np.array(segments, dtype=float).reshape(-1, 2, 2)
 
     def absent(self):

@@ -8,7 +8,7 @@ from matplotlib.tri import LinearTriInterpolator, Triangulation
 
 from geocone.plots import overlay
 from geocone.plots.answer import heading
-from geocone.plots.bounds import column, plain_ticks
+from geocone.plots.bounds import cells_of, column, plain_ticks
 from geocone.plots.point_values import vertices_of
 from geocone.style import BLUE, WATER, Skipped, add_bar, panels, plain, save, subplots
 
@@ -53,6 +53,10 @@ def draw_lines_of_flow(axes, mesh, velocity, is_wet):
 def draw_net(run, path):
     """Draws the flow net."""
     field, = run.states("seepage")
+    if field.cells.shape[1] == 4:
+        from geocone.plots import seepage_solid
+        seepage_solid.draw_net(run, field, path)
+        return
     mesh = Mesh(field)
     pressure, head = (mesh.at_nodes(field.data[name][:, 0]) for name in ("pore_pressure", "head"))
     is_wet = pressure > 0.
@@ -78,7 +82,7 @@ def draw_discharge(run, path):
     """Draws the discharge against the triangles of the meshes; of a transient flow the flow
     through each boundary against time."""
     table = run.table("seepage")
-    times, cells = table["time (s)"], table["triangles (-)"]
+    times, (cells, name_of_cells) = table["time (s)"], cells_of(table)
     if len(cells) < 2:
         raise Skipped("there is one mesh only")
     discharge, unit = column(table, "discharge")
@@ -98,7 +102,7 @@ def draw_discharge(run, path):
     if reference is not None and run.value("reference/quantity") == "seepage/discharge":
         axes.axhline(reference, color="k", linestyle="--", linewidth=1.2, label="reference")
         axes.legend()
-    axes.set(xlabel="triangles", ylabel=f"discharge ({unit})", title=heading(run))
+    axes.set(xlabel=name_of_cells, ylabel=f"discharge ({unit})", title=heading(run))
     plain_ticks(axes.xaxis)
     save(figure, run, path)
 
