@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/conditions/loads.h>
+#include <geocone/materials/retention.h>
 #include <geocone/points/quadrature_points.h>
 
 #include <deal.II/base/quadrature_lib.h>
@@ -97,6 +98,8 @@ namespace geocone::GEOCONE_DIM
                         f[d] * values.value(i, q);
                 }
           }
+        if (scene.water.has_suction())
+          add_suction(mesh, space, points, values);
         for (Vector &of_line : of_water)
           of_line.compress(VectorOperation::add);
       }
@@ -116,6 +119,42 @@ namespace geocone::GEOCONE_DIM
                        n_faces,
                        mesh.triangulation().get_communicator(),
                        "this traction acts on no face");
+      }
+  }
+
+  void
+  Loads::add_suction(const BackgroundMesh &mesh,
+                     const Space          &space,
+                     const MaterialPoints &points,
+                     CellValues           &values)
+  {
+    std::vector<types::global_dof_index> nodes;
+    for (unsigned int c = 0; c < points.n_cells(); ++c)
+      {
+        const Retention &soil =
+          scene.materials.law(points.material[points.first_point[c]])
+            .retention();
+        if (!soil.adds_strength())
+          continue;
+        values.reinit(points.cells[c]);
+        space.cell_nodes(points.cells[c], nodes);
+        for (unsigned int q = 0; q < values.weight.size(); ++q)
+          for (unsigned int line = 0; line < of_water.size(); ++line)
+            {
+              const Point<dim> &x = values.position[q];
+              const double      p =
+                values.weight[q] * scene.water.suction_stress(x, soil, line);
+              for (unsigned int i = 0; i < nodes.size(); ++i)
+                {
+                  Tensor<1, dim> divergence = values.gradient(i, q);
+                  if (mesh.is_axisymmetric())
+                    divergence[0] += values.value(i, q) / x[0];
+                  for (unsigned int d = 0; d < dim; ++d)
+                    of_water[line].local_element(
+                      dim * space.local_node(nodes[i]) + d) +=
+                      p * divergence[d];
+                }
+            }
       }
   }
 

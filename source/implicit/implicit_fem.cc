@@ -6,6 +6,7 @@
 #include <geocone/base/over_ranks.h>
 #include <geocone/base/unused_parameters.h>
 #include <geocone/implicit/implicit_fem.h>
+#include <geocone/materials/retention.h>
 #include <geocone/points/point_record.h>
 #include <geocone/points/quadrature_points.h>
 #include <geocone/problem/consolidation.h>
@@ -267,6 +268,12 @@ namespace geocone::GEOCONE_DIM
       if (!boundary->drain.empty())
         refuse("false with drains in the body",
                "leave out 'Seepage/" + boundary->name + "/Drain'");
+    for (unsigned int m = 0; m < scene->materials.size(); ++m)
+      if (scene->water.seepage.acts() &&
+          scene->materials.law(m).retention().adds_strength())
+        refuse("false with a 'Bishop parameter'",
+               "consolidating soil is saturated: leave out 'Materials/" +
+                 scene->materials.name(m) + "/Bishop parameter'");
     if (scene->water.flow_steps().size() > 1)
       refuse("false where the steady pore pressures change in time",
              "keep the water levels of all stages");

@@ -3,6 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/implicit/implicit_mpm.h>
+#include <geocone/materials/retention.h>
 #include <geocone/points/point_elasticity.h>
 #include <geocone/time_stepping/check_removal.h>
 
@@ -102,7 +103,7 @@ namespace geocone::GEOCONE_DIM
   ImplicitMPM::set_up(const NonsmoothNewton &newton)
   {
     problem.reset(); // refers to data that are replaced
-    moving      = std::make_unique<MovingConditions>(*scene, *mesh, *space);
+    moving = std::make_unique<MovingConditions>(*scene, *mesh, *space);
     moving->begin_stage(present_stage);
     constraints =
       std::make_unique<Constraints>(*scene, *mesh, *space, present_stage);
@@ -355,6 +356,33 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
+  ImplicitMPM::add_suction(const MaterialPoints      &points,
+                           const unsigned int         p,
+                           const PointFunctions      &at,
+                           const double               part,
+                           const std::vector<double> &parts,
+                           Vector                    &dst) const
+  {
+    const Retention &soil =
+      scene->materials.law(points.material[p]).retention();
+    if (!soil.adds_strength())
+      return;
+    const Point<dim> &x      = points.position[p];
+    double            stress = 0.;
+    for (std::size_t line = 0; line < parts.size(); ++line)
+      if (parts[line] != 0.)
+        stress += parts[line] * scene->water.suction_stress(x, soil, line);
+    stress *= part * points.volume[p];
+    // The power of chi u is chi u div v.
+    std::array<double, (1 + dim) *dim> at_point = {};
+    for (unsigned int d = 0; d < dim; ++d)
+      at_point[(1 + d) * dim + d] = stress;
+    if (mesh->is_axisymmetric())
+      at_point[0] = stress / x[0];
+    at.scatter<dim, true>(at_point.data(), dst.begin());
+  }
+
+  void
   ImplicitMPM::add_water(const MaterialPoints &points,
                          const double          t,
                          Vector               &dst) const
@@ -372,6 +400,8 @@ namespace geocone::GEOCONE_DIM
                          f += parts[line] * part * points.volume[p] *
                               scene->water.force(points.position[p], line);
                      at.scatter<dim, false>(f.begin_raw(), of_water.begin());
+                     if (scene->water.has_suction())
+                       add_suction(points, p, at, part, parts, of_water);
                    });
     of_water.compress(VectorOperation::add);
     dst += of_water;
@@ -473,7 +503,7 @@ namespace geocone::GEOCONE_DIM
     // By the midpoint rule a node that hits rebounds, but its particles share
     // the rebound with others at the start of the next step. Hence contacts
     // come to rest without ObstacleContact::settle, unlike in fixed meshes.
-    trial       = {};
+    trial = {};
     trial.share =
       constraints->multipliers.low_mass_share(v, lumped_mass, *space);
     const std::string why_not = rejection(trial.share);

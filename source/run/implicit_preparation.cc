@@ -3,7 +3,6 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/conditions/mesh_coverage.h>
-#include <geocone/materials/retention.h>
 #include <geocone/points/initial_overstress.h>
 #include <geocone/run/implicit_simulation.h>
 #include <geocone/run/run_estimate.h>
@@ -20,21 +19,6 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    /** Rejects strength from suction. @throws InputError */
-    void
-    refuse_suction(const Scene &scene)
-    {
-      for (unsigned int m = 0; m < scene.materials.size(); ++m)
-        if (scene.water.seepage.acts() &&
-            scene.materials.law(m).retention().adds_strength())
-          throw InputError("Materials/" + scene.materials.name(m) +
-                             "/Bishop parameter",
-                           "chi of a suction",
-                           "none in steps of FEM and MPM",
-                           "suction adds strength in bounds: 'Analysis/Kind' = "
-                           "strength reduction or limit load");
-    }
-
     /** Whether a material of low dilatancy has nu > 0.49. */
     bool
     is_nearly_incompressible(const Materials &materials)
@@ -157,7 +141,6 @@ namespace geocone::GEOCONE_DIM
     newton.prepare();
     step_control.prepare();
     exact_solution.prepare();
-    refuse_suction(scene);
     if (dim == 2)
       let_water_flow(scene, comm, log, options.dry_run);
     const std::string remark_on_bounds = prepare_mesh(options);

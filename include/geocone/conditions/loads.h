@@ -30,6 +30,8 @@ namespace geocone::GEOCONE_DIM
                     Vector               &weight_per_g,
                     Vector               &lumped_mass);
 
+  struct CellValues;
+
   /**
    * External nodal forces F(t): self-weight, surface tractions and hydrostatic water
    * forces. Forces act on the cells with points. Only loads of the scene are stored.
@@ -63,6 +65,14 @@ namespace geocone::GEOCONE_DIM
     }
 
   private:
+    /** Adds the power of the suction stress, the integral of chi u div v, to the
+     *  forces of each flow. */
+    void
+    add_suction(const BackgroundMesh &mesh,
+                const Space          &space,
+                const MaterialPoints &points,
+                CellValues           &values);
+
     /** A quadrature point of a loaded face. */
     struct LoadedPoint
     {

@@ -214,6 +214,17 @@ namespace geocone::GEOCONE_DIM
     void
     add_water(const MaterialPoints &points, const double t, Vector &dst) const;
 
+    /** Adds the nodal forces of the suction stress at point p to the vector dst.
+     *  @param part of the full gravity
+     *  @param parts of the flows at this time */
+    void
+    add_suction(const MaterialPoints      &points,
+                const unsigned int         p,
+                const PointFunctions      &at,
+                const double               part,
+                const std::vector<double> &parts,
+                Vector                    &dst) const;
+
     void
     begin_motion(const TimeStep       &step,
                  const Kinematics     &kinematics,
