@@ -56,7 +56,7 @@ namespace geocone::GEOCONE_DIM
     SimplexTable table(flow.current_mesh(),
                        dealii::Utilities::MPI::this_mpi_process(comm) == 0);
     const auto  &vertices  = flow.current_mesh().vertices;
-    const auto   q         = flow.velocities();
+    const auto   q         = flow.velocities_at_corners();
     using Index            = unsigned int;
     table.add("pore_pressure", 1, [&](const Index, const Index v, const Index) {
       return unit_weight * flow.flow().head[v];
@@ -87,7 +87,7 @@ namespace geocone::GEOCONE_DIM
       }
     table.add(
       "seepage_velocity", dim, [&](const Index p, const Index, const Index d) {
-        return q[p / FlowMesh::n_corners][d];
+        return q[p][d];
       });
     table.add_materials();
     fields->write(table, path, time, comm);
@@ -142,6 +142,13 @@ namespace geocone::GEOCONE_DIM
       }
     flow.emplace(scene, comm, &mesh_parameters);
     steps = scene.water.flow_steps();
+    // A free surface is refused before the run begins.
+    if (scene.water.seepage.degree > 1)
+      {
+        FlowOnMesh coarse(scene, comm, &mesh_parameters);
+        for (const Seepage::Step &step : steps)
+          coarse.solve_on_first_mesh(step);
+      }
     return {};
   }
 

@@ -150,6 +150,12 @@ namespace geocone::GEOCONE_DIM
                  "of 'Mesh', whose hexahedra are divided, is bisected at "
                  "the free surface and where the velocity changes until it "
                  "has as many; that of transient flows is not.");
+    add_parameter(
+      "Degree",
+      degree,
+      "Polynomial degree of the pressure heads in a cell, 1 to 3: 2 "
+      "and 3 are more accurate in steady flow without a free "
+      "surface, and refused elsewhere.");
     add_parameter("Initial water table",
                   initial_text,
                   "Beginning of a transient flow of unsaturated soil: steady, "
@@ -191,6 +197,9 @@ namespace geocone::GEOCONE_DIM
                        n_cells,
                        "20 to 1000000",
                        "5000 give the flow to about 0.2 %");
+    if (degree < 1 || degree > 3)
+      throw InputError(
+        "Seepage/Degree", degree, "1 | 2 | 3", "1 is right for all flows");
     if (std::none_of(
           list.begin(),
           list.end(),

@@ -192,6 +192,7 @@ namespace geocone::GEOCONE_DIM
   FlowOnMesh::take(const FlowMesh &next)
   {
     mesh = next;
+    confined.reset();
     const auto &list = scene.water.seepage.list;
     boundary_of.assign(mesh.vertices.size(), -1);
     boundary_of_facet.assign(mesh.facet_vertices.size(), -1);
@@ -256,6 +257,8 @@ namespace geocone::GEOCONE_DIM
     rate_of_storage = 0.;
     solve_on_mesh(conditions(step.levels, step.time, 0.),
                   hydrostatic(step.levels));
+    if (scene.water.seepage.degree > 1)
+      solve_confined(step.levels);
   }
 
   void
@@ -270,6 +273,50 @@ namespace geocone::GEOCONE_DIM
     for (const Point<dim> &x : mesh.vertices)
       start.push_back(last.value(x));
     solve_on_mesh(conditions(step.levels, step.time, 0.), std::move(start));
+    if (scene.water.seepage.degree > 1)
+      solve_confined(step.levels);
+  }
+
+  void
+  FlowOnMesh::solve_confined(const Seepage::Levels &levels)
+  {
+    const unsigned int degree       = scene.water.seepage.degree;
+    constexpr double   rounding     = 1e-6;
+    const auto         refuse_below = [&](const std::vector<double> &values,
+                                  const double               least) {
+      if (*std::min_element(values.begin(), values.end()) < least)
+        throw InputError("Seepage/Degree",
+                         degree,
+                         "1 where the flow has a free surface",
+                         "set it to 1, with more 'Seepage/Cells'");
+    };
+    refuse_below(solution.s, -rounding);
+    confined.emplace(mesh, degree);
+    const auto &nodes = confined->nodes();
+    const auto &list  = scene.water.seepage.list;
+    boundary_of_node.assign(nodes.size(), -1);
+    for (unsigned int b = 0; b < list.size(); ++b)
+      {
+        if (dim == 3 && !list[b]->drain.empty())
+          throw InputError("Seepage/Degree",
+                           degree,
+                           "1 with drains in three dimensions",
+                           "let the water leave at sides");
+        for (const unsigned int node :
+             confined->nodes_on(part_of(*list[b]).facets))
+          boundary_of_node[node] = b;
+      }
+    std::vector<std::optional<double>> prescribed(nodes.size());
+    for (unsigned int i = 0; i < nodes.size(); ++i)
+      if (boundary_of_node[i] >= 0)
+        prescribed[i] = std::max(
+          levels[boundary_of_node[i]].value_or(nodes[i][1]) - nodes[i][1], 0.);
+    confined->solve(permeability, scene.geometry.symmetry, prescribed);
+    const dealii::BoundingBox<dim> body(mesh.vertices);
+    refuse_below(confined->head, -rounding * body.side_length(1));
+    std::copy_n(
+      confined->head.begin(), mesh.vertices.size(), solution.head.begin());
+    solution.error = confined->error;
   }
 
   void
@@ -291,6 +338,11 @@ namespace geocone::GEOCONE_DIM
   FlowOnMesh::check_unsaturated() const
   {
     const Seepage &seepage = scene.water.seepage;
+    if (seepage.degree > 1 && (is_unsaturated() || is_transient))
+      throw InputError("Seepage/Degree",
+                       seepage.degree,
+                       "1 in transient flow and in unsaturated soil",
+                       "take more 'Seepage/Cells'");
     if (seepage.initial_table && !(is_unsaturated() && is_transient))
       throw InputError("Seepage/Initial water table",
                        *seepage.initial_table,
@@ -591,11 +643,37 @@ namespace geocone::GEOCONE_DIM
   FlowOnMesh::velocities() const
   {
     std::vector<Tensor<1, dim>> q;
+    if (confined)
+      {
+        LagrangeSimplex::Barycentric centre;
+        centre.fill(1. / FlowMesh::n_corners);
+        for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+          q.push_back(
+            confined->velocity(c, centre, permeability[mesh.material[c]]));
+        return q;
+      }
     for (unsigned int c = 0; c < mesh.cells.size(); ++c)
       q.push_back(
         is_unsaturated()
           ? unsaturated_velocity(mesh, permeability, curve(c), solution.head, c)
           : darcy_velocity(mesh, permeability, solution, c));
+    return q;
+  }
+
+  std::vector<Tensor<1, dim>>
+  FlowOnMesh::velocities_at_corners() const
+  {
+    const auto                  of_cell = velocities();
+    std::vector<Tensor<1, dim>> q;
+    for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+      for (unsigned int i = 0; i < FlowMesh::n_corners; ++i)
+        {
+          LagrangeSimplex::Barycentric corner = {};
+          corner[i]                           = 1.;
+          q.push_back(confined ? confined->velocity(
+                                   c, corner, permeability[mesh.material[c]])
+                               : of_cell[c]);
+        }
     return q;
   }
 
@@ -631,7 +709,8 @@ namespace geocone::GEOCONE_DIM
   Water::Flow
   FlowOnMesh::result() const
   {
-    std::vector<double> pressure = solution.head, size(pressure.size(), 0.);
+    std::vector<double> pressure = confined ? confined->head : solution.head,
+                        size(mesh.vertices.size(), 0.);
     for (double &u : pressure)
       u *= scene.water.weight();
     for (unsigned int c = 0; c < mesh.cells.size(); ++c)
@@ -669,13 +748,27 @@ namespace geocone::GEOCONE_DIM
               surface.back()[k] = corners[(i + k) % corners.size()];
           }
       }
-    return {{mesh.vertices, mesh.cells, pressure}, surface, is_unsaturated()};
+    return {confined ? SimplexField(mesh.vertices,
+                                    mesh.cells,
+                                    confined->degree(),
+                                    confined->nodes_of_cells(),
+                                    pressure)
+                     : SimplexField(mesh.vertices, mesh.cells, pressure),
+            surface,
+            is_unsaturated()};
   }
 
   std::vector<double>
   FlowOnMesh::inflows() const
   {
     std::vector<double> all(scene.water.seepage.list.size(), 0.);
+    if (confined)
+      {
+        for (unsigned int i = 0; i < boundary_of_node.size(); ++i)
+          if (boundary_of_node[i] >= 0)
+            all[boundary_of_node[i]] += confined->inflow[i];
+        return all;
+      }
     for (unsigned int v = 0; is_solved() && v < boundary_of.size(); ++v)
       if (boundary_of[v] >= 0)
         all[boundary_of[v]] += solution.inflow[v];

@@ -109,6 +109,9 @@ namespace geocone::GEOCONE_DIM
     /** Target number of cells in the finest mesh of the seepage problem. */
     unsigned int n_cells = 5000;
 
+    /** Polynomial degree of the pressure heads. */
+    unsigned int degree = 1;
+
     /** Height y (m) of a water table; the initial pressures are hydrostatic
      *  relative to it. No value: the steady flow at t = 0 is the initial state. */
     std::optional<double> initial_table;

@@ -8,6 +8,7 @@
 #include <geocone/mesh/gmsh_mesh.h>
 #include <geocone/mesh/mesh_parameters.h>
 #include <geocone/scene/scene.h>
+#include <geocone/seepage/confined_flow.h>
 #include <geocone/seepage/flow_solution.h>
 #include <geocone/seepage/unsaturated_flow.h>
 
@@ -81,6 +82,10 @@ namespace geocone::GEOCONE_DIM
     /** Darcy velocity at the centre of each cell (m/s). */
     std::vector<dealii::Tensor<1, dim>>
     velocities() const;
+
+    /** Darcy velocities at the corners of each cell, one after the other. */
+    std::vector<dealii::Tensor<1, dim>>
+    velocities_at_corners() const;
 
     /** Flow rate into the body through each seepage boundary of the scene
      *  (m^2/s; m^3/s in axisymmetry). */
@@ -169,6 +174,11 @@ namespace geocone::GEOCONE_DIM
     void
     solve_on_mesh(const FlowConditions &conditions, std::vector<double> start);
 
+    /** Computes the flow with heads of a higher degree after the linear ones.
+     *  @throws InputError for a flow with a free surface */
+    void
+    solve_confined(const Seepage::Levels &levels);
+
     /** Initial guess for Newton's method: hydrostatic pressures below the
      *  highest water level. */
     std::vector<double>
@@ -236,6 +246,8 @@ namespace geocone::GEOCONE_DIM
     /** @} */
 
     FlowSolution                solution;
+    std::optional<ConfinedFlow> confined;         ///< of a higher degree
+    std::vector<int>            boundary_of_node; ///< of it
     std::optional<double>       discharge_before;
     double                      rate_of_storage = 0.; ///< (m^2/s)
 
