@@ -4,8 +4,10 @@
 inner  = 1;
 outer  = 2;
 height = 0.25;
-n      = 12;  // cells along the arc of 90 degrees
-layers = 10;  // from the inner to the outer radius
+If(!Exists(n))  // a file that includes this one may have its own
+  n      = 12;  // cells along the arc of 90 degrees
+  layers = 10;  // from the inner to the outer radius
+EndIf
 
 // Chords of circles that are a little larger, so that they enclose the same area.
 chord  = Pi / 2 / n;
