@@ -255,11 +255,10 @@ namespace geocone::GEOCONE_DIM
     if (scene->loading.changes_body())
       refuse("false with stages that remove, add or change material",
              "compute these stages with undrained or drained soil");
-    if (space->is_spline() || space->degree() < 2 || space->has_b_bar())
+    if (space->is_spline() || space->degree() < 2)
       throw InputError("Discretisation/Element",
-                       space->element() +
-                         (space->has_b_bar() ? " with B-bar" : ""),
-                       "P2, P3, Q2 or Q3 without B-bar, with " + parameter,
+                       space->element(),
+                       "P2, P3, Q2 or Q3 with " + parameter,
                        "pressures are linear: velocities of degree 1 give "
                        "oscillating ones");
     if (space->has_ties())

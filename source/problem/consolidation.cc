@@ -45,6 +45,25 @@ namespace geocone::GEOCONE_DIM
                vector(y, x)}};
     }
 
+    /** Volumetric strain of a point per displacement of a node (1/m): B' 1, with
+     *  the hoop strain around an axis, and projected with B-bar. */
+    inline Tensor<1, dim>
+    divergence_of(const MaterialPoints &points,
+                  const unsigned int    point,
+                  const unsigned int    i)
+    {
+      const unsigned int         n        = points.n_nodes;
+      const bool                 is_plain = points.volumetric_gradients.empty();
+      const std::vector<double> &gradients =
+        is_plain ? points.gradients : points.volumetric_gradients;
+      Tensor<1, dim> g;
+      for (unsigned int d = 0; d < dim; ++d)
+        g[d] = gradients[n * (dim * point + d) + i];
+      if (is_plain && !points.hoop.empty())
+        g[0] += points.hoop[n * point + i];
+      return g;
+    }
+
     /** Mobility k/gamma of each material (m^2/(Pa s)).
      *  @throws InputError for a material without pore fluid or permeability */
     std::vector<SymmetricTensor<2, dim>>
@@ -215,11 +234,9 @@ namespace geocone::GEOCONE_DIM
             double rate = 0.;
             for (unsigned int i = 0; i < n; ++i)
               {
+                const Tensor<1, dim> g = divergence_of(points, p, i);
                 for (unsigned int d = 0; d < dim; ++d)
-                  rate += points.gradients[n * (dim * p + d) + i] *
-                          cell_v[dim * i + d];
-                if (!points.hoop.empty())
-                  rate += points.hoop[n * p + i] * cell_v[dim * i];
+                  rate += g[d] * cell_v[dim * i + d];
               }
             for (unsigned int i = 0; i < n_vertices; ++i)
               sum.local_element(dim * node_of(c, i)) +=
@@ -309,11 +326,9 @@ namespace geocone::GEOCONE_DIM
             const double weight = points.weight[p] * N[n_vertices * p + j];
             for (unsigned int i = 0; i < n; ++i)
               {
+                const Tensor<1, dim> g = divergence_of(points, p, i);
                 for (unsigned int d = 0; d < dim; ++d)
-                  column[dim * i + d] +=
-                    weight * points.gradients[n * (dim * p + d) + i];
-                if (!points.hoop.empty())
-                  column[dim * i] += weight * points.hoop[n * p + i];
+                  column[dim * i + d] += weight * g[d];
               }
           }
   }
