@@ -110,8 +110,8 @@ namespace geocone::GEOCONE_DIM
   void
   ExplicitObstacles::list_points(const std::vector<PointArrays> &groups)
   {
-    positions         = transfer.node_positions();
-    travelled         = 0.;
+    positions = transfer.node_positions();
+    travelled = 0.;
     near.clear();
     for_each_point_of(
       groups,
@@ -254,10 +254,10 @@ namespace geocone::GEOCONE_DIM
     for (unsigned int o = 0; o < list.size(); ++o)
       {
         ContactNode contact;
-        contact.node     = number;
-        contact.obstacle = o;
-        contact.arm      = x - centre(o);
-        contact.velocity = motions.velocities()[o].at(contact.arm);
+        contact.node               = number;
+        contact.obstacle           = o;
+        contact.arm                = x - centre(o);
+        contact.velocity           = motions.velocities()[o].at(contact.arm);
         const Obstacle::Nearest at = list[o]->nearest(
           x, displacement[o], dt * (contact.velocity - v), &others[o]);
         if (at.distance > of_surface * transfer.cell_size())
@@ -451,8 +451,8 @@ namespace geocone::GEOCONE_DIM
             Tensor<1, dim> u;
             for (unsigned int d = 0; d < dim; ++d)
               u[d] = v[d] - contact.velocity[d];
-            u                  = free_part(u, node.number, is_prescribed);
-            const double   u_N = u * contact.normal;
+            u                     = free_part(u, node.number, is_prescribed);
+            const double   u_N    = u * contact.normal;
             Tensor<1, dim> change = (contact.least - u_N) * contact.normal;
             if (forces[k].state == Contact::State::stick)
               change -= u - u_N * contact.normal;

@@ -267,13 +267,12 @@ namespace geocone::GEOCONE_DIM
                        const double         tolerance) const
   {
     const BoundProblem problem = of_sample(above, BoundSide::upper, factors);
-    const CertifiedSide upper =
-                                  certified_upper(mean, problem, tolerance, {}),
-                                lower = certified_lower(
-                                  mean,
-                                  of_sample(below, BoundSide::lower, factors),
-                                  tolerance,
-                                  {});
+    const CertifiedSide upper   = certified_upper(mean, problem, tolerance, {}),
+                        lower   = certified_lower(
+                          mean,
+                          of_sample(below, BoundSide::lower, factors),
+                          tolerance,
+                          {});
     return {std::sqrt(upper.bound.load * lower.bound.load),
             upper.bound.load / lower.bound.load - 1.,
             elasticity(problem, factors, upper),

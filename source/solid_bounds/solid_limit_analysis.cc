@@ -5,10 +5,6 @@
 #include <geocone/base/resources.h>
 #include <geocone/base/unused_parameters.h>
 #include <geocone/materials/retention.h>
-#include <geocone/solid_bounds/solid_certificate_files.h>
-#include <geocone/solid_bounds/solid_fields.h>
-#include <geocone/solid_bounds/solid_gap.h>
-#include <geocone/solid_bounds/solid_limit_analysis.h>
 #include <geocone/mesh/bisection.h>
 #include <geocone/mesh/fitted_mesh.h>
 #include <geocone/output/model_of_tetrahedra.h>

@@ -6,8 +6,8 @@
 // on the largest mesh of 20000 the error is 0.005, of which a half counts. The gap of the mean sample
 // is 0.2 of its lower bound. A triangle whose error is all is divided until there are ten.
 
-#include <geocone/limit_analysis/sample_search.h>
 #include <geocone/mesh/bisected.h>
+#include <geocone/reliability/sample_search.h>
 
 #include "../test.h"
 

@@ -176,9 +176,9 @@ namespace geocone::GEOCONE_DIM
 
     /** @name Of the current step */
     /** @{ */
-    double                           t = 0., dt = 0.;
-    double                           closable = 0.; ///< larger gaps stay open (m)
-    std::vector<ContactNode>         contacts;
+    double                   t = 0., dt = 0.;
+    double                   closable = 0.; ///< larger gaps stay open (m)
+    std::vector<ContactNode> contacts;
     std::vector<Contact::Projection> forces; ///< of `contacts`
     std::vector<Node>                nodes;
     std::vector<Contact::Local>      locals; ///< of `nodes`

@@ -6,15 +6,12 @@
 
 #include <geocone/base/choice.h>
 #include <geocone/bounds/bound_analysis.h>
-#include <geocone/limit_analysis/sample_search.h>
-#include <geocone/reliability/failure_probability.h>
-#include <geocone/reliability/importance_sampling.h>
-#include <geocone/reliability/sampled_body.h>
 #include <geocone/mesh/bisected.h>
 #include <geocone/mesh/triangles.h>
 #include <geocone/output/field_files.h>
 #include <geocone/reliability/failure_probability.h>
 #include <geocone/reliability/importance_sampling.h>
+#include <geocone/reliability/sample_search.h>
 #include <geocone/reliability/sampled_body.h>
 
 #include <memory>

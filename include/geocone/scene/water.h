@@ -7,9 +7,7 @@
 #include <geocone/base/parameter_file.h>
 #include <geocone/boundary/loading.h>
 #include <geocone/functions/pressure_grid.h>
-#include <geocone/boundary/loading.h>
 #include <geocone/functions/simplex_field.h>
-#include <geocone/functions/triangle_field.h>
 #include <geocone/geometry/geometry.h>
 #include <geocone/scene/seepage.h>
 

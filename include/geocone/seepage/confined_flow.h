@@ -5,7 +5,7 @@
 #define geocone_seepage_confined_flow_h
 
 #include <geocone/functions/lagrange_simplex.h>
-#include <geocone/scene/geometry.h>
+#include <geocone/geometry/geometry.h>
 #include <geocone/seepage/flow_mesh.h>
 
 #include <deal.II/base/symmetric_tensor.h>

@@ -1,7 +1,7 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-#include <geocone/limit_analysis/sample_search.h>
+#include <geocone/reliability/sample_search.h>
 
 #include <algorithm>
 #include <cmath>
@@ -25,8 +25,7 @@ namespace geocone::GEOCONE_DIM
     // The middle of the first mesh, and the errors c/N of the last two meshes of a side.
     double middle = lower[0].bound * (1. + gap / 2.);
     if (!upper.empty() || !std::isfinite(middle))
-      middle =
-        upper.empty() ? 0. : (lower[0].bound + upper[0].bound) / 2.;
+      middle = upper.empty() ? 0. : (lower[0].bound + upper[0].bound) / 2.;
     double sum = middle, weights = 1., least = lower[0].bound,
            most = std::numeric_limits<double>::max();
     for (const Value &value : lower)
@@ -63,8 +62,7 @@ namespace geocone::GEOCONE_DIM
     if (lower.empty())
       return BoundSide::upper;
     const double    value = limit();
-    const BoundSide side =
-      value >= 1. ? BoundSide::lower : BoundSide::upper;
+    const BoundSide side  = value >= 1. ? BoundSide::lower : BoundSide::upper;
     if (may_decide(side == BoundSide::lower ? lower : upper, value))
       return side;
     return std::nullopt;

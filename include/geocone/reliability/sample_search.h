@@ -1,10 +1,10 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-#ifndef geocone_limit_analysis_sample_search_h
-#define geocone_limit_analysis_sample_search_h
+#ifndef geocone_reliability_sample_search_h
+#define geocone_reliability_sample_search_h
 
-#include <geocone/limit_analysis/bound_problem.h>
+#include <geocone/plane_bounds/bound_problem.h>
 
 #include <optional>
 #include <vector>
