@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 #include <string>
@@ -95,19 +96,24 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
-  ParticleGaps::take(const Point<dim> &place, const double half_side)
+  ParticleGaps::take(const Point<dim>  &place,
+                     const double       half_side,
+                     const ObstacleSet &is_near)
   {
     x    = place;
     half = half_side;
     for (unsigned int o = 0; o < near.size(); ++o)
-      near[o] = obstacles.list[o]->nearest(x, (*moved)[o], {});
+      near[o] =
+        is_near[element_of(o)]
+          ? obstacles.list[o]->nearest(x, (*moved)[o], {})
+          : Obstacle::Nearest{std::numeric_limits<double>::infinity(), {}};
   }
 
   double
   ParticleGaps::gap(const unsigned int o, const unsigned int node)
   {
     double distance = near[o].distance;
-    if (near.size() > 1)
+    if (near.size() > 1 && std::isfinite(distance))
       {
         OfNode &at = of_nodes[o][node];
         if (at.step != step)

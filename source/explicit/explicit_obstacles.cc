@@ -27,7 +27,7 @@ namespace geocone::GEOCONE_DIM
     constexpr double of_surface = 0.4999;
 
     /** Gap of the points that are listed as near, over the size of a cell. */
-    constexpr double listed = 4.;
+    constexpr double listed = 2.;
 
     /** Sweeps over the contacts of a node in a corner. Each sweep reduces the error by
      *  the squared cosine of the angle between the normals, 0.97 at most. */
@@ -119,13 +119,13 @@ namespace geocone::GEOCONE_DIM
         const auto  &list = scene.obstacles.list;
         const double half =
           scene.geometry.size_of_point(x, groups[g].volume[p]) / 2.;
+        ObstacleSet obstacles;
         for (unsigned int o = 0; o < list.size(); ++o)
           if (list[o]->nearest(x, displacement[o], {}).distance <
               half + listed * transfer.cell_size())
-            {
-              near.push_back({{g, p}});
-              break;
-            }
+            obstacles.set(element_of(o));
+        if (obstacles.any())
+          near.push_back({g, p, obstacles});
       });
   }
 
@@ -183,15 +183,15 @@ namespace geocone::GEOCONE_DIM
         of_obstacle.assign(transfer.n_nodes(), no_gap);
     std::vector<unsigned int> touched;
     particle.begin_step(displacement, margin());
-    for (const auto &[g, p] : near)
+    for (const auto &[g, p, obstacles] : near)
       {
         const Point<dim> x = groups[g].position.of(p);
-        particle.take(
-          x, scene.geometry.size_of_point(x, groups[g].volume[p]) / 2.);
+        particle.take(x,
+                      scene.geometry.size_of_point(x, groups[g].volume[p]) / 2.,
+                      obstacles);
         if (particle.least_gap() < closable)
           transfer.for_each_node(groups[g], g, p, [&](const unsigned int node) {
-            if (gaps[0][node] == no_gap)
-              touched.push_back(node);
+            touched.push_back(node);
             for (unsigned int o = 0; o < n; ++o)
               gaps[o][node] = std::min(gaps[o][node], particle.gap(o, node));
           });
@@ -202,10 +202,12 @@ namespace geocone::GEOCONE_DIM
           transfer.minimise_over_ranks(of_obstacle);
         touched.clear();
         for (unsigned int node = 0; node < transfer.n_nodes(); ++node)
-          if (gaps[0][node] < no_gap)
-            touched.push_back(node);
+          for (const auto &of_obstacle : gaps)
+            if (of_obstacle[node] < no_gap)
+              touched.push_back(node);
       }
     std::sort(touched.begin(), touched.end());
+    touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
     return touched;
   }
 
@@ -253,6 +255,8 @@ namespace geocone::GEOCONE_DIM
     std::vector<ContactNode> found;
     for (unsigned int o = 0; o < list.size(); ++o)
       {
+        if (gaps[o][number] == no_gap)
+          continue;
         ContactNode contact;
         contact.node               = number;
         contact.obstacle           = o;

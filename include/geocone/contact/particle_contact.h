@@ -10,10 +10,22 @@
 #include <geocone/scene/scene.h>
 #include <geocone/space/space.h>
 
+#include <algorithm>
+#include <bitset>
 #include <vector>
 
 namespace geocone::GEOCONE_DIM
 {
+  /** Obstacles by index; the last element stands for all from there on. */
+  using ObstacleSet = std::bitset<64>;
+
+  /** Returns the element of an obstacle. */
+  inline unsigned int
+  element_of(const unsigned int obstacle)
+  {
+    return std::min<unsigned int>(obstacle, ObstacleSet().size() - 1);
+  }
+
   /**
    * Gaps between obstacles and a particle, as the nodes that move the particle see
    * them. A particle is a square with the particle's volume. If another obstacle
@@ -33,9 +45,13 @@ namespace geocone::GEOCONE_DIM
     void
     begin_step(const std::vector<RigidMotion> &moved, const double margin);
 
-    /** Selects a particle. @param half half the side of its square (m) */
+    /** Selects a particle.
+     *  @param half half the side of its square (m)
+     *  @param is_near obstacles that may be near; the others are not considered */
     void
-    take(const dealii::Point<dim> &x, const double half);
+    take(const dealii::Point<dim> &x,
+         const double              half,
+         const ObstacleSet        &is_near = ObstacleSet().set());
 
     /** Returns the gap between an obstacle and the selected particle (m), for a node
      *  that moves it. */

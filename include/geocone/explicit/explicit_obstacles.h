@@ -163,9 +163,15 @@ namespace geocone::GEOCONE_DIM
     std::vector<RigidMotion> displacement, velocity;
     std::vector<Reaction>    impulse; ///< of this rank, since take_impulses()
 
+    /** Point near some obstacles. */
+    struct NearPoint
+    {
+      unsigned int group, index;
+      ObstacleSet  obstacles;
+    };
     /** Points that may touch an obstacle before they and it have `travelled` by some
-     *  cells, as pairs of group and index. */
-    std::vector<std::array<unsigned int, 2>> near;
+     *  cells. */
+    std::vector<NearPoint>                   near;
     double                                   travelled = 0.; ///< (m)
     std::vector<dealii::Point<dim>>          positions;      ///< of the nodes
     ParticleGaps                             particle;
