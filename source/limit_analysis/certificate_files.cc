@@ -3,7 +3,9 @@
 
 #include <geocone/base/constants.h>
 #include <geocone/cone/second_order_cone.h>
+#include <geocone/limit_analysis/axisymmetric_bounds.h>
 #include <geocone/limit_analysis/certificate_files.h>
+#include <geocone/limit_analysis/strengths_in_files.h>
 
 #include <cmath>
 #include <limits>
@@ -241,6 +243,128 @@ namespace geocone::GEOCONE_DIM
                           {"middles", of_edges},
                           {"obstacles", of_obstacles}};
     }
+
+    void
+    add_mesh(const Triangles &triangles, Json &json)
+    {
+      Json vertices = Json::array(), edges = Json::array();
+      for (const auto &x : triangles.vertices)
+        vertices.push_back(pair(x[0], x[1]));
+      for (const auto &edge : triangles.edges)
+        edges.push_back(edge.vertices);
+      json["vertices"]  = vertices;
+      json["edges"]     = edges;
+      json["triangles"] = triangles.cells;
+      json["material"]  = triangles.material;
+    }
+
+    /** Loads and supports of an axisymmetric body. */
+    void
+    add_loads_and_supports(const AxisymmetricScene &scene, Json &json)
+    {
+      const BoundUnits &units = scene.bound.units;
+      const auto in_units     = [](const Tensor<1, dim> &v, const double unit) {
+        return pair(unit * v[0], unit * v[1]);
+      };
+      Json dead_forces = Json::array(), live_forces = Json::array();
+      for (const auto &cell : scene.cells)
+        {
+          const double unit = units.stress / units.length;
+          dead_forces.push_back(in_units(cell.body_force.dead, unit));
+          live_forces.push_back(in_units(cell.body_force.live, unit));
+        }
+      json["body_force"] = {{"dead", dead_forces}, {"live", live_forces}};
+      Json edges = Json::array(), held = Json::array(), dead = Json::array(),
+           live = Json::array(), velocity = Json::array();
+      for (unsigned int e = 0; e < scene.edges.size(); ++e)
+        {
+          const AxisymmetricScene::Edge &edge = scene.edges[e];
+          if (edge.is_inner())
+            continue;
+          edges.push_back(e);
+          held.push_back({edge.condition.holds(0), edge.condition.holds(1)});
+          velocity.push_back(in_units(edge.condition.velocity, units.velocity));
+          Json dead_at = Json::array(), live_at = Json::array();
+          for (const auto &at_vertex : edge.traction)
+            {
+              dead_at.push_back(in_units(at_vertex.dead, units.stress));
+              live_at.push_back(in_units(at_vertex.live, units.stress));
+            }
+          dead.push_back(dead_at);
+          live.push_back(live_at);
+        }
+      json["boundary"] = {{"edge", edges},
+                          {"held", held},
+                          {"velocity", velocity},
+                          {"dead", dead},
+                          {"live", live}};
+    }
+
+    /** Coefficients of the stresses times r, (rr, zz, rz, tt) in Pa m, in the order of
+     *  bernstein::functions_of_triangle(). */
+    Json
+    stresses_times_radius(const BoundScene &given, const Bound &bound)
+    {
+      const double unit   = given.units.stress * given.units.length;
+      Json         stress = Json::array();
+      for (unsigned int c = 0; c < given.triangles.cells.size(); ++c)
+        {
+          Json of_cell = Json::array();
+          for (unsigned int i = 0; i < axisymmetric_stress::n; ++i)
+            {
+              const SpatialMandel &s =
+                bound.stress[axisymmetric_stress::n * c + i];
+              of_cell.push_back(
+                {unit * s[0], unit * s[1], unit * s[2] / sqrt2, unit * s[3]});
+            }
+          stress.push_back(of_cell);
+        }
+      return stress;
+    }
+
+    /** Coefficients of u_r/r (1/s) and u_z (m/s). */
+    Json
+    axisymmetric_velocities(const BoundScene &given, const Bound &bound)
+    {
+      namespace space     = axisymmetric_velocity;
+      const double unit   = given.units.velocity;
+      Json         radial = Json::array(), axial = Json::array();
+      for (unsigned int c = 0; c < given.triangles.cells.size(); ++c)
+        {
+          Json v = Json::array(), w = Json::array();
+          for (const auto &a : bernstein::functions_of_triangle(space::order))
+            v.push_back(unit / given.units.length *
+                        bound.q[space::dof_of_v(c, a)]);
+          for (const auto &a :
+               bernstein::functions_of_triangle(space::order + 1))
+            w.push_back(unit * bound.q[space::dof_of_w(c, a)]);
+          radial.push_back(v);
+          axial.push_back(w);
+        }
+      return {{"radial_over_radius", radial}, {"axial", axial}};
+    }
+
+    void
+    write_axisymmetric_certificate(const std::string      &folder,
+                                   const BoundScene       &given,
+                                   const Bound            &bound,
+                                   const CertificateClaim &claim)
+    {
+      const AxisymmetricScene scene(given);
+      const bool is_reaction = given.factor == LoadFactor::velocity;
+      Json       json        = claim.entries("limit analysis around an axis",
+                                is_reaction ? 0. : bound.load,
+                                is_reaction ? given.units.velocity : 0.);
+      json["materials"]      = materials_with_strengths(
+        given.scene, given.strengths, given.units.stress);
+      add_mesh(given.triangles, json);
+      add_loads_and_supports(scene, json);
+      if (claim.is_lower)
+        json["stress_times_radius"] = stresses_times_radius(given, bound);
+      else
+        json["velocity"] = axisymmetric_velocities(given, bound);
+      claim.write(folder, json);
+    }
   } // namespace
 
   void
@@ -249,6 +373,8 @@ namespace geocone::GEOCONE_DIM
                     const Bound            &bound,
                     const CertificateClaim &claim)
   {
+    if (given.is_axisymmetric())
+      return write_axisymmetric_certificate(folder, given, bound, claim);
     const bool         is_reaction = given.factor == LoadFactor::velocity;
     const BoundProblem problem     = lower_problem(given);
     Json               json        = claim.entries("plane limit analysis",
@@ -256,15 +382,7 @@ namespace geocone::GEOCONE_DIM
                               is_reaction ? given.units.velocity : 0.);
     json["materials"]              = materials_of(given);
     json["obstacles"]              = obstacles_with_loads(given, problem);
-    Json vertices = Json::array(), edges = Json::array();
-    for (const auto &x : given.triangles.vertices)
-      vertices.push_back(pair(x[0], x[1]));
-    for (const auto &edge : given.triangles.edges)
-      edges.push_back(edge.vertices);
-    json["vertices"]   = vertices;
-    json["edges"]      = edges;
-    json["triangles"]  = given.triangles.cells;
-    json["material"]   = given.triangles.material;
+    add_mesh(given.triangles, json);
     json["interfaces"] = interfaces_of(given);
     add_loads_and_supports(given, problem, json);
     if (claim.is_lower)

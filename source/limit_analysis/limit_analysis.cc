@@ -157,13 +157,6 @@ namespace geocone::GEOCONE_DIM
                          "none with " + where() + " around an axis",
                          "tension is limited by the cone alone there: set it "
                          "to none, or take a plane or three-dimensional scene");
-    if (limit_output.writes_certificates())
-      throw InputError("Output/Certificates",
-                       true,
-                       "false where Geometry/Symmetry = axisymmetric",
-                       "files of certificates are those of plane and "
-                       "three-dimensional scenes; the bounds are checked all "
-                       "the same");
   }
 
   std::vector<std::string>

@@ -1,11 +1,12 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <cmath>
 #include <geocone/base/constants.h>
+#include <geocone/limit_analysis/strengths_in_files.h>
 #include <geocone/solid_bounds/solid_bounds.h>
 #include <geocone/solid_bounds/solid_certificate_files.h>
 
-#include <cmath>
 
 namespace geocone::GEOCONE_DIM
 {
@@ -18,38 +19,6 @@ namespace geocone::GEOCONE_DIM
     triple(const Vector &v, const double unit = 1.)
     {
       return Json::array({unit * v[0], unit * v[1], unit * v[2]});
-    }
-
-    /** Materials with their given strengths: cohesion c + gradient (level - y) and friction
-     *  angle, or the strength k and the slope a of a circular cone |s_t| <= a s_n + k. */
-    Json
-    materials_with_strengths(const SolidScene &given)
-    {
-      Json materials = Json::array();
-      for (unsigned int m = 0; m < given.strengths.size(); ++m)
-        {
-          const SpatialStrength &one    = given.strengths[m];
-          const double         stress = given.units.stress;
-          Json                 law = {{"name", given.scene->materials.name(m)},
-                                      {"is_circular", one.is_circular},
-                                      {"is_reduced", given.scene->materials[m].is_reduced()}};
-          if (one.is_circular)
-            {
-              law["slope"]    = one.a;
-              law["strength"] = one.k * stress;
-            }
-          else
-            {
-              const double unit = stress / (2. * std::sqrt(1. - one.a * one.a));
-              law["cohesion"]   = one.k * unit;
-              law["cohesion_gradient"] = one.growth.slope * unit;
-              law["cohesion_level"]    = one.growth.level;
-              law["friction_angle"]    = std::asin(one.a) * 180. / pi;
-              law["tensile_strength"]  = finite_or_null(one.tension * stress);
-            }
-          materials.push_back(law);
-        }
-      return materials;
     }
 
     /** Loads of the cells, and loads and supports of the faces on the boundary. */
@@ -127,7 +96,8 @@ namespace geocone::GEOCONE_DIM
     Json json          = claim.entries("limit analysis in space",
                               is_reaction ? 0. : bound.lambda,
                               is_reaction ? given.units.velocity : 0.);
-    json["materials"]  = materials_with_strengths(given);
+    json["materials"]  = materials_with_strengths(
+      *given.scene, given.strengths, given.units.stress);
     json["tetrahedra"] = tetrahedra.cells;
     json["material"]   = tetrahedra.material;
     json["nodes"]      = pairs_of_nodes(n_of_cell);

@@ -12,10 +12,10 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Writes the file by which another program can verify a bound of a plane limit
-   * analysis: the mesh, the strengths and loads, and the stresses or velocities that
-   * certify it. All values are in SI units, so that the file can be checked without this
-   * program.
+   * Writes the file by which another program can verify a bound of a plane or
+   * axisymmetric limit analysis: the mesh, the strengths and loads, and the stresses or
+   * velocities that certify it. All values are in SI units, so that the file can be
+   * checked without this program.
    * @param given input of the analysis with unreduced strength
    */
   void
