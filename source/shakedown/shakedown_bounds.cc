@@ -72,12 +72,40 @@ namespace geocone::GEOCONE_DIM
       return factor;
     }
 
+    /** First state with the loads of each state, by their elastic stresses: a state may
+     *  occur several times in a cycle. */
+    std::vector<unsigned int>
+    first_equal_states(const std::vector<LinearField> &elastic)
+    {
+      constexpr double rounding = 1e-9;
+      double           largest  = 0.;
+      for (const LinearField &state : elastic)
+        for (const Vector3d &s : state)
+          largest = std::max(largest, s.norm());
+      std::vector<unsigned int> first;
+      for (const LinearField &state : elastic)
+        {
+          unsigned int other = 0;
+          while (!std::equal(state.begin(),
+                             state.end(),
+                             elastic[other].begin(),
+                             [&](const Vector3d &s, const Vector3d &t) {
+                               return (s - t).norm() <= rounding * largest;
+                             }))
+            ++other;
+          first.push_back(other);
+        }
+      return first;
+    }
+
     /** Kind of the mechanism: plastic strains of all states and their sum. */
     void
     describe_mechanism(const BoundProblem             &above,
                        const std::vector<LinearField> &rates,
+                       const std::vector<LinearField> &elastic,
                        ShakedownBounds                &found)
     {
+      const std::vector<unsigned int> first   = first_equal_states(elastic);
       const unsigned int  n_cells = above.n_triangles;
       std::vector<double> of_state(rates.size(), 0.);
       found.net.assign(n_cells, 0.);
@@ -90,7 +118,7 @@ namespace geocone::GEOCONE_DIM
             {
               const double shear = rates[k][p].tail<2>().norm();
               sum += rates[k][p];
-              of_state[k] += above.volume[p] * shear;
+              of_state[first[k]] += above.volume[p] * shear;
               found.total[p / 3] += shear / 3.;
               total += above.volume[p] * shear;
             }
@@ -199,7 +227,7 @@ namespace geocone::GEOCONE_DIM
           proven_upper(
             above, loads, solver, stresses, rates, found.upper.bound),
           proven_alternating(bound, below, loads, solver, stresses, at));
-      describe_mechanism(above, rates, found);
+      describe_mechanism(above, rates, elastic, found);
       found.gap = gap_of_states(above, rates, found.lower.bound);
       found.refinement_indicator = uneven_gap(bound, found.gap, found.lower);
       add_elastic_errors(solver, stresses, found);
