@@ -339,6 +339,25 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
+  Shakedown::warn_of_falling_factor() const
+  {
+    const auto            &records = shakedown_output.all_records();
+    const ShakedownRecord &last    = records.back();
+    double                 highest = 0.;
+    for (const ShakedownRecord &record : records)
+      if (record.lower_certified)
+        highest = std::max(highest, record.lower);
+    if (last.lower_certified && last.lower < (1. - gap_tolerance) * highest)
+      log.warn(
+        format("the lower factor falls on finer meshes, from %.4g to %.4g, so "
+               "that it may fall further: are elastic stresses unbounded, at a "
+               "re-entrant corner, the end of a rough support or a jump of a "
+               "load? A small fillet or a ramp of the load decides",
+               highest,
+               last.lower));
+  }
+
+  void
   Shakedown::finish(const double)
   {
     const ShakedownRecord &last = shakedown_output.all_records().back();
@@ -354,6 +373,7 @@ namespace geocone::GEOCONE_DIM
                "'Analysis/Maximum cells' or 'Maximum levels'",
                100. * last.gap,
                100. * last.elastic_error));
+    warn_of_falling_factor();
     if (found.load_difference > rounding_of_work)
       log.warn(format("no upper bound is proven: the tractions are not linear "
                       "between the vertices of the mesh, by %.1e of their "

@@ -112,6 +112,9 @@ namespace geocone::GEOCONE_DIM
     write_fields(const double t) override;
     Json
     topics() override;
+    /** Warns if the lower factor of the last mesh is below that of a coarser one. */
+    void
+    warn_of_falling_factor() const;
     void
     finish(const double t) override;
     void
