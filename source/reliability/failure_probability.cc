@@ -10,7 +10,9 @@
 namespace geocone
 {
   FailureProbability::FailureProbability(
-    const std::vector<SampleRecord> &samples, const double confidence)
+    const std::vector<SampleRecord> &samples,
+    const double                     confidence,
+    const double                     largest_weight)
     : n_samples(samples.size())
   {
     if (n_samples == 0)
@@ -46,10 +48,9 @@ namespace geocone
     for (const double weight : possible)
       upper += weight / n_samples;
     limits[0] = std::max(0., mean_limits(failed, confidence)[0]);
-    limits[1] =
-      std::min(1.,
-               most > 0 ? mean_limits(possible, confidence)[1]
-                        : SamplingDensity::largest_weight *
-                            clopper_pearson(0, n_samples, confidence)[1]);
+    limits[1] = std::min(
+      1.,
+      most > 0 ? mean_limits(possible, confidence)[1]
+               : largest_weight * clopper_pearson(0, n_samples, confidence)[1]);
   }
 } // namespace geocone

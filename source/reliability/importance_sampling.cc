@@ -133,10 +133,17 @@ namespace geocone
   {
     if (is_normal())
       return 1.;
-    double ratio = 0.;
-    for (const VectorXd &centre : centres)
-      ratio += std::exp(centre.dot(numbers) - centre.squaredNorm() / 2.) /
-               centres.size();
-    return period / (1. + (period - 1.) * ratio);
+    const unsigned int n_around_origin = n_samples / period,
+                       n_moved         = n_samples - n_around_origin,
+                       n               = centres.size();
+    double density                     = n_around_origin;
+    for (unsigned int i = 0; i < n; ++i)
+      {
+        // Centres are taken in turn.
+        const unsigned int n_own = n_moved / n + (i < n_moved % n);
+        density += n_own * std::exp(centres[i].dot(numbers) -
+                                    centres[i].squaredNorm() / 2.);
+      }
+    return n_samples / density;
   }
 } // namespace geocone

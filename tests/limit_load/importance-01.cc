@@ -88,7 +88,7 @@ namespace limit_load_importance_01
     check("distance of the centre",
           std::abs(distance - 3. * 0.09 / (0.09 + 0.04)) < 0.06);
 
-    const SamplingDensity     density({point.numbers});
+    const SamplingDensity     density({point.numbers}, 2000);
     std::vector<SampleRecord> samples(2000);
     for (unsigned int s = 0; s < samples.size(); ++s)
       {
@@ -96,7 +96,7 @@ namespace limit_load_importance_01
         samples[s].verdict = a.dot(u) > 3. ? -1 : 1;
         samples[s].weight  = density.weight(u);
       }
-    const FailureProbability found(samples, 0.99);
+    const FailureProbability found(samples, 0.99, 10.);
     const double             exact = normal_distribution(-3.);
     check("probability in its limits",
           found.limits[0] < exact && exact < found.limits[1]);
@@ -107,14 +107,14 @@ namespace limit_load_importance_01
     // No sample fails: the largest weight times 1 - 0.005^(1/2000).
     for (SampleRecord &sample : samples)
       sample.verdict = 1;
-    const double none = FailureProbability(samples, 0.99).limits[1];
+    const double none = FailureProbability(samples, 0.99, 10.).limits[1];
     check("limit without failed samples",
           std::abs(none / (10. * (1. - std::pow(0.005, 1. / 2000.))) - 1.) <
             1e-6);
     // An undecided sample with a weight widens the interval by this weight.
     samples[0].verdict = -1;
     samples[1].verdict = 0;
-    const FailureProbability wide(samples, 0.99);
+    const FailureProbability wide(samples, 0.99, 10.);
     check("undecided weight",
           std::abs((wide.upper - wide.lower) * 2000. / samples[1].weight - 1.) <
             1e-9);

@@ -73,12 +73,14 @@ namespace geocone
      * Evaluates the results of the samples. Limits are those of Clopper and Pearson if
      * all weights are 1, else those of mean_limits(), the lower one of failed samples and
      * the upper one of failed and undecided samples. If none of these has a weight, the
-     * upper one is Clopper and Pearson's times the largest possible weight.
+     * upper one is Clopper and Pearson's times the largest weight.
      * @param confidence probability with which the limits include the probability
      * of failure; asymptotic for weights
+     * @param largest_weight that a sample may have
      */
     FailureProbability(const std::vector<SampleRecord> &samples,
-                       const double                     confidence);
+                       const double                     confidence,
+                       const double                     largest_weight);
   };
 } // namespace geocone
 

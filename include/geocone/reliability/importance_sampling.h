@@ -103,17 +103,21 @@ namespace geocone
   /**
    * Density from which samples are drawn: nine samples of ten are normally distributed
    * around centres, in turn, every tenth around the origin. Weights of samples, phi(u)
-   * over the density, are therefore 10 at most, and sums of weights have a finite variance
-   * wherever samples fail (defensive mixture, Hesterberg 1995; fixed shares, Owen and Zhou
-   * 2000). A centre at the origin gives the weight 1 to all samples.
+   * over the density, are therefore about 10 at most, and sums of weights have a finite
+   * variance wherever samples fail (defensive mixture, Hesterberg 1995). The density has
+   * the shares of the samples that are drawn (fixed shares, Owen and Zhou 2000). A centre
+   * at the origin gives the weight 1 to all samples.
    */
   class SamplingDensity
   {
   public:
     SamplingDensity() = default;
 
-    explicit SamplingDensity(std::vector<Eigen::VectorXd> centres)
+    /** @param n_samples number of all samples, ten at least */
+    SamplingDensity(std::vector<Eigen::VectorXd> centres,
+                    const unsigned int           n_samples)
       : centres(std::move(centres))
+      , n_samples(n_samples)
     {}
 
     /** Returns true if all weights are 1. */
@@ -132,11 +136,18 @@ namespace geocone
     double
     weight(const Eigen::VectorXd &numbers) const;
 
-    static constexpr unsigned int period         = 10;
-    static constexpr double       largest_weight = period;
+    /** Weight that no sample exceeds. */
+    double
+    largest_weight() const
+    {
+      return is_normal() ? 1. : double(n_samples) / (n_samples / period);
+    }
 
   private:
+    static constexpr unsigned int period = 10;
+
     std::vector<Eigen::VectorXd> centres;
+    unsigned int                 n_samples = 0;
   };
 } // namespace geocone
 

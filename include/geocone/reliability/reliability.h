@@ -228,7 +228,7 @@ namespace geocone::GEOCONE_DIM
       std::vector<Eigen::VectorXd> centres;
       for (const DesignPoint &design : designs)
         centres.push_back(design.centre());
-      return SamplingDensity(std::move(centres));
+      return {std::move(centres), n_samples};
     }
 
     /** Finds the design points and the centres of samples on the first mesh.
@@ -266,7 +266,9 @@ namespace geocone::GEOCONE_DIM
     FailureProbability
     probability() const
     {
-      return {reliability_output.all_records(), confidence};
+      return {reliability_output.all_records(),
+              confidence,
+              density().largest_weight()};
     }
 
     ReliabilityOutput reliability_output;
