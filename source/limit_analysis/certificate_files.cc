@@ -1,11 +1,11 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <geocone/axisymmetric_bounds/axisymmetric_bounds.h>
 #include <geocone/base/constants.h>
+#include <geocone/bounds/strengths_in_files.h>
 #include <geocone/cone/second_order_cone.h>
-#include <geocone/limit_analysis/axisymmetric_bounds.h>
 #include <geocone/limit_analysis/certificate_files.h>
-#include <geocone/limit_analysis/strengths_in_files.h>
 
 #include <cmath>
 #include <limits>

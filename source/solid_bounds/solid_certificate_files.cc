@@ -1,12 +1,11 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-#include <cmath>
 #include <geocone/base/constants.h>
-#include <geocone/limit_analysis/strengths_in_files.h>
+#include <geocone/bounds/strengths_in_files.h>
 #include <geocone/solid_bounds/solid_bounds.h>
 #include <geocone/solid_bounds/solid_certificate_files.h>
-
+#include <cmath>
 
 namespace geocone::GEOCONE_DIM
 {

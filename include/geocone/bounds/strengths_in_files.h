@@ -1,12 +1,12 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-#ifndef geocone_limit_analysis_strengths_in_files_h
-#define geocone_limit_analysis_strengths_in_files_h
+#ifndef geocone_bounds_strengths_in_files_h
+#define geocone_bounds_strengths_in_files_h
 
 #include <geocone/base/constants.h>
-#include <geocone/limit_analysis/spatial_strength.h>
-#include <geocone/output/json.h>
+#include <geocone/bounds/spatial_strength.h>
+#include <geocone/folder/json.h>
 
 #include <cmath>
 #include <vector>
