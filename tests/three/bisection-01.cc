@@ -131,7 +131,9 @@ namespace three_bisection_01
     return n;
   }
 
-  /** Divides the cells of two meshes of the box at the edges of its free sides. */
+  /** Divides the cells of two meshes of the box at the edges of its free sides. In the
+   *  fine one the bisection has parted their faces: the longest edge of a cell of the box
+   *  is the one between the vertices opposite to both. */
   void
   test_free_faces(const Tetrahedra &first, const Tetrahedra &fine)
   {
