@@ -22,7 +22,7 @@ from geocone.style import sizes_of
 run = Run("run")
 field, = run.states("bounds")
 volumes, cells = sizes_of(field) / 6., field.cells  # those of parallelepipeds
-assert len(cells) == 24 and abs(volumes.sum() - 0.5) < 1e-6
+assert len(cells) == 30 and abs(volumes.sum() - 0.5) < 1e-6
 
 
 def of_cells(name):
