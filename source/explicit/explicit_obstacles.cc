@@ -349,27 +349,27 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
-  ExplicitObstacles::push(const std::vector<unsigned char> &is_prescribed,
-                          const double                      least_mass,
-                          Exchange                         &sum)
+  ExplicitObstacles::drop_supported(
+    const std::vector<unsigned char> &is_prescribed, const double least_mass)
   {
-    // Supports act alone where the normal is along them.
-    const auto is_held = [&](const Node &node) {
-      return !(transfer.mass[node.number] > least_mass) ||
-             std::any_of(contacts.begin() + node.begin,
-                         contacts.begin() + node.end,
-                         [&](ContactNode &contact) {
-                           const Tensor<1, dim> normal = free_part(
-                             contact.normal, node.number, is_prescribed);
-                           const bool held =
-                             normal.norm() < least_free_component;
-                           if (!held)
-                             contact.normal = normal / normal.norm();
-                           return held;
-                         });
+    const auto is_supported = [&](ContactNode &contact) {
+      const Tensor<1, dim> normal =
+        free_part(contact.normal, contact.node, is_prescribed);
+      const bool supported = normal.norm() < least_free_component;
+      if (!supported)
+        contact.normal = normal / normal.norm();
+      return supported;
     };
-    nodes.erase(std::remove_if(nodes.begin(), nodes.end(), is_held),
-                nodes.end());
+    nodes.erase(
+      std::remove_if(nodes.begin(),
+                     nodes.end(),
+                     [&](const Node &node) {
+                       return !(transfer.mass[node.number] > least_mass) ||
+                              std::any_of(contacts.begin() + node.begin,
+                                          contacts.begin() + node.end,
+                                          is_supported);
+                     }),
+      nodes.end());
     locals.clear();
     for (const Node &node : nodes)
       {
@@ -380,6 +380,32 @@ namespace geocone::GEOCONE_DIM
         local.rho = transfer.mass[node.number] / dt;
         locals.push_back(local);
       }
+  }
+
+  Tensor<1, dim>
+  ExplicitObstacles::act_on(const Node &node)
+  {
+    double *const  v = &transfer.read[node_size * node.number];
+    const double   m = transfer.mass[node.number];
+    Tensor<1, dim> q, mean;
+    for (unsigned int k = node.begin; k < node.end; ++k)
+      q += forces[k].q;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        const double before = v[d] - v[change_of_node + d];
+        v[d] += dt / m * q[d];
+        v[change_of_node + d] += dt / m * q[d];
+        mean[d] = before + v[change_of_node + d] / 2.;
+      }
+    return mean;
+  }
+
+  void
+  ExplicitObstacles::push(const std::vector<unsigned char> &is_prescribed,
+                          const double                      least_mass,
+                          Exchange                         &sum)
+  {
+    drop_supported(is_prescribed, least_mass);
     std::vector<char> is_mine(transfer.n_nodes(), 0);
     for (const auto &[begin, end] : transfer.mine)
       std::fill(is_mine.begin() + begin, is_mine.begin() + end, 1);
@@ -400,40 +426,23 @@ namespace geocone::GEOCONE_DIM
       return sums;
     });
 
+    const auto about = scene.observation.moment_centre();
     for (const Node &node : nodes)
       {
         solve(node, is_prescribed);
-        double *const  v = &transfer.read[node_size * node.number];
-        const double   m = transfer.mass[node.number];
-        Tensor<1, dim> before, q;
-        for (unsigned int d = 0; d < dim; ++d)
-          before[d] = v[d] - v[change_of_node + d];
-        for (unsigned int k = node.begin; k < node.end; ++k)
-          q += forces[k].q;
-        for (unsigned int d = 0; d < dim; ++d)
+        const Tensor<1, dim> mean = act_on(node);
+        for (unsigned int k = node.begin; k < node.end && is_mine[node.number];
+             ++k)
           {
-            v[d] += dt / m * q[d];
-            v[change_of_node + d] += dt / m * q[d];
-          }
-        if (!is_mine[node.number])
-          continue;
-        sum.impulse += dt * q;
-        for (unsigned int k = node.begin; k < node.end; ++k)
-          {
-            const Tensor<1, dim> of_contact = dt * forces[k].q;
-            const unsigned int   o          = contacts[k].obstacle;
+            const ContactNode   &contact = contacts[k];
+            const Tensor<1, dim> J       = dt * forces[k].q;
             const Tensor<1, dim> arm =
-              scene.observation.moment_centre()
-                ? positions[node.number] - *scene.observation.moment_centre()
-                : contacts[k].arm;
-            Tensor<1, dim> relative = before - contacts[k].velocity;
+              about ? positions[node.number] - *about : contact.arm;
             for (unsigned int d = 0; d < dim; ++d)
-              {
-                impulse[o].add(arm, d, of_contact[d]);
-                relative[d] += v[change_of_node + d] / 2.;
-              }
-            sum.contact_dissipation -= of_contact * relative;
-            sum.support_work += of_contact * contacts[k].velocity;
+              impulse[contact.obstacle].add(arm, d, J[d]);
+            sum.impulse += J;
+            sum.contact_dissipation -= J * (mean - contact.velocity);
+            sum.support_work += J * contact.velocity;
           }
       }
   }

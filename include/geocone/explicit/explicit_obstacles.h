@@ -142,6 +142,17 @@ namespace geocone::GEOCONE_DIM
               const unsigned int                node,
               const std::vector<unsigned char> &is_prescribed) const;
 
+    /** Removes nodes without mass, and nodes whose contact normal is along supported
+     *  directions, where the supports act alone; takes the velocities of the others. */
+    void
+    drop_supported(const std::vector<unsigned char> &is_prescribed,
+                   const double                      least_mass);
+
+    /** Adds the contact forces to the velocity of a node.
+     *  @return mean of its velocities before and after the step */
+    dealii::Tensor<1, dim>
+    act_on(const Node &node);
+
     /** Contact forces of a node for given motions of the obstacles, in `forces`. */
     void
     solve(const Node &node, const std::vector<unsigned char> &is_prescribed);
