@@ -522,33 +522,17 @@ namespace geocone::GEOCONE_DIM
           array.values + array.per_node * first, array.per_node * n, to);
     };
     pack(all, receive[rank]);
-    for (unsigned int r = 0; r < n_ranks; ++r)
-      if (r != rank && shared[r].size() > 0)
-        {
-          receive[r].resize(
-            per_node * static_cast<std::size_t>(shared[r].size()) * stride);
-          requests.emplace_back();
-          MPI_Irecv(receive[r].data(),
-                    receive[r].size(),
-                    MPI_DOUBLE,
-                    r,
-                    0,
-                    comm,
-                    &requests.back());
-        }
     sent.resize(n_ranks);
     for (unsigned int r = 0; r < n_ranks; ++r)
       if (r != rank && shared[r].size() > 0)
         {
           pack(shared[r], sent[r]);
-          requests.emplace_back();
-          MPI_Isend(sent[r].data(),
-                    sent[r].size(),
-                    MPI_DOUBLE,
-                    r,
-                    0,
-                    comm,
-                    &requests.back());
+          receive[r].resize(sent[r].size());
+          const int n = sent[r].size();
+          requests.resize(requests.size() + 2);
+          MPI_Request *const last = &requests.back();
+          MPI_Irecv(receive[r].data(), n, MPI_DOUBLE, r, 0, comm, last - 1);
+          MPI_Isend(sent[r].data(), n, MPI_DOUBLE, r, 0, comm, last);
         }
     MPI_Waitall(requests.size(), requests.data(), MPI_STATUSES_IGNORE);
 
