@@ -28,6 +28,15 @@ namespace geocone::GEOCONE_DIM
     {
       return bound.certified ? std::optional(unit * bound.load) : std::nullopt;
     }
+
+    /** States which load is bracketed. */
+    void
+    describe(const BoundedLoad &load, const Scene &scene, LoadBracket &bracket)
+    {
+      bracket.unit                = load.unit() == "-" ? "" : load.unit();
+      bracket.is_associated       = !load.non_associated();
+      bracket.other_than_observed = load.other_than_observed(scene.observation);
+    }
   } // namespace
 
   std::pair<CellSizes, LoadBracket>
@@ -104,11 +113,8 @@ namespace geocone::GEOCONE_DIM
                              n_cells,
                              100. * gap,
                              time.wall_time()));
-            bracket.unit          = load.unit() == "-" ? "" : load.unit();
-            bracket.is_associated = !load.non_associated();
-            bracket.seconds       = time.cpu_time();
-            bracket.other_than_observed =
-              load.other_than_observed(scene.observation);
+            describe(load, scene, bracket);
+            bracket.seconds = time.cpu_time();
             return {*sizes, bracket};
           }
       }
