@@ -19,6 +19,20 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
+    void
+    remove_empty(std::vector<std::string> &texts)
+    {
+      texts.erase(std::remove(texts.begin(), texts.end(), ""), texts.end());
+    }
+
+    BoundingBox<dim>
+    box_of_body(const Scene &scene, const BackgroundMesh &mesh)
+    {
+      return scene.geometry.shape == Geometry::Shape::file
+               ? mesh.bounding_box()
+               : scene.geometry.bounding_box();
+    }
+
     /** Whether a material of low dilatancy has nu > 0.49. */
     bool
     is_nearly_incompressible(const Materials &materials)
@@ -141,18 +155,16 @@ namespace geocone::GEOCONE_DIM
     newton.prepare();
     step_control.prepare();
     exact_solution.prepare();
+    if (dim == 3 && method.is_mpm())
+      scene.water.seepage.refuse("particles in three dimensions",
+                                 "set Discretisation/Method = FEM, or give "
+                                 "the pressures by 'Water/Table'");
     if (dim == 2)
       let_water_flow(scene, comm, log, options.dry_run);
     const std::string remark_on_bounds = prepare_mesh(options);
     if (dim == 3)
-      {
-        if (method.is_mpm())
-          scene.water.seepage.refuse("particles in three dimensions",
-                                     "set Discretisation/Method = FEM, or give "
-                                     "the pressures by 'Water/Table'");
-        let_water_flow(
-          scene, comm, log, options.dry_run, 0., &mesh.mesh_parameters());
-      }
+      let_water_flow(
+        scene, comm, log, options.dry_run, 0., &mesh.mesh_parameters());
     remember_friction();
     step_control.limit(scene.materials.traits().friction_memory);
     if (const std::string text = text_of_memory(scene); !text.empty())
@@ -184,9 +196,7 @@ namespace geocone::GEOCONE_DIM
         "Initial stress/Run");
     warnings.push_back(remark_on_bounds);
     warnings.push_back(scene.warn_of_time_histories());
-    const BoundingBox<dim> body(scene.geometry.shape == Geometry::Shape::file
-                                  ? mesh.bounding_box()
-                                  : scene.geometry.bounding_box());
+    const BoundingBox<dim> body = box_of_body(scene, mesh);
     log.print(options.name + ": " + text_of_magnitudes(scene, body));
     for (const auto &more : {warn_of_magnitudes(scene, body),
                              warn_of_partial_coverage(scene, mesh, space),
@@ -202,8 +212,7 @@ namespace geocone::GEOCONE_DIM
                              {scene.warn_of_effective_loads()},
                              scene.materials.warnings()})
       warnings.insert(warnings.end(), more.begin(), more.end());
-    warnings.erase(std::remove(warnings.begin(), warnings.end(), ""),
-                   warnings.end());
+    remove_empty(warnings);
     if (method.is_mpm())
       observed_points.prepare_points(scene, points, comm);
     else
