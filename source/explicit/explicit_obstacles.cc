@@ -26,6 +26,10 @@ namespace geocone::GEOCONE_DIM
      *  without support until that row is passed. */
     constexpr double of_surface = 0.4999;
 
+    /** Length of the free part of a contact normal below which the supports of a node act
+     *  alone. */
+    constexpr double least_free_part = 0.05;
+
     /** Gap of the points that are listed as near, over the size of a cell. */
     constexpr double listed = 2.;
 
@@ -55,6 +59,20 @@ namespace geocone::GEOCONE_DIM
     , particle(scene.obstacles, positions)
     , gaps(scene.obstacles.list.size())
   {
+    // Twice the depth of the centre; a half-space has none.
+    for (const auto &obstacle : scene.obstacles.list)
+      if (const double thickness =
+            -2. * obstacle->nearest(obstacle->centre(), {}, {}).distance;
+          std::isfinite(obstacle->width()) &&
+          thickness < (1. - 1e-6) * transfer.cell_size())
+        throw InputError(
+          "Obstacles/Names",
+          obstacle->name,
+          format("obstacles that are thicker than a cell, %.3g m; this one has "
+                 "%.3g m",
+                 transfer.cell_size(),
+                 thickness),
+          "make it thicker, or take smaller cells: no node would be in it");
     if (const std::string overlap =
           scene.obstacles.overlap_of_free(displacement, margin());
         !overlap.empty())
@@ -234,12 +252,17 @@ namespace geocone::GEOCONE_DIM
     contacts.clear();
     nodes.clear();
     const auto others = scene.obstacles.neighbours(displacement, margin());
+    refusal.clear();
     for (const unsigned int node : find_gaps(groups))
       {
         add_contacts(node, others);
         for (auto &of_obstacle : gaps)
           of_obstacle[node] = no_gap;
       }
+    if (displacement.size() > 1)
+      refusal = text_of_any_rank(comm, refusal);
+    if (!refusal.empty())
+      throw StepFailure(refusal);
     forces.assign(contacts.size(), {});
   }
 
@@ -282,13 +305,26 @@ namespace geocone::GEOCONE_DIM
                      });
     const unsigned int begin = contacts.size();
     for (const ContactNode &contact : found)
-      if (std::all_of(contacts.begin() + begin,
-                      contacts.end(),
-                      [&](const ContactNode &other) {
-                        return std::abs(contact.normal * other.normal) <
-                               parallel;
-                      }))
-        contacts.push_back(contact);
+      {
+        bool is_new =
+          contacts.size() - begin < dim; // more may contradict each other
+        for (unsigned int k = begin; k < contacts.size(); ++k)
+          {
+            const double cosine = contact.normal * contacts[k].normal;
+            is_new              = is_new && std::abs(cosine) < parallel;
+            if (cosine < -parallel && contact.least > -closable / dt &&
+                contacts[k].least > -closable / dt)
+              refusal =
+                format("the node at (%s) is squeezed between '%s' and '%s'"
+                       "\n  remedy:  take smaller cells, or end the loading "
+                       "before less than a cell of soil is between them",
+                       text_of_place(x).c_str(),
+                       list[contacts[k].obstacle]->name.c_str(),
+                       list[contact.obstacle]->name.c_str());
+          }
+        if (is_new)
+          contacts.push_back(contact);
+      }
     nodes.push_back(
       {number, begin, static_cast<unsigned int>(contacts.size())});
   }
@@ -352,24 +388,39 @@ namespace geocone::GEOCONE_DIM
   ExplicitObstacles::drop_supported(
     const std::vector<unsigned char> &is_prescribed, const double least_mass)
   {
-    const auto is_supported = [&](ContactNode &contact) {
-      const Tensor<1, dim> normal =
-        free_part(contact.normal, contact.node, is_prescribed);
-      const bool supported = normal.norm() < least_free_component;
-      if (!supported)
-        contact.normal = normal / normal.norm();
-      return supported;
-    };
-    nodes.erase(
-      std::remove_if(nodes.begin(),
-                     nodes.end(),
-                     [&](const Node &node) {
-                       return !(transfer.mass[node.number] > least_mass) ||
-                              std::any_of(contacts.begin() + node.begin,
-                                          contacts.begin() + node.end,
-                                          is_supported);
-                     }),
-      nodes.end());
+    nodes.erase(std::remove_if(nodes.begin(),
+                               nodes.end(),
+                               [&](const Node &node) {
+                                 return !(transfer.mass[node.number] >
+                                          least_mass);
+                               }),
+                nodes.end());
+    // A contact acts along the free part of its normal, n.v = n_f.v_f + n_p.v_p with the
+    // prescribed part v_p of the velocity.
+    for (const Node &node : nodes)
+      for (unsigned int k = node.begin; k < node.end; ++k)
+        {
+          ContactNode         &contact = contacts[k];
+          const Tensor<1, dim> free =
+            free_part(contact.normal, contact.node, is_prescribed);
+          const double size     = free.norm();
+          bool         is_alone = true;
+          for (unsigned int d = 0; d < dim; ++d)
+            if (is_prescribed[dim * contact.node + d])
+              contact.least -= contact.normal[d] *
+                               (transfer.read[node_size * contact.node + d] -
+                                contact.velocity[d]);
+          contact.least /= size;
+          contact.normal = free / size;
+          for (unsigned int other = node.begin; other < k; ++other)
+            is_alone =
+              is_alone && contact.normal * contacts[other].normal > -parallel;
+          if (size < least_free_part || !is_alone)
+            {
+              contact.normal = Tensor<1, dim>(); // the supports act alone
+              contact.least  = -no_gap;
+            }
+        }
     locals.clear();
     for (const Node &node : nodes)
       {

@@ -231,29 +231,37 @@ namespace geocone::GEOCONE_DIM
       water->count_work(step.dt, step.gravity);
   }
 
+  std::vector<char>
+  NodalUpdate::contact_nodes() const
+  {
+    std::vector<char> is_touching(transfer.n_nodes(), 0);
+    if (obstacles != nullptr)
+      for (const unsigned int i : obstacles->contact_nodes())
+        is_touching[i] = 1;
+    return is_touching;
+  }
+
   void
   NodalUpdate::measure_unbalanced_force()
   {
     unbalanced = 0.;
-    std::vector<char> is_supported(transfer.n_nodes(), 0);
-    if (obstacles != nullptr)
-      for (const unsigned int i : obstacles->contact_nodes())
-        is_supported[i] = 1;
+    const std::vector<char> is_touching = contact_nodes();
     for (unsigned int i = 0; i < transfer.n_nodes(); ++i)
       for (unsigned int d = 0; d < dim; ++d)
-        if (!is_prescribed[dim * i + d] && !is_supported[i])
+        if (!is_prescribed[dim * i + d] && !is_touching[i])
           unbalanced = std::max(unbalanced, std::abs(force_at(i, d)));
   }
 
   void
   NodalUpdate::add_damping(const Step &step)
   {
-    // Without prescribed components, whose force is a reaction.
+    // Without prescribed components and contact nodes, whose force is a reaction.
+    const std::vector<char> is_touching = contact_nodes();
     const double *read  = transfer.read.data();
     const auto    force = [&](const unsigned int i, const unsigned int d) {
       const double F = std::abs(force_at(i, d));
-      if (is_prescribed[dim * i + d] || !(transfer.mass[i] > least_mass) ||
-          F == 0.)
+      if (is_prescribed[dim * i + d] || is_touching[i] ||
+          !(transfer.mass[i] > least_mass) || F == 0.)
         return 0.;
       // Sign of the velocity, continuous if it is small compared with its
       // change in the step: rounding must not determine a force.

@@ -12,6 +12,7 @@
 #include <geocone/transfer/grid_transfer.h>
 
 #include <array>
+#include <string>
 #include <vector>
 
 namespace geocone::GEOCONE_DIM
@@ -131,7 +132,7 @@ namespace geocone::GEOCONE_DIM
     find_gaps(const std::vector<PointArrays> &groups);
 
     /** Appends the contacts of a node with the obstacles on whose surface it is: the
-     *  nearest one, and others with other normals. */
+     *  nearest one, and others with other normals, as many as there are directions. */
     void
     add_contacts(const unsigned int             number,
                  const std::vector<Neighbours> &others);
@@ -142,8 +143,8 @@ namespace geocone::GEOCONE_DIM
               const unsigned int                node,
               const std::vector<unsigned char> &is_prescribed) const;
 
-    /** Removes nodes without mass, and nodes whose contact normal is along supported
-     *  directions, where the supports act alone; takes the velocities of the others. */
+    /** Removes nodes without mass and the supported parts of contact normals; takes the
+     *  velocities of the nodes. */
     void
     drop_supported(const std::vector<unsigned char> &is_prescribed,
                    const double                      least_mass);
@@ -197,6 +198,7 @@ namespace geocone::GEOCONE_DIM
     double                   closable = 0.; ///< larger gaps stay open (m)
     std::vector<ContactNode> contacts;
     std::vector<Contact::Projection> forces; ///< of `contacts`
+    std::string refusal; ///< contacts that cannot be resolved
     std::vector<Node>                nodes;
     std::vector<Contact::Local>      locals; ///< of `nodes`
     ObstacleMotions                  motions;

@@ -141,6 +141,10 @@ namespace geocone::GEOCONE_DIM
     void
     count_gravity_work(const Step &step);
 
+    /** Whether each node is a potential contact node of an obstacle. */
+    std::vector<char>
+    contact_nodes() const;
+
     void
     measure_unbalanced_force();
 
