@@ -264,6 +264,7 @@ namespace geocone::GEOCONE_DIM
     if (!refusal.empty())
       throw StepFailure(refusal);
     forces.assign(contacts.size(), {});
+    carried.assign(contacts.size(), {});
   }
 
   void
@@ -410,6 +411,7 @@ namespace geocone::GEOCONE_DIM
               contact.least -= contact.normal[d] *
                                (transfer.read[node_size * contact.node + d] -
                                 contact.velocity[d]);
+          carried[k] = (contact.normal - free) / size;
           contact.least /= size;
           contact.normal = free / size;
           for (unsigned int other = node.begin; other < k; ++other)
@@ -417,8 +419,8 @@ namespace geocone::GEOCONE_DIM
               is_alone && contact.normal * contacts[other].normal > -parallel;
           if (size < least_free_part || !is_alone)
             {
-              contact.normal = Tensor<1, dim>(); // the supports act alone
-              contact.least  = -no_gap;
+              contact.normal = carried[k] = Tensor<1, dim>();
+              contact.least               = -no_gap; // the supports act alone
             }
         }
     locals.clear();
@@ -486,14 +488,17 @@ namespace geocone::GEOCONE_DIM
              ++k)
           {
             const ContactNode   &contact = contacts[k];
-            const Tensor<1, dim> J       = dt * forces[k].q;
+            const Tensor<1, dim> J       = dt * forces[k].q,
+                                 of_side = (J * contact.normal) * carried[k];
             const Tensor<1, dim> arm =
               about ? positions[node.number] - *about : contact.arm;
             for (unsigned int d = 0; d < dim; ++d)
-              impulse[contact.obstacle].add(arm, d, J[d]);
+              impulse[contact.obstacle].add(arm, d, J[d] + of_side[d]);
             sum.impulse += J;
-            sum.contact_dissipation -= J * (mean - contact.velocity);
-            sum.support_work += J * contact.velocity;
+            sum.contact_dissipation -=
+              (J + of_side) * (mean - contact.velocity);
+            sum.support_work +=
+              (J + of_side) * contact.velocity - of_side * mean;
           }
       }
   }

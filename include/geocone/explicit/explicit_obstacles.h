@@ -198,6 +198,10 @@ namespace geocone::GEOCONE_DIM
     double                   closable = 0.; ///< larger gaps stay open (m)
     std::vector<ContactNode> contacts;
     std::vector<Contact::Projection> forces; ///< of `contacts`
+
+    /** Supported part of each contact normal over the length of its free part: the
+     *  force of the obstacle in these directions goes into the supports. */
+    std::vector<dealii::Tensor<1, dim>> carried;
     std::string refusal; ///< contacts that cannot be resolved
     std::vector<Node>                nodes;
     std::vector<Contact::Local>      locals; ///< of `nodes`
