@@ -5,6 +5,7 @@
 #include <geocone/base/log.h>
 #include <geocone/base/over_ranks.h>
 #include <geocone/contact/obstacle_contact.h>
+#include <geocone/contact/obstacle_step.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -53,18 +54,11 @@ namespace geocone::GEOCONE_DIM
   {
     if (!exists())
       return;
-    const auto &list = scene.obstacles.list;
     size             = 1e300;
     for (const auto &cell : mesh.own_cells())
       size = std::min(size, cell->diameter());
     size = Utilities::MPI::min(size, comm);
-    if (const std::string overlap =
-          scene.obstacles.overlap_of_free(displacement, margin());
-        !overlap.empty())
-      throw InputError("Obstacles/Names",
-                       list.front()->name,
-                       "free obstacles that do not overlap with others",
-                       overlap + ": move it, or make one body of both");
+    check_start_of_free(scene.obstacles, margin());
     if (!mesh_is_body)
       {
         for (unsigned int node = 0; node < space.n_local_nodes(); ++node)
@@ -180,32 +174,11 @@ namespace geocone::GEOCONE_DIM
                          const std::vector<Vector> &gaps,
                          std::vector<FacingNode>    facing) const
   {
+    check_free(scene.obstacles, displacement, margin());
     const double solved_at = t + solved_h;
-    const auto  &list      = scene.obstacles.list;
-    if (const std::string overlap =
-          scene.obstacles.overlap_of_free(displacement, margin());
-        !overlap.empty())
-      throw StepFailure(overlap + "\n  remedy:  end the loading before they "
-                                  "meet, or let the soil part them");
-    ContactStep step;
-    step.bodies.resize(list.size());
-    for (unsigned int o = 0; o < list.size(); ++o)
-      {
-        const Obstacle &obstacle = *list[o];
-        ObstacleBody   &body     = step.bodies[o];
-        body.without_contact     = obstacle.velocity(solved_at);
-        RigidMotion force        = obstacle.load(solved_at);
-        force.centre += obstacle.inertia(0) * scene.gravity.at(solved_at);
-        for (unsigned int k = 0; k < RigidMotion::n_components; ++k)
-          if (obstacle.is_free(k))
-            {
-              body.is_free[k]    = true;
-              body.inertia[k]    = obstacle.inertia(k) / solved_h;
-              body.velocity_n[k] = velocity[o][k];
-              body.without_contact[k] =
-                velocity[o][k] + force[k] / body.inertia[k];
-            }
-      }
+    ContactStep  step;
+    step.bodies =
+      bodies_of_step(scene, velocity, solved_at, solved_at, solved_h);
     NearBodies near;
     if (!scene.contacts.list.empty())
       {

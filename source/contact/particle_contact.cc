@@ -180,14 +180,23 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
-  check_particles_outside(const MaterialPoints &points,
-                          const Obstacles      &obstacles,
-                          const MPI_Comm        comm)
+  check_obstacles_of_particles(const std::vector<Point<dim>> &positions,
+                               const Obstacles               &obstacles,
+                               const MPI_Comm                 comm)
   {
     for (const auto &obstacle : obstacles.list)
       {
+        if (obstacle->has_small_sliding())
+          throw InputError(obstacle->parameter("Sliding"),
+                           "small",
+                           "finite with MPM",
+                           "particles are where they are: leave it out");
+        obstacle->law.check_without_area(obstacle->parameter(""));
+      }
+    for (const auto &obstacle : obstacles.list)
+      {
         double least = 1e300;
-        for (const Point<dim> &x : points.position)
+        for (const Point<dim> &x : positions)
           least = std::min(least, obstacle->nearest(x, {}, {}).distance);
         least = Utilities::MPI::min(least, comm);
         if (!(least > 0.))

@@ -90,7 +90,6 @@ namespace geocone::GEOCONE_DIM
                            "it out: points of all materials share the grid");
     if (scene->obstacles.list.empty())
       return;
-    ExplicitObstacles::check(*scene);
     if (parameters.order == Order::usf)
       throw InputError("Explicit/Order",
                        parameters.order.word(),
@@ -212,7 +211,7 @@ namespace geocone::GEOCONE_DIM
     if (!scene->obstacles.list.empty())
       {
         obstacles = std::make_unique<ExplicitObstacles>(*scene, transfer, comm);
-        obstacles->check_outside(body.groups());
+        obstacles->check(body.groups());
       }
     PoreWater &water = body.pore_water();
     nodes            = std::make_unique<NodalUpdate>(transfer,

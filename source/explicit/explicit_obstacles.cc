@@ -4,6 +4,7 @@
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
 #include <geocone/base/over_ranks.h>
+#include <geocone/contact/obstacle_step.h>
 #include <geocone/explicit/explicit_obstacles.h>
 
 #include <deal.II/base/mpi.h>
@@ -73,50 +74,24 @@ namespace geocone::GEOCONE_DIM
                  transfer.cell_size(),
                  thickness),
           "make it thicker, or take smaller cells: no node would be in it");
-    if (const std::string overlap =
-          scene.obstacles.overlap_of_free(displacement, margin());
-        !overlap.empty())
-      throw InputError("Obstacles/Names",
-                       scene.obstacles.list.front()->name,
-                       "free obstacles that do not overlap with others",
-                       overlap + ": move it, or make one body of both");
+    check_start_of_free(scene.obstacles, margin());
   }
 
   void
-  ExplicitObstacles::check(const Scene &scene)
+  ExplicitObstacles::check(const std::vector<PointArrays> &groups) const
   {
+    std::vector<Point<dim>> positions;
+    for_each_point_of(groups,
+                      [&](unsigned int, unsigned int, const Point<dim> &x) {
+                        positions.push_back(x);
+                      });
+    check_obstacles_of_particles(positions, scene.obstacles, comm);
     for (const auto &obstacle : scene.obstacles.list)
-      {
-        if (obstacle->has_small_sliding())
-          throw InputError(obstacle->parameter("Sliding"),
-                           "small",
-                           "finite with MPM",
-                           "particles are where they are: leave it out");
-        obstacle->law.check_without_area(obstacle->parameter(""));
-        if (obstacle->law.restitution > 0.)
-          throw InputError(
-            obstacle->parameter("Restitution"),
-            obstacle->law.restitution,
-            "0 with explicit MPM",
-            "the waves in the soil make it rebound: leave it out");
-      }
-  }
-
-  void
-  ExplicitObstacles::check_outside(const std::vector<PointArrays> &groups) const
-  {
-    for (const auto &obstacle : scene.obstacles.list)
-      {
-        double least = 1e300;
-        for_each_point_of(
-          groups, [&](unsigned int, unsigned int, const Point<dim> &x) {
-            least = std::min(least, obstacle->nearest(x, {}, {}).distance);
-          });
-        least = Utilities::MPI::min(least, comm);
-        if (!(least > 0.))
-          obstacle->refuse_overlap(
-            format("a particle is %.3g m inside it", -least));
-      }
+      if (obstacle->law.restitution > 0.)
+        throw InputError(obstacle->parameter("Restitution"),
+                         obstacle->law.restitution,
+                         "0 with explicit MPM",
+                         "the waves in the soil make it rebound: leave it out");
   }
 
   Tensor<1, dim>
@@ -165,33 +140,6 @@ namespace geocone::GEOCONE_DIM
     return most;
   }
 
-  std::vector<ObstacleBody>
-  ExplicitObstacles::bodies_of_step() const
-  {
-    const auto               &list = scene.obstacles.list;
-    const double              end  = t + dt;
-    std::vector<ObstacleBody> bodies(list.size());
-    for (unsigned int o = 0; o < list.size(); ++o)
-      {
-        const Obstacle &obstacle = *list[o];
-        ObstacleBody   &body     = bodies[o];
-        // As the velocities of sides: driven motions at the end of the step.
-        body.without_contact = obstacle.velocity(end);
-        RigidMotion force    = obstacle.load(t + dt / 2.);
-        force.centre += obstacle.inertia(0) * scene.gravity.at(t + dt / 2.);
-        for (unsigned int k = 0; k < RigidMotion::n_components; ++k)
-          if (obstacle.is_free(k))
-            {
-              body.is_free[k]    = true;
-              body.inertia[k]    = obstacle.inertia(k) / dt;
-              body.velocity_n[k] = velocity[o][k];
-              body.without_contact[k] =
-                velocity[o][k] + force[k] / body.inertia[k];
-            }
-      }
-    return bodies;
-  }
-
   std::vector<unsigned int>
   ExplicitObstacles::find_gaps(const std::vector<PointArrays> &groups)
   {
@@ -232,17 +180,14 @@ namespace geocone::GEOCONE_DIM
   void
   ExplicitObstacles::begin_step(const std::vector<PointArrays> &groups,
                                 const PassSums                 &points,
-                                const double                    begin,
+                                const double                    t,
                                 const double                    size)
   {
-    t  = begin;
     dt = size;
-    motions.begin_step(bodies_of_step());
-    if (const std::string overlap =
-          scene.obstacles.overlap_of_free(displacement, margin());
-        !overlap.empty())
-      throw StepFailure(overlap + "\n  remedy:  end the loading before they "
-                                  "meet, or let the soil part them");
+    // As the velocities of sides: driven motions at the end of the step.
+    motions.begin_step(
+      bodies_of_step(scene, velocity, t + dt, t + dt / 2., dt));
+    check_free(scene.obstacles, displacement, margin());
     const double path = dt * (std::sqrt(points.speed2) + fastest(points));
     closable          = 0.01 * transfer.cell_size() + 4. * path;
     travelled += path;
@@ -293,7 +238,6 @@ namespace geocone::GEOCONE_DIM
         const double gap  = std::max(gaps[o][number], 0.);
         contact.normal    = at.normal;
         contact.least     = -gap / dt;
-        contact.is_closed = gap <= closed_gap * transfer.cell_size();
         contact.friction  = list[o]->law.friction;
         found.push_back(contact);
       }
@@ -330,13 +274,11 @@ namespace geocone::GEOCONE_DIM
       {number, begin, static_cast<unsigned int>(contacts.size())});
   }
 
-  std::vector<unsigned int>
-  ExplicitObstacles::contact_nodes() const
+  void
+  ExplicitObstacles::mark(std::vector<unsigned char> &components) const
   {
-    std::vector<unsigned int> numbers;
     for (const Node &node : nodes)
-      numbers.push_back(node.number);
-    return numbers;
+      std::fill_n(components.begin() + dim * node.number, dim, 1);
   }
 
   Tensor<1, dim>

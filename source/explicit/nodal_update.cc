@@ -231,37 +231,36 @@ namespace geocone::GEOCONE_DIM
       water->count_work(step.dt, step.gravity);
   }
 
-  std::vector<char>
-  NodalUpdate::contact_nodes() const
+  const std::vector<unsigned char> &
+  NodalUpdate::reactions()
   {
-    std::vector<char> is_touching(transfer.n_nodes(), 0);
-    if (obstacles != nullptr)
-      for (const unsigned int i : obstacles->contact_nodes())
-        is_touching[i] = 1;
-    return is_touching;
+    if (obstacles == nullptr)
+      return is_prescribed;
+    is_reaction = is_prescribed;
+    obstacles->mark(is_reaction);
+    return is_reaction;
   }
 
   void
   NodalUpdate::measure_unbalanced_force()
   {
     unbalanced = 0.;
-    const std::vector<char> is_touching = contact_nodes();
+    const std::vector<unsigned char> &has_reaction = reactions();
     for (unsigned int i = 0; i < transfer.n_nodes(); ++i)
       for (unsigned int d = 0; d < dim; ++d)
-        if (!is_prescribed[dim * i + d] && !is_touching[i])
+        if (!has_reaction[dim * i + d])
           unbalanced = std::max(unbalanced, std::abs(force_at(i, d)));
   }
 
   void
   NodalUpdate::add_damping(const Step &step)
   {
-    // Without prescribed components and contact nodes, whose force is a reaction.
-    const std::vector<char> is_touching = contact_nodes();
+    const std::vector<unsigned char> &has_reaction = reactions();
     const double *read  = transfer.read.data();
     const auto    force = [&](const unsigned int i, const unsigned int d) {
       const double F = std::abs(force_at(i, d));
-      if (is_prescribed[dim * i + d] || is_touching[i] ||
-          !(transfer.mass[i] > least_mass) || F == 0.)
+      if (has_reaction[dim * i + d] || !(transfer.mass[i] > least_mass) ||
+          F == 0.)
         return 0.;
       // Sign of the velocity, continuous if it is small compared with its
       // change in the step: rounding must not determine a force.

@@ -180,17 +180,9 @@ namespace geocone::GEOCONE_DIM
           "nodes where there are obstacles or contacts",
           "press by an obstacle that moves, or by the nodes of a "
           "side");
-    for (const auto &obstacle : scene->obstacles.list)
-      {
-        if (obstacle->has_small_sliding())
-          throw InputError(obstacle->parameter("Sliding"),
-                           "small",
-                           "finite with MPM",
-                           "particles are where they are: leave it out");
-        obstacle->law.check_without_area(obstacle->parameter(""));
-      }
-    check_particles_outside(
-      points, scene->obstacles, mesh->triangulation().get_communicator());
+    check_obstacles_of_particles(points.position,
+                                 scene->obstacles,
+                                 mesh->triangulation().get_communicator());
     if (bodies)
       check_bodies();
   }

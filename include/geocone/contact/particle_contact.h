@@ -96,12 +96,15 @@ namespace geocone::GEOCONE_DIM
                     const Space                    &space,
                     const double                    margin);
 
-  /** Checks that no particle is inside an obstacle in the initial state. Collective.
-   *  @throws InputError if a particle is */
+  /** Checks obstacles in contact with particles: that they have no laws that need a
+   *  contact area or initial positions, and that no particle is inside them in the
+   *  initial state. Collective.
+   *  @param positions of the particles of this rank
+   *  @throws InputError otherwise */
   void
-  check_particles_outside(const MaterialPoints &points,
-                          const Obstacles      &obstacles,
-                          const MPI_Comm        comm);
+  check_obstacles_of_particles(const std::vector<dealii::Point<dim>> &positions,
+                               const Obstacles                       &obstacles,
+                               const MPI_Comm                         comm);
 
   /**
    * Contact between bodies discretised by particles. Each body has its own layer of

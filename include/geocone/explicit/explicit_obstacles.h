@@ -36,14 +36,10 @@ namespace geocone::GEOCONE_DIM
                       GridTransfer  &transfer,
                       const MPI_Comm comm);
 
-    /** Refuses interface laws and motions that explicit steps do not have.
-     *  @throws InputError */
-    static void
-    check(const Scene &scene);
-
-    /** @throws InputError if a point is in an obstacle. Collective. */
+    /** Checks the obstacles and that no point is in one of them. Collective.
+     *  @throws InputError for interface laws that explicit steps do not have */
     void
-    check_outside(const std::vector<PointArrays> &groups) const;
+    check(const std::vector<PointArrays> &groups) const;
 
     /** Lists the points near the obstacles, after the points or nodes were sorted. */
     void
@@ -58,9 +54,9 @@ namespace geocone::GEOCONE_DIM
                const double                    t,
                const double                    dt);
 
-    /** Numbers of the potential contact nodes of the step. */
-    std::vector<unsigned int>
-    contact_nodes() const;
+    /** Marks the velocity components of the potential contact nodes of the step. */
+    void
+    mark(std::vector<unsigned char> &components) const;
 
     /** Adds the contact forces to the nodal velocities and their increments
      *  (GridTransfer::read). Collective if obstacles are free.
@@ -117,10 +113,6 @@ namespace geocone::GEOCONE_DIM
     {
       unsigned int number, begin, end;
     };
-
-    /** Prescribed velocities and inertia of the obstacles in a step. */
-    std::vector<ObstacleBody>
-    bodies_of_step() const;
 
     /** Largest velocity of any obstacle at the points (m/s). */
     double
@@ -194,7 +186,7 @@ namespace geocone::GEOCONE_DIM
 
     /** @name Of the current step */
     /** @{ */
-    double                   t = 0., dt = 0.;
+    double                           dt       = 0.;
     double                   closable = 0.; ///< larger gaps stay open (m)
     std::vector<ContactNode> contacts;
     std::vector<Contact::Projection> forces; ///< of `contacts`

@@ -141,9 +141,10 @@ namespace geocone::GEOCONE_DIM
     void
     count_gravity_work(const Step &step);
 
-    /** Whether each node is a potential contact node of an obstacle. */
-    std::vector<char>
-    contact_nodes() const;
+    /** Components whose force is balanced by a reaction: prescribed ones, and those of
+     *  the potential contact nodes of obstacles. */
+    const std::vector<unsigned char> &
+    reactions();
 
     void
     measure_unbalanced_force();
@@ -176,6 +177,7 @@ namespace geocone::GEOCONE_DIM
     };
     std::vector<PrescribedComponent> held;
     std::vector<unsigned char>       is_prescribed; ///< per nodal component
+    std::vector<unsigned char>       is_reaction;   ///< see reactions()
     std::vector<Reaction> support_impulse;          ///< per boundary condition
     double                unbalanced = 0.;
   };

@@ -1,0 +1,60 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/exceptions.h>
+#include <geocone/contact/obstacle_step.h>
+
+namespace geocone::GEOCONE_DIM
+{
+  std::vector<ObstacleBody>
+  bodies_of_step(const Scene                    &scene,
+                 const std::vector<RigidMotion> &velocity,
+                 const double                    driven_at,
+                 const double                    loaded_at,
+                 const double                    h)
+  {
+    const auto               &list = scene.obstacles.list;
+    std::vector<ObstacleBody> bodies(list.size());
+    for (unsigned int o = 0; o < list.size(); ++o)
+      {
+        const Obstacle &obstacle = *list[o];
+        ObstacleBody   &body     = bodies[o];
+        body.without_contact     = obstacle.velocity(driven_at);
+        RigidMotion force        = obstacle.load(loaded_at);
+        force.centre += obstacle.inertia(0) * scene.gravity.at(loaded_at);
+        for (unsigned int k = 0; k < RigidMotion::n_components; ++k)
+          if (obstacle.is_free(k))
+            {
+              body.is_free[k]    = true;
+              body.inertia[k]    = obstacle.inertia(k) / h;
+              body.velocity_n[k] = velocity[o][k];
+              body.without_contact[k] =
+                velocity[o][k] + force[k] / body.inertia[k];
+            }
+      }
+    return bodies;
+  }
+
+  void
+  check_start_of_free(const Obstacles &obstacles, const double margin)
+  {
+    const std::vector<RigidMotion> at_start(obstacles.list.size());
+    if (const std::string overlap = obstacles.overlap_of_free(at_start, margin);
+        !overlap.empty())
+      throw InputError("Obstacles/Names",
+                       obstacles.list.front()->name,
+                       "free obstacles that do not overlap with others",
+                       overlap + ": move it, or make one body of both");
+  }
+
+  void
+  check_free(const Obstacles                &obstacles,
+             const std::vector<RigidMotion> &moved,
+             const double                    margin)
+  {
+    if (const std::string overlap = obstacles.overlap_of_free(moved, margin);
+        !overlap.empty())
+      throw StepFailure(overlap + "\n  remedy:  end the loading before they "
+                                  "meet, or let the soil part them");
+  }
+} // namespace geocone::GEOCONE_DIM
