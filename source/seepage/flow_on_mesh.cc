@@ -172,7 +172,7 @@ namespace geocone::GEOCONE_DIM
     take(first_mesh);
     check_unsaturated();
     for (const Seepage::Step &step : scene.water.flow_steps())
-      check(step.levels);
+      boundaries->check(step.levels);
   }
 
   unsigned int
@@ -193,17 +193,7 @@ namespace geocone::GEOCONE_DIM
   {
     mesh = next;
     confined.reset();
-    const auto &list = scene.water.seepage.list;
-    boundary_of.assign(mesh.vertices.size(), -1);
-    boundary_of_facet.assign(mesh.facet_vertices.size(), -1);
-    for (unsigned int b = 0; b < list.size(); ++b)
-      {
-        const Part part = part_of(*list[b]);
-        for (const unsigned int f : part.facets)
-          boundary_of_facet[f] = b;
-        for (const unsigned int v : part.vertices)
-          boundary_of[v] = b;
-      }
+    boundaries.emplace(scene, mesh);
     measure.clear();
     drainable.assign(mesh.vertices.size(), 0.);
     for (unsigned int c = 0; c < mesh.cells.size(); ++c)
@@ -255,8 +245,8 @@ namespace geocone::GEOCONE_DIM
       take(first_mesh);
     discharge_before.reset();
     rate_of_storage = 0.;
-    solve_on_mesh(conditions(step.levels, step.time, 0.),
-                  hydrostatic(step.levels));
+    solve_on_mesh(boundaries->conditions(step.levels, step.time, 0.),
+                  boundaries->hydrostatic(step.levels, is_unsaturated()));
     if (scene.water.seepage.degree > 1)
       solve_confined(step.levels);
   }
@@ -272,7 +262,8 @@ namespace geocone::GEOCONE_DIM
     std::vector<double> start;
     for (const Point<dim> &x : mesh.vertices)
       start.push_back(last.value(x));
-    solve_on_mesh(conditions(step.levels, step.time, 0.), std::move(start));
+    solve_on_mesh(boundaries->conditions(step.levels, step.time, 0.),
+                  std::move(start));
     if (scene.water.seepage.degree > 1)
       solve_confined(step.levels);
   }
@@ -303,7 +294,7 @@ namespace geocone::GEOCONE_DIM
                            "1 with drains in three dimensions",
                            "let the water leave at sides");
         for (const unsigned int node :
-             confined->nodes_on(part_of(*list[b]).facets))
+             confined->nodes_on(boundaries->part_of(*list[b]).facets))
           boundary_of_node[node] = b;
       }
     std::vector<std::optional<double>> prescribed(nodes.size());
@@ -360,283 +351,6 @@ namespace geocone::GEOCONE_DIM
                        "not rain at t = 0",
                        "dry soil has no steady flow: give the height of a "
                        "water table, which may lie below the body");
-  }
-
-  void
-  FlowOnMesh::begin_at_rest(const double table)
-  {
-    solution = {};
-    for (const Point<dim> &x : mesh.vertices)
-      solution.head.push_back(table - x[1]);
-    solution.s = solution.head;
-    solution.inflow.assign(mesh.vertices.size(), 0.);
-  }
-
-  void
-  FlowOnMesh::advance(const Seepage::Step &step)
-  {
-    const double   before  = stored();
-    FlowConditions next    = conditions(step.levels, step.time, step.duration);
-    next.storage           = drainable;
-    next.saturation_before = saturation();
-    for (double &volume : next.storage)
-      volume /= step.duration;
-    discharge_before.reset();
-    solve_on_mesh(next, solution.s);
-    rate_of_storage = (stored() - before) / step.duration;
-  }
-
-  Seepage::Levels
-  FlowOnMesh::levels_within(const Seepage::Step   &step,
-                            const Seepage::Levels &from,
-                            const double           left) const
-  {
-    const double    part   = std::min(1. - left / step.duration, 1.);
-    Seepage::Levels levels = step.levels;
-    for (unsigned int b = 0; b < levels.size(); ++b)
-      if (const auto prescribed =
-            scene.water.seepage.list[b]->prescribed_level(step.time - left))
-        levels[b] = prescribed;
-      else if (from[b] && levels[b])
-        *levels[b] = (1. - part) * *from[b] + part * *levels[b];
-    return levels;
-  }
-
-  void
-  FlowOnMesh::accept(const UnsaturatedFlow &flow,
-                     FlowSolution           next,
-                     const double           h)
-  {
-    const std::vector<double> before = flow.water(solution.head),
-                              after  = flow.water(next.head);
-    double gain = 0., moved = 0.;
-    for (unsigned int v = 0; v < after.size(); ++v)
-      {
-        gain += after[v] - before[v];
-        moved += std::abs(after[v] - before[v]);
-      }
-    rate_of_storage = gain / h;
-    next.iterations += steps_taken > 0 ? solution.iterations : 0;
-    solution   = std::move(next);
-    double sum = -rate_of_storage;
-    for (const double inflow : solution.inflow)
-      sum += inflow;
-    const double size = std::max(discharge(), moved / h);
-    if (flows() || moved > 0.)
-      largest_error = std::max(largest_error, std::abs(sum) / size);
-  }
-
-  void
-  FlowOnMesh::advance_unsaturated(const Seepage::Step &step)
-  {
-    constexpr double least_part = 1e-9, largest_growth = 2., largest_cut = 0.3,
-                     safety = 0.9;
-    const UnsaturatedFlow flow(mesh, permeability, measure, curves);
-    const double          tolerance = scene.water.seepage.tolerance;
-    const Seepage::Levels from      = levels_now;
-    const double          least     = least_part * step.duration;
-    double                left      = step.duration;
-    steps_taken                     = 0;
-    largest_error                   = 0.;
-    if (step_size == 0.)
-      step_size = step.duration / 10.;
-    while (left > least)
-      {
-        stop_if_asked(comm);
-        double h = std::min(step_size, left);
-        if (left > h && left < 2. * h)
-          h = left / 2.;
-        auto [next, converged] = flow.step(
-          conditions(
-            levels_within(step, from, left - h), step.time - left + h, h),
-          h,
-          solution.head,
-          solution.s);
-        std::vector<double> change = last_change;
-        for (double &one : change)
-          one *= last_step > 0. ? h / last_step : 0.;
-        const double error =
-          converged ? flow.change(solution.head, next.head, change) / 2. : 0.;
-        const double factor =
-          error > 0. ? safety * std::sqrt(tolerance / error) : largest_growth;
-        if ((!converged || error > tolerance) && h > least)
-          {
-            step_size = h * (converged ? std::clamp(factor, largest_cut, 0.9)
-                                       : largest_cut);
-            continue;
-          }
-        if (!converged)
-          throw RunError(
-            format("the flow in unsaturated soil was not found at t = %g s, "
-                   "with time steps down to %.2g s\n  remedy:  check the "
-                   "retention curves, or change 'Seepage/Cells'",
-                   step.time - left,
-                   h));
-        accept(flow, std::move(next), h);
-        last_change = std::move(change);
-        last_step   = h;
-        left -= h;
-        ++steps_taken;
-        // The last step of a flow is shortened, but the next one need not be.
-        step_size = std::max(step_size, h) == step_size && left <= least
-                      ? std::max(step_size * std::min(factor, 1.),
-                                 h * std::min(factor, largest_growth))
-                      : h * std::clamp(factor, largest_cut, largest_growth);
-      }
-    levels_now = step.levels;
-    discharge_before.reset();
-  }
-
-  std::vector<double>
-  FlowOnMesh::saturation() const
-  {
-    std::vector<double> chi = solution.s;
-    for (double &value : chi)
-      value = 1. + std::min(value, 0.);
-    return chi;
-  }
-
-  double
-  FlowOnMesh::stored() const
-  {
-    double sum = 0.;
-    if (!is_solved()) // the summary of a run that begins
-      return sum;
-    if (is_unsaturated())
-      {
-        for (const double volume :
-             UnsaturatedFlow(mesh, permeability, measure, curves)
-               .water(solution.head))
-          sum += volume;
-        return sum;
-      }
-    const std::vector<double> chi = saturation();
-    for (unsigned int v = 0; v < chi.size(); ++v)
-      sum += drainable[v] * chi[v];
-    return sum;
-  }
-
-  FlowOnMesh::Part
-  FlowOnMesh::part_of(const SeepageBoundary &boundary) const
-  {
-    Part part;
-    if (boundary.drain.empty())
-      {
-        part.facets = mesh.outer_facets(boundary);
-        for (const unsigned int f : part.facets)
-          for (const unsigned int v : mesh.facet_vertices[f])
-            part.vertices.push_back(v);
-        return part;
-      }
-    double rest = 0.; // without edges
-    for (std::size_t i = 1; i < boundary.drain.size(); ++i)
-      rest += boundary.drain[i].distance(boundary.drain[i - 1]);
-    const double length = rest;
-    for (unsigned int e = 0; e < mesh.connections.size(); ++e)
-      {
-        const auto &[a, b] = mesh.connections[e];
-        if (!boundary.is_on_drain(mesh.vertices[a]) ||
-            !boundary.is_on_drain(mesh.vertices[b]))
-          continue;
-        rest -= mesh.vertices[a].distance(mesh.vertices[b]);
-        part.vertices.insert(part.vertices.end(), {a, b});
-        if (dim == 2) // the edge is a facet
-          part.facets.push_back(e);
-      }
-    if (part.vertices.empty() || (dim == 3 && rest > 1e-6 * length))
-      throw InputError(
-        boundary.parameter("Drain"),
-        dealii::Patterns::Tools::to_string(boundary.drain),
-        dim == 2 ? "a line in the body" : "a line along edges of the mesh",
-        dim == 2 ? "choose points inside of it; in a mesh of a file "
-                   "drains follow edges of cells"
-                 : "let it follow lines of the grid of 'Mesh', or edges "
-                   "of the cells of a file");
-    return part;
-  }
-
-  void
-  FlowOnMesh::check(const Seepage::Levels &levels) const
-  {
-    for (unsigned int b = 0; b < levels.size(); ++b)
-      if (levels[b])
-        {
-          const SeepageBoundary &boundary = *scene.water.seepage.list[b];
-          double                 lowest   = std::numeric_limits<double>::max();
-          for (const unsigned int v : part_of(boundary).vertices)
-            lowest = std::min(lowest, mesh.vertices[v][1]);
-          if (!(*levels[b] > lowest))
-            throw InputError(boundary.parameter("Level"),
-                             *levels[b],
-                             format("above the lowest point of its sides, y = "
-                                    "%g m",
-                                    lowest),
-                             "a side in the air has no level: none");
-        }
-  }
-
-  FlowConditions
-  FlowOnMesh::conditions(const Seepage::Levels &levels,
-                         const double           time,
-                         const double           duration) const
-  {
-    using Kind                = FlowConditions::Kind;
-    const unsigned int n      = mesh.vertices.size();
-    const auto        &listed = scene.water.seepage.list;
-    FlowConditions     all;
-    all.kind.assign(n, Kind::none);
-    all.head.assign(n, 0.);
-    all.rain.assign(n, 0.);
-    for (unsigned int v = 0; v < n; ++v)
-      if (boundary_of[v] >= 0)
-        {
-          const auto &level = levels[boundary_of[v]];
-          all.kind[v]       = Kind::seepage_face;
-          if (level)
-            all.head[v] = *level - mesh.vertices[v][1];
-          if (all.head[v] > 1e-9 * (1. + std::abs(mesh.vertices[v][1])))
-            all.kind[v] = Kind::head;
-        }
-    std::vector<double> rain; // means over the step
-    for (const auto &boundary : listed)
-      {
-        constexpr unsigned int n_samples = 64;
-        const unsigned int     n_used    = duration > 0. ? n_samples : 1;
-        double                 sum       = 0.;
-        for (unsigned int k = 0; k < n_used; ++k)
-          sum += boundary->rain(time - duration * (k + 0.5) / n_used);
-        rain.push_back(sum / n_used);
-      }
-    for (unsigned int f = 0; f < mesh.facet_vertices.size(); ++f)
-      if (boundary_of_facet[f] >= 0)
-        {
-          const double flow =
-            rain[boundary_of_facet[f]] * mesh.projected_size(f) *
-            Geometry::measure(scene.geometry.symmetry, mesh.facet_centre(f));
-          for (const unsigned int v : mesh.facet_vertices[f])
-            all.rain[v] += flow / dim;
-        }
-    return all;
-  }
-
-  std::vector<double>
-  FlowOnMesh::hydrostatic(const Seepage::Levels &levels) const
-  {
-    double highest = std::numeric_limits<double>::lowest();
-    for (const auto &level : levels)
-      highest = std::max(highest, level.value_or(highest));
-    if (is_unsaturated())
-      for (const Point<dim> &x : mesh.vertices)
-        if (highest < x[1] &&
-            std::none_of(levels.begin(), levels.end(), [](const auto &level) {
-              return level.has_value();
-            }))
-          highest = x[1];
-    std::vector<double> s;
-    for (const Point<dim> &x : mesh.vertices)
-      s.push_back(is_unsaturated() ? highest - x[1]
-                                   : std::max(highest - x[1], -0.5));
-    return s;
   }
 
   std::vector<Tensor<1, dim>>
@@ -701,7 +415,7 @@ namespace geocone::GEOCONE_DIM
     std::vector<double> error(mesh.cells.size(), 0.);
     for (unsigned int c = 0; c < mesh.cells.size(); ++c)
       for (const unsigned int f : mesh.facets_by_cell[c])
-        if (boundary_of_facet[f] < 0)
+        if (boundaries->of_facet[f] < 0)
           error[c] += weight(f) * jump[f] * jump[f] / stiffness[f];
     return error;
   }
@@ -769,6 +483,7 @@ namespace geocone::GEOCONE_DIM
             all[boundary_of_node[i]] += confined->inflow[i];
         return all;
       }
+    const std::vector<int> &boundary_of = boundaries->of_vertex;
     for (unsigned int v = 0; is_solved() && v < boundary_of.size(); ++v)
       if (boundary_of[v] >= 0)
         all[boundary_of[v]] += solution.inflow[v];

@@ -9,6 +9,7 @@
 #include <geocone/mesh/mesh_parameters.h>
 #include <geocone/scene/scene.h>
 #include <geocone/seepage/confined_flow.h>
+#include <geocone/seepage/flow_boundaries.h>
 #include <geocone/seepage/flow_solution.h>
 #include <geocone/seepage/unsaturated_flow.h>
 
@@ -21,9 +22,9 @@ namespace geocone::GEOCONE_DIM
 {
   /** Seepage through the body of a scene. Steady flow is solved on meshes
    *  refined at the free surface and where the velocity varies, transient flow
-   *  on one mesh. In three dimensions the first mesh is that of the scene. If the materials have retention curves, the soil above the
-   *  free surface is unsaturated (UnsaturatedFlow), otherwise it has no
-   *  suction. */
+   *  on one mesh. In three dimensions the first mesh is that of the scene. If the
+   *  materials have retention curves, the soil above the free surface is
+   *  unsaturated (UnsaturatedFlow), otherwise it has no suction. */
   class FlowOnMesh
   {
   public:
@@ -142,34 +143,10 @@ namespace geocone::GEOCONE_DIM
     unsigned int
     n_levels() const;
 
-    /** Sets the current mesh and computes its seepage boundaries and drainable
+    /** Sets the current mesh and finds its seepage boundaries and drainable
      *  volumes. The latter belong to the vertices. */
     void
     take(const FlowMesh &next);
-
-    /** Part of the mesh on a seepage boundary or on a drain. */
-    struct Part
-    {
-      std::vector<unsigned int> facets; ///< none of a drain in three dimensions
-      std::vector<unsigned int> vertices;
-    };
-
-    /** @throws InputError if there is none, or no edges follow a drain */
-    Part
-    part_of(const SeepageBoundary &boundary) const;
-
-    /** Checks water levels. @throws InputError for a level that is not above
-     *  the lowest point of its boundary */
-    void
-    check(const Seepage::Levels &levels) const;
-
-    /** @param time end of the step (s)
-     *  @param duration of the step, whose mean rainfall rate is taken (s); 0:
-     *  the rate at that time */
-    FlowConditions
-    conditions(const Seepage::Levels &levels,
-               const double           time,
-               const double           duration) const;
 
     void
     solve_on_mesh(const FlowConditions &conditions, std::vector<double> start);
@@ -178,11 +155,6 @@ namespace geocone::GEOCONE_DIM
      *  @throws InputError for a flow with a free surface */
     void
     solve_confined(const Seepage::Levels &levels);
-
-    /** Initial guess for Newton's method: hydrostatic pressures below the
-     *  highest water level. */
-    std::vector<double>
-    hydrostatic(const Seepage::Levels &levels) const;
 
     /** Refines the mesh adaptively to twice as many cells and solves steady
      *  flow. Collective. */
@@ -240,8 +212,7 @@ namespace geocone::GEOCONE_DIM
     /** @{ */
     FlowMesh            mesh;
     std::vector<double> measure;     ///< area factor by cell
-    std::vector<int>    boundary_of; ///< by vertex; -1: none
-    std::vector<int>    boundary_of_facet;
+    std::optional<FlowBoundaries> boundaries;
     std::vector<double> drainable; ///< drainable volume by vertex (m^2)
     /** @} */
 
