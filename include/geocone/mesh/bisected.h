@@ -20,17 +20,12 @@ namespace geocone::GEOCONE_DIM
     std::vector<unsigned int> parent; ///< triangle of the first mesh
   };
 
-  /** Refines a mesh by bisecting the marked triangles at their longest edges.
-   *  Further triangles are bisected until the mesh is conforming (Rivara 1984).
-   *  All angles are at least half of the smallest angle of the first mesh.
-   *  @param marked whether each triangle is to be divided */
-  NestedMesh
-  bisected(const NestedMesh &nested, const std::vector<bool> &marked);
-
-  /** Bisects the triangles with most of an error measure until there are enough. Halves
-   *  take the part of the error that they have if it scales with A^(3/2) of the area.
+  /** Refines a mesh by bisecting the triangles with the largest contributions to an
+   *  error at their longest edges. Further triangles are bisected until the mesh is
+   *  conforming (Rivara 1984). All angles are at least half of the smallest angle of the
+   *  first mesh. The error of a half is assumed to scale with the area A as A^(3/2).
    *  @param error contribution of each triangle, >= 0
-   *  @param n_wanted number of triangles; a few more close the mesh
+   *  @param n_wanted number of triangles; conformity adds a few more
    *  @return the same mesh if no triangle contributes */
   NestedMesh
   bisected(NestedMesh          nested,
