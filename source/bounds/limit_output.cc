@@ -105,16 +105,12 @@ namespace geocone::GEOCONE_DIM
   {
     if (reference)
       reference_case.set_default("bounds/middle", *reference);
-    make_folder(options);
-    fields =
-      std::make_unique<FieldFiles>("bounds", FieldsFormat(fields_format));
-    const auto add = [&](const std::string &column, const auto member) {
-      table.add(column, [member](const BoundLevel &l) { return l.*member; });
-    };
+    begin(options, "bounds");
     // Bounds that are not certified are not written.
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
-    add("level (-)", &BoundLevel::number);
-    add(dim == 2 ? "triangles (-)" : "tetrahedra (-)", &BoundLevel::cells);
+    table.add("level (-)", &BoundLevel::number);
+    table.add(dim == 2 ? "triangles (-)" : "tetrahedra (-)",
+              &BoundLevel::cells);
     table.add(
       "lower bound (" + unit + ")",
       [](const BoundLevel &l) { return l.lower_certified ? l.lower : none; },
@@ -127,23 +123,17 @@ namespace geocone::GEOCONE_DIM
       "gap (-)",
       [](const BoundLevel &l) { return l.certified() ? l.gap : none; },
       Finite::may_be);
-    table.add("certified (-)",
-              [](const BoundLevel &l) { return l.certified(); });
-    add("unknowns of the lower bound (-)", &BoundLevel::unknowns_lower);
-    add("unknowns of the upper bound (-)", &BoundLevel::unknowns_upper);
-    add("factorisations of the lower bound (-)", &BoundLevel::iterations_lower);
-    add("factorisations of the upper bound (-)", &BoundLevel::iterations_upper);
-    add("CPU time (s)", &BoundLevel::cpu_seconds);
-    add("CPU time of the mesh (s)", &BoundLevel::mesh_seconds);
-    add("peak memory (MB)", &BoundLevel::memory);
+    table.add("certified (-)", &BoundLevel::certified);
+    table.add("unknowns of the lower bound (-)", &BoundLevel::unknowns_lower);
+    table.add("unknowns of the upper bound (-)", &BoundLevel::unknowns_upper);
+    table.add("factorisations of the lower bound (-)",
+              &BoundLevel::iterations_lower);
+    table.add("factorisations of the upper bound (-)",
+              &BoundLevel::iterations_upper);
+    table.add("CPU time (s)", &BoundLevel::cpu_seconds);
+    table.add("CPU time of the mesh (s)", &BoundLevel::mesh_seconds);
+    table.add("peak memory (MB)", &BoundLevel::memory);
     open_table("bounds.csv");
-  }
-
-  void
-  LimitOutput::write_fields(const double number, const FieldTable &table)
-  {
-    if (with_fields)
-      fields->write(table, path, number, comm);
   }
 
   Json
@@ -182,12 +172,5 @@ namespace geocone::GEOCONE_DIM
                   bounds["lower"].get<double>(),
                   bounds["upper"].get<double>(),
                   int(bounds["certified"].get<bool>()));
-  }
-
-  void
-  LimitOutput::state_of_run(StateRow &row)
-  {
-    TableOutput::state_of_run(row);
-    row(*fields);
   }
 } // namespace geocone::GEOCONE_DIM

@@ -44,33 +44,20 @@ namespace geocone::GEOCONE_DIM
   void
   ReliabilityOutput::prepare(const RunOptions &options)
   {
-    make_folder(options);
-    fields =
-      std::make_unique<FieldFiles>("sample", FieldsFormat(fields_format));
-    const auto add = [&](const std::string &column, const auto member) {
-      table.add(column, [member](const SampleRecord &s) { return s.*member; });
-    };
-    add("sample (-)", &SampleRecord::number);
-    add("verdict (-)", &SampleRecord::verdict);
-    add("weight (-)", &SampleRecord::weight);
-    for (const auto &[column, member] :
-         {std::pair<const char *, double SampleRecord::*>(
-            "lower bound of the load factor (-)", &SampleRecord::lower),
-          {"upper bound of the load factor (-)", &SampleRecord::upper}})
-      table.add(
-        column,
-        [member = member](const SampleRecord &s) { return s.*member; },
-        Finite::may_be);
-    add("triangles (-)", &SampleRecord::cells);
-    add("factorisations (-)", &SampleRecord::factorisations);
-    add("CPU time (s)", &SampleRecord::cpu_seconds);
+    begin(options, "sample");
+    table.add("sample (-)", &SampleRecord::number);
+    table.add("verdict (-)", &SampleRecord::verdict);
+    table.add("weight (-)", &SampleRecord::weight);
+    table.add("lower bound of the load factor (-)",
+              &SampleRecord::lower,
+              Finite::may_be);
+    table.add("upper bound of the load factor (-)",
+              &SampleRecord::upper,
+              Finite::may_be);
+    table.add("triangles (-)", &SampleRecord::cells);
+    table.add("factorisations (-)", &SampleRecord::factorisations);
+    table.add("CPU time (s)", &SampleRecord::cpu_seconds);
     open_table("samples.csv");
-  }
-
-  void
-  ReliabilityOutput::write_fields(const double number, const FieldTable &table)
-  {
-    fields->write(table, path, number, comm);
   }
 
   void

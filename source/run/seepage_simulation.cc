@@ -21,26 +21,21 @@ namespace geocone::GEOCONE_DIM
                          const bool                      is_unsaturated)
   {
     const std::string unit = geometry.unit("m^3/s/m");
-    make_folder(options);
-    const auto add = [&](const std::string &column, const auto member) {
-      table.add(column, [member](const FlowLevel &l) { return l.*member; });
-    };
-    fields =
-      std::make_unique<FieldFiles>("seepage", FieldsFormat(fields_format));
-    add("time (s)", &FlowLevel::time);
-    add(dim == 2 ? "triangles (-)" : "tetrahedra (-)", &FlowLevel::cells);
-    add("discharge (" + unit + ")", &FlowLevel::discharge);
+    begin(options, "seepage");
+    table.add("time (s)", &FlowLevel::time);
+    table.add(dim == 2 ? "triangles (-)" : "tetrahedra (-)", &FlowLevel::cells);
+    table.add("discharge (" + unit + ")", &FlowLevel::discharge);
     for (unsigned int b = 0; b < names.size(); ++b)
       table.add("inflow of " + names[b] + " (" + unit + ")",
                 [b](const FlowLevel &l) { return l.inflows[b]; });
     if (is_transient)
-      add("stored (" + geometry.unit("m^3/m") + ")", &FlowLevel::stored);
-    add("iterations (-)", &FlowLevel::iterations);
-    add("natural-map error (-)", &FlowLevel::error);
+      table.add("stored (" + geometry.unit("m^3/m") + ")", &FlowLevel::stored);
+    table.add("iterations (-)", &FlowLevel::iterations);
+    table.add("natural-map error (-)", &FlowLevel::error);
     if (is_transient && is_unsaturated)
       {
-        add("time steps (-)", &FlowLevel::steps);
-        add("imbalance (-)", &FlowLevel::imbalance);
+        table.add("time steps (-)", &FlowLevel::steps);
+        table.add("imbalance (-)", &FlowLevel::imbalance);
       }
     open_table("seepage.csv");
   }
@@ -90,14 +85,7 @@ namespace geocone::GEOCONE_DIM
         return q[p][d];
       });
     table.add_materials();
-    fields->write(table, path, time, comm);
-  }
-
-  void
-  SeepageOutput::state_of_run(StateRow &row)
-  {
-    TableOutput::state_of_run(row);
-    row(*fields);
+    MeshOutput::write_fields(time, table);
   }
 
   void

@@ -37,16 +37,11 @@ namespace geocone::GEOCONE_DIM
   void
   ShakedownOutput::prepare(const RunOptions &options)
   {
-    make_folder(options);
-    fields =
-      std::make_unique<FieldFiles>("shakedown", FieldsFormat(fields_format));
+    begin(options, "shakedown");
     using Record          = ShakedownRecord;
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
-    const auto       add  = [&](const std::string &column, const auto member) {
-      table.add(column, [member](const Record &r) { return r.*member; });
-    };
-    add("level (-)", &Record::number);
-    add("triangles (-)", &Record::cells);
+    table.add("level (-)", &Record::number);
+    table.add("triangles (-)", &Record::cells);
     table.add(
       "lower factor (-)",
       [](const Record &r) { return r.lower_certified ? r.lower : none; },
@@ -66,31 +61,15 @@ namespace geocone::GEOCONE_DIM
       },
       Finite::may_be);
     table.add(
-      "factor at first yield (-)",
-      [](const Record &r) { return r.elastic_limit; },
-      Finite::may_be);
-    add("error of elastic stresses (-)", &Record::elastic_error);
-    add("net plastic strain / that of a cycle (-)", &Record::net_share);
-    add("plastic strain in one state / that of a cycle (-)",
-        &Record::state_share);
-    add("factorisations (-)", &Record::factorisations);
-    add("CPU time (s)", &Record::cpu_seconds);
-    add("CPU time of the mesh (s)", &Record::mesh_seconds);
+      "factor at first yield (-)", &Record::elastic_limit, Finite::may_be);
+    table.add("error of elastic stresses (-)", &Record::elastic_error);
+    table.add("net plastic strain / that of a cycle (-)", &Record::net_share);
+    table.add("plastic strain in one state / that of a cycle (-)",
+              &Record::state_share);
+    table.add("factorisations (-)", &Record::factorisations);
+    table.add("CPU time (s)", &Record::cpu_seconds);
+    table.add("CPU time of the mesh (s)", &Record::mesh_seconds);
     open_table("shakedown.csv");
-  }
-
-  void
-  ShakedownOutput::write_fields(const double number, const FieldTable &table)
-  {
-    if (with_fields)
-      fields->write(table, path, number, comm);
-  }
-
-  void
-  ShakedownOutput::state_of_run(StateRow &row)
-  {
-    TableOutput::state_of_run(row);
-    row(*fields);
   }
 
   void

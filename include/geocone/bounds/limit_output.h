@@ -4,11 +4,9 @@
 #ifndef geocone_bounds_limit_output_h
 #define geocone_bounds_limit_output_h
 
-#include <geocone/output/field_files.h>
 #include <geocone/output/load_bracket.h>
-#include <geocone/output/table_output.h>
+#include <geocone/output/mesh_output.h>
 
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -66,10 +64,10 @@ namespace geocone::GEOCONE_DIM
 
   /** Output of a limit analysis: table of levels, fields of each level, and summary. The
    *  table bounds.csv has a line for each level. */
-  class LimitOutput : public TableOutput<BoundLevel>
+  class LimitOutput : public MeshOutput<BoundLevel>
   {
   public:
-    using TableOutput::TableOutput;
+    using MeshOutput::MeshOutput;
 
     /** Declares the parameter for files that prove both bounds. */
     void
@@ -90,24 +88,16 @@ namespace geocone::GEOCONE_DIM
             const std::string          &unit,
             const std::optional<double> reference);
 
-    /** Writes the fields of a mesh, if field output is enabled. */
-    void
-    write_fields(const double number, const FieldTable &table);
-
     /** Returns the JSON object "bounds" of summary.json. At least one level is
      *  required. */
     Json
     bounds(const LoadBracket &bracket) const;
 
-    void
-    state_of_run(StateRow &row) override;
-
   private:
     void
     report_results(std::ostream &out) const override;
 
-    std::unique_ptr<FieldFiles> fields;
-    bool                        with_certificates = false;
+    bool with_certificates = false;
   };
 } // namespace geocone::GEOCONE_DIM
 

@@ -8,7 +8,7 @@
 #include <geocone/bounds/bound_analysis.h>
 #include <geocone/mesh/bisected.h>
 #include <geocone/mesh/triangles.h>
-#include <geocone/output/field_files.h>
+#include <geocone/output/mesh_output.h>
 #include <geocone/reliability/failure_probability.h>
 #include <geocone/reliability/importance_sampling.h>
 #include <geocone/reliability/sample_search.h>
@@ -69,10 +69,10 @@ namespace geocone::GEOCONE_DIM
 
   /** Output of a reliability analysis: samples.csv with one line per sample,
    *  the field files of a selected sample, and the summary. */
-  class ReliabilityOutput : public TableOutput<SampleRecord>
+  class ReliabilityOutput : public MeshOutput<SampleRecord>
   {
   public:
-    using TableOutput::TableOutput;
+    using MeshOutput::MeshOutput;
 
     void
     prepare(const RunOptions &options);
@@ -83,15 +83,9 @@ namespace geocone::GEOCONE_DIM
       return with_fields;
     }
 
-    /** Writes the field file of a sample. Collective. */
-    void
-    write_fields(const double number, const FieldTable &table);
-
   private:
     void
     report_results(std::ostream &out) const override;
-
-    std::unique_ptr<FieldFiles> fields;
   };
 
   /**

@@ -6,13 +6,11 @@
 
 #include <geocone/mesh/mesh_parameters.h>
 #include <geocone/mesh/method.h>
-#include <geocone/output/field_files.h>
-#include <geocone/output/table_output.h>
+#include <geocone/output/mesh_output.h>
 #include <geocone/run/simulation.h>
 #include <geocone/scene/scene.h>
 #include <geocone/seepage/flow_on_mesh.h>
 
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -47,10 +45,10 @@ namespace geocone::GEOCONE_DIM
 
   /** Output of a seepage run. It contains seepage.csv with a line per mesh and time,
    *  the fields on the finest mesh, and the summary. */
-  class SeepageOutput : public TableOutput<FlowLevel>
+  class SeepageOutput : public MeshOutput<FlowLevel>
   {
   public:
-    using TableOutput::TableOutput;
+    using MeshOutput::MeshOutput;
 
     /** Creates the output folder and the columns of seepage.csv.
      *  @param names names of the boundaries @param geometry determines the units */
@@ -68,14 +66,9 @@ namespace geocone::GEOCONE_DIM
                  const double      unit_weight,
                  const double      time);
 
-    void
-    state_of_run(StateRow &row) override;
-
   private:
     void
     report_results(std::ostream &out) const override;
-
-    std::unique_ptr<FieldFiles> fields;
   };
 
   /** Run that computes the seepage flow in a scene, without stresses and

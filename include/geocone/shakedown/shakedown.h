@@ -6,11 +6,10 @@
 
 #include <geocone/bounds/bound_analysis.h>
 #include <geocone/mesh/gmsh_mesh.h>
-#include <geocone/output/field_files.h>
+#include <geocone/output/mesh_output.h>
 #include <geocone/shakedown/shakedown_bounds.h>
 
 #include <limits>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -57,25 +56,17 @@ namespace geocone::GEOCONE_DIM
 
   /** Output of a shakedown analysis: shakedown.csv with one line per mesh, the fields of
    *  each mesh, and the summary. */
-  class ShakedownOutput : public TableOutput<ShakedownRecord>
+  class ShakedownOutput : public MeshOutput<ShakedownRecord>
   {
   public:
-    using TableOutput::TableOutput;
+    using MeshOutput::MeshOutput;
 
     void
     prepare(const RunOptions &options);
 
-    void
-    write_fields(const double number, const FieldTable &table);
-
-    void
-    state_of_run(StateRow &row) override;
-
   private:
     void
     report_results(std::ostream &out) const override;
-
-    std::unique_ptr<FieldFiles> fields;
   };
 
   /** Shakedown analysis of a plane elastic, perfectly plastic body with associated flow,
