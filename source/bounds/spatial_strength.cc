@@ -197,6 +197,8 @@ namespace geocone::GEOCONE_DIM
   std::vector<SpatialStrength>
   spatial_strengths(const Scene &scene)
   {
+    scene.materials.refuse_strength_formulas(
+      "in bounds around an axis and in three dimensions");
     std::vector<SpatialStrength> strengths;
     scene.materials.check_closed_form("limit load");
     for (unsigned int m = 0; m < scene.materials.size(); ++m)
@@ -248,13 +250,6 @@ namespace geocone::GEOCONE_DIM
                            "a law that hardens",
                            bounded_laws,
                            "take the strength that counts, initial or final");
-        if (const std::string formula = law.strength_formula();
-            !formula.empty())
-          throw InputError(section + "/" + formula,
-                           "set",
-                           "a 'Cohesion gradient' where loads are bounded",
-                           "strength is to be linear in each cell: give a "
-                           "gradient, or layers");
         strengths.push_back(one);
       }
     return strengths;

@@ -258,6 +258,21 @@ namespace geocone::GEOCONE_DIM
                          "choose another law");
   }
 
+  void
+  Materials::refuse_strength_formulas(const std::string &where) const
+  {
+    for (unsigned int i = 0; i < list.size(); ++i)
+      if (const std::string formula = in_closed_form[i] != nullptr
+                                        ? in_closed_form[i]->strength_formula()
+                                        : "";
+          !formula.empty())
+        throw InputError("Materials/" + name(i) + "/" + formula,
+                         "set",
+                         "a 'Cohesion gradient' " + where,
+                         "strength is to be linear in each cell: give a "
+                         "gradient, or layers");
+  }
+
   unsigned int
   Materials::n_history() const
   {

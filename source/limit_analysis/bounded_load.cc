@@ -4,6 +4,7 @@
 #include <geocone/axisymmetric_bounds/axisymmetric_bounds.h>
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
+#include <geocone/base/text_of_place.h>
 #include <geocone/limit_analysis/bounded_load.h>
 #include <geocone/materials/retention.h>
 #include <geocone/mesh/empty_regions.h>
@@ -157,8 +158,11 @@ namespace geocone::GEOCONE_DIM
         std::all_of(flow_cones.begin(),
                     flow_cones.end(),
                     [](const FlowCone &cone) { return cone.k == 0.; }) &&
-        std::all_of(growth.begin(), growth.end(), [](const auto &more) {
-          return more.slope == 0.;
+        std::all_of(growth.begin(),
+                    growth.end(),
+                    [](const auto &more) { return more.slope == 0.; }) &&
+        std::none_of(formulas.begin(), formulas.end(), [](const auto &one) {
+          return one.has_value();
         }))
       throw InputError("Materials/" + scene.materials.name(0) + "/Cohesion",
                        0,
@@ -257,6 +261,7 @@ namespace geocone::GEOCONE_DIM
     scene.materials.check_closed_form("limit load");
     flow_cones.clear();
     growth.clear();
+    formulas.clear();
     for (unsigned int m = 0; m < scene.materials.size(); ++m)
       {
         const auto        cone = scene.materials[m].initial_cone();
@@ -274,14 +279,15 @@ namespace geocone::GEOCONE_DIM
                            "a law that hardens",
                            "Mohr-Coulomb | Tresca where loads are bounded",
                            "take the strength that counts, initial or final");
-        if (const std::string formula = scene.materials[m].strength_formula();
-            !formula.empty())
+        const std::string formula = scene.materials[m].strength_formula();
+        if (formula == "Cohesion ratio")
           throw InputError("Materials/" + scene.materials.name(m) + "/" +
                              formula,
                            "set",
-                           "a 'Cohesion gradient' where loads are bounded",
-                           "strength is to be linear in each triangle: give a "
-                           "gradient, or layers");
+                           "a 'Cohesion gradient' or 'Cohesion formula' where "
+                           "loads are bounded",
+                           "the initial stresses of steps are unknown here: "
+                           "give the cohesion that they lead to");
         if (cone->cut_off == 0.)
           throw InputError("Materials/" + scene.materials.name(m) +
                              "/Tensile strength",
@@ -299,6 +305,13 @@ namespace geocone::GEOCONE_DIM
                            "soil is unknown: leave the suction out");
         flow_cones.push_back(*cone);
         growth.push_back(scene.materials[m].growth());
+        formulas.emplace_back();
+        if (!formula.empty())
+          {
+            formulas.back().emplace(ParameterFile::value(
+              "Materials/" + scene.materials.name(m) + "/" + formula));
+            flow_cones.back().k = 0.; // given by the formula alone
+          }
         less_dilatant = less_dilatant || cone->b < cone->a * (1. - 1e-12);
       }
   }
@@ -376,6 +389,12 @@ namespace geocone::GEOCONE_DIM
       for (const double y : {lowest, highest})
         units.stress =
           std::max(units.stress, flow_cones[m].k + growth[m].at(y));
+    const EnclosedCohesion enclosed = enclosed_cohesion(scene, triangles);
+    for (unsigned int c = 0; c < triangles.cells.size(); ++c)
+      if (const unsigned int m = triangles.material[c]; enclosed.has(m))
+        for (const double cohesion : enclosed.cohesion[c].above)
+          units.stress =
+            std::max(units.stress, enclosed.k_per_cohesion[m] * cohesion);
     double dead = stress_of_weight(scene, height); // the largest dead load
     for (const auto &load : scene.tractions.list)
       for (const auto &held : triangles.held_edges(*load))
@@ -431,6 +450,55 @@ namespace geocone::GEOCONE_DIM
       }
   }
 
+  EnclosedCohesion
+  BoundedLoad::enclosed_cohesion(const Scene     &scene,
+                                 const Triangles &triangles) const
+  {
+    EnclosedCohesion enclosed;
+    if (std::none_of(formulas.begin(), formulas.end(), [](const auto &one) {
+          return one.has_value();
+        }))
+      return enclosed;
+    for (unsigned int m = 0; m < formulas.size(); ++m)
+      {
+        const double a = flow_cones[m].a;
+        enclosed.k_per_cohesion.push_back(
+          formulas[m] ? sqrt2 * std::sqrt(1. - a * a) : 0.);
+      }
+    enclosed.cohesion.resize(triangles.cells.size());
+    for (unsigned int c = 0; c < triangles.cells.size(); ++c)
+      {
+        const unsigned int m = triangles.material[c];
+        if (!formulas[m])
+          continue;
+        const auto &corners = triangles.cells[c];
+        enclosed.cohesion[c] =
+          formulas[m]->on_simplex({triangles.vertices[corners[0]],
+                                   triangles.vertices[corners[1]],
+                                   triangles.vertices[corners[2]]});
+        for (unsigned int i = 0; i < 3; ++i)
+          if (!(enclosed.cohesion[c].below[i] > 0.) ||
+              !std::isfinite(enclosed.cohesion[c].above[i]))
+            {
+              const std::string parameter =
+                "Materials/" + scene.materials.name(m) + "/Cohesion formula";
+              throw InputError(
+                parameter,
+                ParameterFile::value(parameter),
+                "a formula that interval arithmetic bounds, above 0 Pa, where "
+                "loads are bounded; in the triangle at (" +
+                  text_of_place(triangles.centre(c)) +
+                  format(") it is between %g and %g Pa",
+                         enclosed.cohesion[c].below[i],
+                         enclosed.cohesion[c].above[i]),
+                "limit it from below, e.g. max(1000, ...), and write each "
+                "coordinate as seldom as possible; smaller cells bound it more "
+                "closely");
+            }
+      }
+    return enclosed;
+  }
+
   BoundScene
   BoundedLoad::on(const Scene &scene, const Triangles &triangles) const
   {
@@ -441,8 +509,11 @@ namespace geocone::GEOCONE_DIM
                         {},
                         interfaces(scene, triangles),
                         {},
+                        enclosed_cohesion(scene, triangles),
                         {},
                         {}};
+    for (double &k : bound.enclosed.k_per_cohesion)
+      k /= units.stress;
     for (unsigned int m = 0; m < flow_cones.size(); ++m)
       {
         bound.cones.push_back({flow_cones[m].a,

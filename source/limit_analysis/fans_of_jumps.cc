@@ -99,16 +99,17 @@ namespace geocone::GEOCONE_DIM
       };
     }
 
-    /** Returns the strength of a triangle at a point as that of plane strain. */
+    /** Returns the strength at a vertex of a triangle as that of plane strain. */
     PointCone
     plane_cone(const BoundScene  &bound,
                const unsigned int cell,
-               const Point<dim>  &x)
+               const unsigned int i)
     {
-      const unsigned int m = bound.triangles.material[cell];
+      const Triangles &triangles = bound.triangles;
       if (!bound.is_axisymmetric())
-        return bound.cone_at(m, x);
-      const SpatialStrength &one = bound.strengths[m];
+        return bound.cone_at(BoundSide::lower, cell, i);
+      const Point<dim>      &x   = triangles.vertices[triangles.cells[cell][i]];
+      const SpatialStrength &one = bound.strengths[triangles.material[cell]];
       const double           mu  = one.face_friction(),
                    cos_phi       = 1. / std::sqrt(1. + mu * mu);
       return {mu * cos_phi,
@@ -261,10 +262,10 @@ namespace geocone::GEOCONE_DIM
         double                 a = 1., k = std::numeric_limits<double>::max();
         std::set<unsigned int> materials;
         for (unsigned int c = 0; c < triangles.cells.size(); ++c)
-          for (const unsigned int w : triangles.cells[c])
-            if (w == v)
+          for (unsigned int i = 0; i < 3; ++i)
+            if (triangles.cells[c][i] == v)
               {
-                const PointCone cone = plane_cone(bound, c, fan.apex);
+                const PointCone cone = plane_cone(bound, c, i);
                 a = std::min(a, cone.a);
                 k = std::min(k, cone.k);
                 materials.insert(triangles.material[c]);

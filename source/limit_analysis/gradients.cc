@@ -245,6 +245,7 @@ namespace geocone::GEOCONE_DIM
     struct Strength
     {
       double cohesion, slope, tan_phi, tension;
+      double multiple    = 0.;    ///< 1 where the cohesion is a formula
       bool   is_circular = false; ///< the cohesion is k of the circular cone
 
       Strength(const BoundScene &given, const unsigned int m)
@@ -269,6 +270,7 @@ namespace geocone::GEOCONE_DIM
         slope                    = given.growth[m].slope / cos_phi * unit;
         tan_phi                  = cone.a / cos_phi;
         tension                  = cone.cut_off * unit;
+        multiple                 = given.enclosed.has(m) ? 1. : 0.;
       }
     };
 
@@ -304,15 +306,21 @@ namespace geocone::GEOCONE_DIM
       const std::string &name = given.scene.materials.name(m);
       const Strength     strength(given, m);
       const bool         is_plane = !given.is_axisymmetric();
-      to.add({{"materials",
-               name,
-               strength.is_circular ? "strength_of_cone" : "cohesion"}},
-             "Pa",
-             strength.cohesion,
-             [&](const Powers &p) {
-               return p.materials[m].cohesion /
-                      (is_plane ? 1. : strength.cohesion);
-             });
+      if (strength.multiple > 0.)
+        to.add({{"materials", name, "cohesion_formula"}},
+               "times",
+               strength.multiple,
+               [&](const Powers &p) { return p.materials[m].growing; });
+      else
+        to.add({{"materials",
+                 name,
+                 strength.is_circular ? "strength_of_cone" : "cohesion"}},
+               "Pa",
+               strength.cohesion,
+               [&](const Powers &p) {
+                 return p.materials[m].cohesion /
+                        (is_plane ? 1. : strength.cohesion);
+               });
       if (strength.slope != 0.)
         to.add({{"materials", name, "cohesion_gradient"}},
                "Pa/m",

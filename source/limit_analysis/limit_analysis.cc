@@ -192,9 +192,12 @@ namespace geocone::GEOCONE_DIM
     prepare_triangles();
     check_axis();
     if (limit_output.writes_certificates())
-      scene.structures.refuse("'Output/Certificates' = true",
-                              "set it to false: the bounds are checked all the "
-                              "same");
+      {
+        const std::string what = "'Output/Certificates' = true";
+        scene.structures.refuse(
+          what, "set it to false: the bounds are checked all the same");
+        scene.materials.refuse_strength_formulas("with " + what);
+      }
     triangles.emplace(fitted_mesh(mesh_parameters, scene, comm));
     const dealii::BoundingBox<dim> body(triangles->vertices);
     scene.geometry.check_radii(triangles->vertices,

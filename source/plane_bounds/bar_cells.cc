@@ -50,12 +50,15 @@ namespace geocone::GEOCONE_DIM
 
   PointCone
   interface_cone(const BoundScene  &bound,
+                 const BoundSide    side,
                  const BarEdge     &edge,
                  const unsigned int cell,
                  const unsigned int vertex)
   {
-    const PointCone soil    = bound.cone_at(bound.triangles.material[cell],
-                                         bound.triangles.vertices[vertex]);
+    const auto        &corners = bound.triangles.cells[cell];
+    const unsigned int i =
+      std::find(corners.begin(), corners.end(), vertex) - corners.begin();
+    const PointCone soil    = bound.cone_at(side, cell, i);
     const double    cos_phi = std::sqrt(1. - soil.a * soil.a);
     return {edge.interface_strength * soil.a / cos_phi,
             edge.interface_strength * soil.k / (sqrt2 * cos_phi)};

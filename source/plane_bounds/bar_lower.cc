@@ -233,7 +233,8 @@ namespace geocone::GEOCONE_DIM
                         passing.add(bar + d, -1. * Point<dim>::unit_vector(d));
                       }
                     cells.add(
-                      interface_cone(bound, edge, cell, ends[end]),
+                      interface_cone(
+                        bound, BoundSide::lower, edge, cell, ends[end]),
                       passing.strains(coulomb,
                                       normal_into(triangles, cell, edge.edge)),
                       passing.dofs,

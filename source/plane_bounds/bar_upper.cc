@@ -74,9 +74,10 @@ namespace geocone::GEOCONE_DIM
               const double   length =
                 triangles.edge_length(edge.edge) / bound.units.length;
               const Tensor<1, dim> N = normal_into(triangles, cell, edge.edge);
-              const PointCone      first =
-                                interface_cone(bound, edge, cell, ends[0]),
-                              last = interface_cone(bound, edge, cell, ends[1]);
+              const PointCone      first = interface_cone(
+                                bound, BoundSide::upper, edge, cell, ends[0]),
+                              last = interface_cone(
+                                bound, BoundSide::upper, edge, cell, ends[1]);
               const auto passing   = passing_velocities(bound, k, cell);
               for (unsigned int i = 0; i < 3; ++i)
                 {

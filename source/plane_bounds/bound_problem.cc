@@ -30,6 +30,8 @@ namespace geocone::GEOCONE_DIM
     cone.k *= k_factor * cos_phi;
     cone.cut_off *= tension_factor;
     growth[material].slope *= k_factor * cos_phi;
+    if (enclosed.has(material))
+      enclosed.k_per_cohesion[material] *= k_factor * cos_phi;
   }
 
   Eigen::VectorXd &
@@ -99,6 +101,7 @@ namespace geocone::GEOCONE_DIM
      *  @param n_dofs without cut-offs */
     BoundProblem
     begin_problem(const BoundScene &bound,
+                  const BoundSide   side,
                   unsigned int      n_columns,
                   unsigned int      n_dofs)
     {
@@ -109,9 +112,7 @@ namespace geocone::GEOCONE_DIM
         for (unsigned int i = 0; i < 3; ++i)
           {
             problem.volume.push_back(triangles.area(c) / 3. / (L * L));
-            problem.cone.push_back(
-              bound.cone_at(triangles.material[c],
-                            triangles.vertices[triangles.cells[c][i]]));
+            problem.cone.push_back(bound.cone_at(side, c, i));
           }
       problem.n_triangles   = triangles.cells.size();
       problem.first_cut_dof = n_dofs;
@@ -349,6 +350,7 @@ namespace geocone::GEOCONE_DIM
     const unsigned int n_nodes    = n_vertices + triangles.edges.size();
     BoundProblem       problem =
       begin_problem(bound,
+                    BoundSide::upper,
                     10,
                     dim * n_nodes + n_dofs_of_interfaces(bound) +
                       n_dofs_of_bars(bound, BoundSide::upper));
@@ -424,6 +426,7 @@ namespace geocone::GEOCONE_DIM
     const unsigned int n_nodes   = n_cells + 2 * triangles.edges.size();
     BoundProblem       problem =
       begin_problem(bound,
+                    BoundSide::lower,
                     n_lower_columns(bound),
                     dim * n_nodes + n_dofs_of_interfaces(bound) +
                       n_dofs_of_bars(bound, BoundSide::lower));

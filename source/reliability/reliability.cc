@@ -122,6 +122,7 @@ namespace geocone::GEOCONE_DIM
       throw InputError(
         "Analysis/Confidence", confidence, "> 0, < 1", "0.95 is usual");
     prepare_scene(options);
+    scene.materials.refuse_strength_formulas("with " + where());
     if (scene.water.acts())
       throw InputError("Water/Table",
                        "set",

@@ -36,12 +36,14 @@ namespace geocone::GEOCONE_DIM
     for (unsigned int m = 0; m < scene.materials.size(); ++m)
       if (const auto strength = scene.materials.law(m).plane_strain_strength())
         {
-          text += format("; %s: c = %g Pa, phi = %g",
-                         scene.materials.name(m).c_str(),
-                         strength->c,
-                         strength->phi);
+          // Laws of such strengths are in closed form.
+          const bool varies = !scene.materials[m].strength_formula().empty();
+          text += "; " + scene.materials.name(m) +
+                  (varies ? std::string(": c varies")
+                          : format(": c = %g Pa", strength->c)) +
+                  format(", phi = %g", strength->phi);
           if (const double weight = weight_of_column(scene, m, body);
-              weight > 0.)
+              weight > 0. && !varies)
             text += format(", c/(gamma H) = %.3g", strength->c / weight);
         }
     return text;
@@ -115,6 +117,8 @@ namespace geocone::GEOCONE_DIM
         const auto strength = scene.materials.law(m).plane_strain_strength();
         if (!strength)
           continue;
+        const bool varies = strength->gradient != 0. ||
+                            !scene.materials[m].strength_formula().empty();
         if (strength->phi > 0. && strength->phi < least_angle)
           warnings.push_back(
             format("the friction angle of '%s' is %g degrees: angles are in "
@@ -122,7 +126,7 @@ namespace geocone::GEOCONE_DIM
                    name.c_str(),
                    strength->phi));
         const double weight = weight_of_column(scene, m, body);
-        if (strength->phi == 0. && strength->gradient == 0. &&
+        if (strength->phi == 0. && !varies &&
             strength->c < least_strength * weight)
           warnings.push_back(
             format("the cohesion of '%s' is %g Pa, where a column of it as "
@@ -130,8 +134,8 @@ namespace geocone::GEOCONE_DIM
                    name.c_str(),
                    strength->c,
                    weight));
-        else if (size >= 1. && weight > 0. && strength->gradient == 0. &&
-                 strength->c > 0. && strength->c < in_kilopascals)
+        else if (size >= 1. && weight > 0. && !varies && strength->c > 0. &&
+                 strength->c < in_kilopascals)
           warnings.push_back(
             format("the cohesion of '%s' is %g Pa: is it meant in "
                    "larger units? Strengths are in Pa",

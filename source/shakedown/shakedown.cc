@@ -106,6 +106,7 @@ namespace geocone::GEOCONE_DIM
                        most_levels,
                        "1 with " + where() + " and a mesh from a file",
                        "meshes from files are not refined here");
+    scene.materials.refuse_strength_formulas("with " + where());
     scene.obstacles.refuse(where(),
                            "hold a part of the boundary instead: the elastic "
                            "contact would not be linear");
@@ -131,10 +132,11 @@ namespace geocone::GEOCONE_DIM
                            "give layers with constants of their own");
       }
     for (unsigned int c = 0; c < triangles->cells.size(); ++c)
-      for (const unsigned int v : triangles->cells[c])
-        if (const unsigned int m = triangles->material[c];
-            !(bound.cone_at(m, triangles->vertices[v]).k > 0.))
-          throw InputError("Materials/" + scene.materials.name(m) + "/Cohesion",
+      for (unsigned int i = 0; i < 3; ++i)
+        if (!(bound.cone_at(BoundSide::lower, c, i).k > 0.))
+          throw InputError("Materials/" +
+                             scene.materials.name(triangles->material[c]) +
+                             "/Cohesion",
                            0,
                            "> 0 Pa with " + where(),
                            "free surfaces of soil without cohesion yield under "

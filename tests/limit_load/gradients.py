@@ -82,6 +82,7 @@ check_differences("tests/limit_load/gradients_slope.prm", of_loads=0., reduced=T
 check_differences("tests/limit_load/gradients_disc.prm", of_loads=1.)
 check_differences("tests/limit_load/gradients_cone.prm", of_loads=0., reduced=True)
 check_sums(bounds_of("tests/limit_load/axisymmetric_water-01.prm", ()), of_loads=1.)
+check_sums(bounds_of("prm/safety/slope_crust.prm", ["Analysis/Maximum levels = 1"]), 0., True)
 for other, of_loads, reduced in (("wall_passive", 1., False), ("../safety/slope_water", 0., True),
                                  ("../safety/cut_growing_strength", 0., True)):
     check_sums(bounds_of(f"prm/limit_load/{other}.prm", ["Analysis/Maximum levels = 1"]),

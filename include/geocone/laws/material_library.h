@@ -114,6 +114,11 @@ namespace geocone::GEOCONE_DIM
     void
     check_closed_form(const std::string &method) const;
 
+    /** Rejects strengths that are formulas. @throws InputError
+     *  @param where e.g. "where loads are bounded" */
+    void
+    refuse_strength_formulas(const std::string &where) const;
+
     const std::string &
     name(const unsigned int i) const
     {

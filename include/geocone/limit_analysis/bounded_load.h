@@ -102,6 +102,10 @@ namespace geocone::GEOCONE_DIM
     prescribed_velocity(const Scene &scene, const Triangles &triangles) const;
     void
     choose_units(const Scene &scene, const Triangles &triangles);
+    /** Bounds of the cohesions that are formulas, without units. @throws InputError for
+     *  cohesions that may be zero or infinite in a triangle */
+    EnclosedCohesion
+    enclosed_cohesion(const Scene &scene, const Triangles &triangles) const;
     /** Raises the unit of stress to that of dead loads and structures.
      *  @param dead largest dead load (Pa) */
     void
@@ -119,6 +123,8 @@ namespace geocone::GEOCONE_DIM
     std::vector<FlowCone> flow_cones;
     /** Increase of the strength k with depth, for each material (Pa/m). */
     std::vector<Material::StrengthGradient> growth;
+    /** Cohesion of materials that have a formula of it (Pa). */
+    std::vector<std::optional<EnclosedFormula>> formulas;
   };
 } // namespace geocone::GEOCONE_DIM
 

@@ -27,6 +27,7 @@ namespace geocone::GEOCONE_DIM
    *  beside it, times the strength of the interface. */
   PointCone
   interface_cone(const BoundScene  &bound,
+                 const BoundSide    side,
                  const BarEdge     &edge,
                  const unsigned int cell,
                  const unsigned int vertex);

@@ -7,6 +7,7 @@
 #include <geocone/bounds/load_factor.h>
 #include <geocone/bounds/spatial_strength.h>
 #include <geocone/cone/second_order_cone.h>
+#include <geocone/functions/enclosed_formula.h>
 #include <geocone/mesh/triangles.h>
 #include <geocone/plane_bounds/interfaces.h>
 #include <geocone/plane_bounds/plastic_bars.h>
@@ -153,6 +154,30 @@ namespace geocone::GEOCONE_DIM
     n_unknowns() const;
   };
 
+  /** Type of the bound: upper bound (kinematic) or lower bound (static). */
+  enum class BoundSide
+  {
+    upper,
+    lower
+  };
+
+  /** Cohesions that are formulas, enclosed by linear functions on each triangle. */
+  struct EnclosedCohesion
+  {
+    /** Strength k of a material per unit of its cohesion; 0 for materials without a
+     *  formula (scaled units of stress per Pa). */
+    std::vector<double> k_per_cohesion;
+
+    /** Cohesion of each triangle (Pa), 0 for materials without a formula. */
+    std::vector<EnclosedFormula::OnSimplex> cohesion;
+
+    bool
+    has(const unsigned int material) const
+    {
+      return !k_per_cohesion.empty() && k_per_cohesion[material] > 0.;
+    }
+  };
+
   /**
    * Input of a plane or axisymmetric limit analysis on a mesh: scene, triangles, load
    * factor and strength of the materials.
@@ -170,6 +195,8 @@ namespace geocone::GEOCONE_DIM
      *  per m). */
     std::vector<Material::StrengthGradient> growth;
 
+    EnclosedCohesion enclosed; ///< cohesions by formulas; plane only
+
     /** Strength of each material of an axisymmetric body, in scaled units. */
     std::vector<SpatialStrength> strengths;
 
@@ -181,11 +208,24 @@ namespace geocone::GEOCONE_DIM
       return scene.geometry.is_axisymmetric();
     }
 
+    /** Yield cone at a vertex of a triangle. In the triangle strength is linear; where
+     *  it is a formula, it is not larger in lower bounds, and not smaller in upper ones.
+     *  @param i index of the vertex in the triangle */
     PointCone
-    cone_at(const unsigned int material, const dealii::Point<dim> &x) const
+    cone_at(const BoundSide    side,
+            const unsigned int cell,
+            const unsigned int i) const
     {
-      PointCone cone = cones[material];
-      cone.k += growth[material].at(x[1]);
+      const unsigned int material = triangles.material[cell];
+      PointCone          cone     = cones[material];
+      cone.k +=
+        growth[material].at(triangles.vertices[triangles.cells[cell][i]][1]);
+      if (enclosed.has(material))
+        {
+          const auto &c = enclosed.cohesion[cell];
+          cone.k += enclosed.k_per_cohesion[material] *
+                    (side == BoundSide::lower ? c.below : c.above)[i];
+        }
       return cone;
     }
 
@@ -202,13 +242,6 @@ namespace geocone::GEOCONE_DIM
            const double       tan_phi,
            const double       k_factor,
            const double       tension_factor);
-  };
-
-  /** Type of the bound: upper bound (kinematic) or lower bound (static). */
-  enum class BoundSide
-  {
-    upper,
-    lower
   };
 
   /**
