@@ -9,7 +9,6 @@
 #include <geocone/materials/retention.h>
 #include <geocone/points/point_record.h>
 #include <geocone/points/quadrature_points.h>
-#include <geocone/problem/consolidation.h>
 #include <geocone/space/vertex_interpolation.h>
 #include <geocone/time_stepping/check_removal.h>
 
@@ -133,14 +132,12 @@ namespace geocone::GEOCONE_DIM
           dim == 3 && !obstacles->exists() ? dim * space_.n_nodes() : 0))
       vertices = std::make_shared<VertexInterpolation>(
         interpolation_from_vertices(mesh_, space_));
-    system = std::make_unique<LinearSystem>(
-      newton.linear_solver(),
-      mesh_.triangulation().get_communicator(),
-      scene->materials.traits().symmetric && !obstacles->exists() &&
-        !drainage.acts,
-      vertices);
-    if (drainage.acts)
-      pore_pressure.reinit(space_.partitioner());
+    system =
+      std::make_unique<LinearSystem>(newton.linear_solver(),
+                                     mesh_.triangulation().get_communicator(),
+                                     scene->materials.traits().symmetric &&
+                                       !obstacles->exists() && !drainage.acts,
+                                     vertices);
     begin(points, timer);
     unknowns = constraints->n_rows;
     constraints->check_axis(mesh_, space_);
@@ -191,14 +188,7 @@ namespace geocone::GEOCONE_DIM
       }
     ScaledLoads::check(*scene);
     if (drainage.acts)
-      {
-        check_consolidation();
-        if (linear_solver.is_iterative())
-          throw InputError("Linear solver/Name",
-                           linear_solver.name.word(),
-                           "a direct solver with 'Time stepping/Consolidation'",
-                           "set it to automatic");
-      }
+      check_consolidation(linear_solver);
     check_axisymmetric_body(*scene);
     integration.check(*scene, "Time stepping/");
   }
@@ -225,76 +215,6 @@ namespace geocone::GEOCONE_DIM
         constraints->set_values(v, start + 1e-6 * stage->duration);
         start += stage->duration;
       }
-  }
-
-  void
-  ImplicitFEM::refuse_consolidation() const
-  {
-    if (drainage.acts)
-      throw InputError(Drainage::parameter,
-                       "true",
-                       "false with implicit MPM",
-                       "set Discretisation/Method = FEM or explicit MPM");
-  }
-
-  void
-  ImplicitFEM::check_consolidation() const
-  {
-    const std::string parameter = Drainage::parameter;
-    const auto        refuse    = [&](const std::string &allowed,
-                            const std::string &remedy) {
-      throw InputError(parameter, "true", allowed, remedy);
-    };
-    if (dim == 3)
-      refuse("false in three dimensions",
-             "compute a plane or axisymmetric scene");
-    scene->refuse_contact(parameter + " = true",
-                          "leave out contact, or consolidation");
-    if (inertia)
-      refuse("false with inertia", "set Time stepping/Inertia = false");
-    if (scene->loading.changes_body())
-      refuse("false with stages that remove, add or change material",
-             "compute these stages with undrained or drained soil");
-    if (space->is_spline() || space->degree() < 2)
-      throw InputError("Discretisation/Element",
-                       space->element(),
-                       "P2, P3, Q2 or Q3 with " + parameter,
-                       "pressures are linear: velocities of degree 1 give "
-                       "oscillating ones");
-    if (space->has_ties())
-      refuse("false with tied sides", "leave out 'Discretisation/Tied sides'");
-    for (const auto &boundary : scene->water.seepage.list)
-      if (!boundary->drain.empty())
-        refuse("false with drains in the body",
-               "leave out 'Seepage/" + boundary->name + "/Drain'");
-    for (unsigned int m = 0; m < scene->materials.size(); ++m)
-      if (scene->water.seepage.acts() &&
-          scene->materials.law(m).retention().adds_strength())
-        refuse("false with a 'Bishop parameter'",
-               "consolidating soil is saturated: leave out 'Materials/" +
-                 scene->materials.name(m) + "/Bishop parameter'");
-    if (scene->water.flow_steps().size() > 1)
-      refuse("false where the steady pore pressures change in time",
-             "keep the water levels of all stages");
-  }
-
-  std::vector<bool>
-  ImplicitFEM::drained_nodes() const
-  {
-    std::vector<bool> is_drained(space->n_local_nodes(), false);
-    for (const std::string &name : drainage.sides)
-      for (const unsigned int node : space->nodes_on_sides(
-             {mesh->side_id(name,
-                            Drainage::parameter_of_sides,
-                            "leave it out where no water leaves")}))
-        is_drained[node] = true;
-    for (const auto &boundary : scene->water.seepage.list)
-      for (const auto &[name, id] : mesh->named_sides())
-        if (boundary->is_on_side(name))
-          for (const unsigned int node : space->nodes_on_sides({id}))
-            if (boundary->holds_at(space->node_positions()[node]))
-              is_drained[node] = true;
-    return is_drained;
   }
 
   void
@@ -340,16 +260,9 @@ namespace geocone::GEOCONE_DIM
       problem->add(*bars);
     if constexpr (dim == 2)
       if (drainage.acts)
-        {
-          flow = std::make_unique<Consolidation>(*scene,
-                                                 *mesh,
-                                                 *space,
-                                                 points,
-                                                 *constraints,
-                                                 drained_nodes(),
-                                                 pore_pressure);
-          problem->add(*flow);
-        }
+        add_flow(points,
+                 pressures_of_elements(
+                   *scene, *mesh, *space, points, drained_nodes()));
     system->set_pattern(*problem, timer);
     has_pattern = begun = true;
   }
@@ -561,8 +474,6 @@ namespace geocone::GEOCONE_DIM
     save_points(archive, points);
     if (scene->loading.changes_body())
       ramped.save(archive, *mesh, *space);
-    if (drainage.acts)
-      save_nodes(archive, "pore pressure", *mesh, *space, pore_pressure);
     if (bars)
       {
         StateRow forces;
@@ -588,8 +499,6 @@ namespace geocone::GEOCONE_DIM
     take_points(archive, points);
     if (scene->loading.changes_body())
       ramped.load(archive, *mesh, *space);
-    if (drainage.acts)
-      load_nodes(archive, "pore pressure", *mesh, *space, pore_pressure);
     if (bars)
       {
         StateRow forces = archive.read_row("bars");

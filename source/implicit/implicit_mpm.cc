@@ -37,6 +37,8 @@ namespace geocone::GEOCONE_DIM
         bars = std::make_unique<Bars>(scene->structures, *mesh, *space);
       }
     ScaledLoads::check(*scene);
+    if (drainage.acts)
+      check_consolidation(newton.linear_solver());
     check_axisymmetric_body(*scene);
 
     for (const auto &condition : scene->dirichlet.list)
@@ -113,11 +115,14 @@ namespace geocone::GEOCONE_DIM
       std::make_unique<ObstacleContact>(*scene, *mesh, *space, nullptr);
     if (!scene->contacts.list.empty())
       bodies.emplace(*scene, *mesh, *space);
-    system = std::make_unique<LinearSystem>(
-      newton.linear_solver(),
-      mesh->triangulation().get_communicator(),
-      scene->materials.traits().symmetric && !obstacles->exists());
+    system =
+      std::make_unique<LinearSystem>(newton.linear_solver(),
+                                     mesh->triangulation().get_communicator(),
+                                     scene->materials.traits().symmetric &&
+                                       !obstacles->exists() && !drainage.acts);
     force.reinit(space->partitioner());
+    if (drainage.acts)
+      pore_pressure.reinit(space->partitioner());
     if (space->is_spline() && advection != Advection::none)
       ghost_places.emplace(*mesh, *space);
   }
@@ -236,6 +241,8 @@ namespace geocone::GEOCONE_DIM
       problem->add(*absorbing);
     if (bars)
       problem->add(*bars);
+    if (drainage.acts)
+      add_flow_between(points);
     if (!bodies) // else contacts are not known yet
       system->set_pattern(*problem, timer);
     has_pattern = !bodies;

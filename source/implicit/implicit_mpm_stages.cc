@@ -80,6 +80,8 @@ namespace geocone::GEOCONE_DIM
     for (unsigned int i = 0; i < mass.locally_owned_size(); ++i)
       mass.local_element(i) = had_mass.empty() || had_mass[i];
     save_nodes(archive, "had mass", *mesh, *space, mass);
+    if (drainage.acts)
+      save_nodes(archive, "pore pressure", *mesh, *space, pore_pressure);
     StateRow row;
     moving->state(row);
     obstacles->state(row);
@@ -124,6 +126,8 @@ namespace geocone::GEOCONE_DIM
       bars->state(row);
     Vector mass(velocity_L);
     load_nodes(archive, "had mass", *mesh, *space, mass);
+    if (drainage.acts)
+      load_nodes(archive, "pore pressure", *mesh, *space, pore_pressure);
     had_mass.resize(mass.locally_owned_size());
     for (unsigned int i = 0; i < mass.locally_owned_size(); ++i)
       had_mass[i] = mass.local_element(i) > 0.;

@@ -3,7 +3,6 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/over_ranks.h>
-#include <geocone/points/quadrature_points.h>
 #include <geocone/problem/consolidation.h>
 
 #include <deal.II/base/mpi.h>
@@ -20,31 +19,6 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    /** Linear shape functions of the vertices of a cell and their gradients in
-     *  unit coordinates. */
-    struct VertexFunctions
-    {
-      std::vector<double>         value;
-      std::vector<Tensor<1, dim>> gradient;
-    };
-
-    VertexFunctions
-    vertex_functions(const bool simplicial, const Point<dim> &unit)
-    {
-      const double x = unit[0], y = unit[1];
-      const auto   vector = [](const double a, const double b) {
-        return Tensor<1, dim>({a, b});
-      };
-      if (simplicial)
-        return {{1. - x - y, x, y},
-                {vector(-1., -1.), vector(1., 0.), vector(0., 1.)}};
-      return {{(1. - x) * (1. - y), x * (1. - y), (1. - x) * y, x * y},
-              {vector(y - 1., x - 1.),
-               vector(1. - y, -x),
-               vector(-y, 1. - x),
-               vector(y, x)}};
-    }
-
     /** Volumetric strain of a point per displacement of a node (1/m): B' 1, with
      *  the hoop strain around an axis, and projected with B-bar. */
     inline Tensor<1, dim>
@@ -63,79 +37,44 @@ namespace geocone::GEOCONE_DIM
         g[0] += points.hoop[n * point + i];
       return g;
     }
-
-    /** Mobility k/gamma of each material (m^2/(Pa s)).
-     *  @throws InputError for a material without pore fluid or permeability */
-    std::vector<SymmetricTensor<2, dim>>
-    mobilities(const Scene &scene)
-    {
-      std::vector<SymmetricTensor<2, dim>> all;
-      for (unsigned int m = 0; m < scene.materials.size(); ++m)
-        {
-          const ConstitutiveLaw &law = scene.materials.law(m);
-          if (!(law.fluid_modulus() > 0.))
-            throw InputError("Materials/" + scene.materials.name(m) +
-                               "/Pore fluid bulk modulus",
-                             law.fluid_modulus(),
-                             "> 0 Pa with 'Time stepping/Consolidation'",
-                             "water has 2.2 GPa; divide it by the porosity");
-          all.push_back(law.permeability() / scene.water.weight());
-        }
-      return all;
-    }
   } // namespace
 
-  Consolidation::Consolidation(const Scene             &scene,
-                               const BackgroundMesh    &mesh,
-                               const Space             &space,
-                               const MaterialPoints    &points,
-                               const Unknowns          &unknowns,
-                               const std::vector<bool> &is_drained,
-                               Vector                  &pressure)
+  Consolidation::Consolidation(
+    const Materials                                          &materials,
+    const MaterialPoints                                     &points,
+    const Unknowns                                           &unknowns,
+    PressureFunctions                                         of_cells,
+    const std::shared_ptr<const Utilities::MPI::Partitioner> &layout,
+    Vector                                                   *at_vertices)
     : points(points)
-    , materials(scene.materials)
+    , materials(materials)
     , unknowns(unknowns)
     , turned(points, unknowns)
-    , is_drained(is_drained)
-    , pressure(pressure)
+    , functions(std::move(of_cells))
+    , at_vertices(at_vertices)
+    , stored_n(layout)
+    , smoothed_n(layout)
+    , trial(layout)
     , of_point(points.n_points())
-    , n_vertices(mesh.is_simplicial() ? 3 : 4)
-    , mobility(mobilities(scene))
   {
-    const Quadrature<dim>        quadrature = stress_quadrature(space, mesh);
-    std::vector<VertexFunctions> functions;
-    for (const Point<dim> &unit : quadrature.get_points())
-      functions.push_back(vertex_functions(mesh.is_simplicial(), unit));
-    for (const BackgroundMesh::Cell &cell : points.cells)
-      for (unsigned int q = 0; q < quadrature.size(); ++q)
-        {
-          const Tensor<2, dim> to_unit =
-            mesh.inverse_jacobian(cell, quadrature.point(q));
-          for (unsigned int i = 0; i < n_vertices; ++i)
-            {
-              N.push_back(functions[q].value[i]);
-              gradient.push_back(functions[q].gradient[i] * to_unit);
-            }
-        }
     compute_coupling();
     number_rows();
-    const MPI_Comm comm = pressure.get_mpi_communicator();
+    const MPI_Comm comm = layout->get_mpi_communicator();
     solver              = Utilities::MPI::n_mpi_processes(comm) == 1
                             ? make_cholmod(LinearSolverParameters::IndexSize::automatic)
                             : make_mumps(comm, true, "");
     solver->analyse(A);
-    trial = pressure;
     trial.update_ghost_values();
   }
 
   void
   Consolidation::number_rows()
   {
-    const MPI_Comm comm = pressure.get_mpi_communicator();
+    const MPI_Comm comm = trial.get_mpi_communicator();
     // Vertices of cells of any rank, then their global rows.
-    Vector number(pressure.get_partitioner());
+    Vector number(trial.get_partitioner());
     for (unsigned int c = 0; c < points.n_cells(); ++c)
-      for (unsigned int i = 0; i < n_vertices; ++i)
+      for (unsigned int i = 0; i < functions.n_vertices; ++i)
         number.local_element(dim * node_of(c, i)) += 1.;
     number.compress(VectorOperation::add);
     const unsigned int n_owned_nodes = number.locally_owned_size() / dim;
@@ -156,7 +95,7 @@ namespace geocone::GEOCONE_DIM
       number.local_element(dim * node) =
         number.local_element(dim * node) > 0. ? next++ : -1;
     number.update_ghost_values();
-    row.assign(is_drained.size(), -1);
+    row.assign(functions.is_drained.size(), -1);
     int n_rows = 0;
     for (unsigned int node = 0; node < row.size(); ++node)
       if (const int global = std::lround(number.local_element(dim * node));
@@ -168,8 +107,8 @@ namespace geocone::GEOCONE_DIM
 
     std::vector<std::vector<int>> columns(n_rows);
     for (unsigned int c = 0; c < points.n_cells(); ++c)
-      for (unsigned int i = 0; i < n_vertices; ++i)
-        for (unsigned int j = 0; j < n_vertices; ++j)
+      for (unsigned int i = 0; i < functions.n_vertices; ++i)
+        for (unsigned int j = 0; j < functions.n_vertices; ++j)
           if (row[node_of(c, j)] <= row[node_of(c, i)])
             columns[row[node_of(c, i)]].push_back(row[node_of(c, j)]);
     for (int r = 0; r < n_rows; ++r)
@@ -180,33 +119,45 @@ namespace geocone::GEOCONE_DIM
   void
   Consolidation::begin_step(const double step)
   {
+    stored_n = storage(
+      [this](const unsigned int p) { return points.excess_pressure(p); });
+    if (functions.smooths())
+      {
+        at_vertices->update_ghost_values();
+        smoothed_n = products(functions.smoothing, *at_vertices);
+        at_vertices->zero_out_ghost_values();
+      }
     if (step == h)
       return;
-    h = step;
+    h                    = step;
+    const unsigned int n = functions.n_vertices;
     std::fill(A.value.begin(), A.value.end(), 0.);
+    std::vector<double> A_cell(n * n);
     for (unsigned int c = 0; c < points.n_cells(); ++c)
-      for (unsigned int p = points.first_point[c];
-           p < points.first_point[c + 1];
-           ++p)
-        {
-          const unsigned int m       = points.material[p];
-          const double       storage = 1. / materials.law(m).fluid_modulus();
-          for (unsigned int i = 0; i < n_vertices; ++i)
-            for (unsigned int j = 0; j < n_vertices; ++j)
-              {
-                const unsigned int a = node_of(c, i), b = node_of(c, j);
-                if (row[b] > row[a] || is_drained[a] || is_drained[b])
-                  continue;
-                const unsigned int first = n_vertices * p;
-                A.value[A.entry(row[a], row[b])] +=
-                  points.weight[p] *
-                  (storage * N[first + i] * N[first + j] +
-                   h * (gradient[first + i] *
-                        (mobility[m] * gradient[first + j])));
-              }
-        }
+      {
+        for (unsigned int i = 0; i < n * n; ++i)
+          A_cell[i] =
+            h * functions.flow[n * n * c + i] +
+            (functions.smooths() ? functions.smoothing[n * n * c + i] : 0.);
+        for (unsigned int p = points.first_point[c];
+             p < points.first_point[c + 1];
+             ++p)
+          {
+            const double storage = points.weight[p] / fluid_modulus(p);
+            for (unsigned int i = 0; i < n; ++i)
+              for (unsigned int j = 0; j < n; ++j)
+                A_cell[n * i + j] +=
+                  storage * functions.N[n * p + i] * functions.N[n * p + j];
+          }
+        for (unsigned int i = 0; i < n; ++i)
+          for (unsigned int j = 0; j < n; ++j)
+            if (const unsigned int a = node_of(c, i), b = node_of(c, j);
+                row[b] <= row[a] && !functions.is_drained[a] &&
+                !functions.is_drained[b])
+              A.value[A.entry(row[a], row[b])] += A_cell[n * i + j];
+      }
     for (unsigned int node = 0; node < row.size(); ++node)
-      if (row[node] >= 0 && row[node] < A.n_owned && is_drained[node])
+      if (row[node] >= 0 && row[node] < A.n_owned && functions.is_drained[node])
         A.value[A.entry(row[node], row[node])] = 1.;
     if (!solver->factorise(A))
       throw RunError("the water balance of a step of " + std::to_string(h) +
@@ -217,7 +168,7 @@ namespace geocone::GEOCONE_DIM
   Vector
   Consolidation::divergence(const Vector &v) const
   {
-    Vector              sum(pressure.get_partitioner());
+    Vector              sum(trial.get_partitioner());
     const unsigned int  n = points.n_nodes;
     std::vector<double> cell_v(dim * n);
     for (unsigned int c = 0; c < points.n_cells(); ++c)
@@ -238,31 +189,48 @@ namespace geocone::GEOCONE_DIM
                 for (unsigned int d = 0; d < dim; ++d)
                   rate += g[d] * cell_v[dim * i + d];
               }
-            for (unsigned int i = 0; i < n_vertices; ++i)
+            for (unsigned int i = 0; i < functions.n_vertices; ++i)
               sum.local_element(dim * node_of(c, i)) +=
-                points.weight[p] * N[n_vertices * p + i] * rate;
+                points.weight[p] * functions.N[functions.n_vertices * p + i] *
+                rate;
           }
       }
     sum.compress(VectorOperation::add);
     return sum;
   }
 
+  template <typename PressureOf>
   Vector
-  Consolidation::storage(const Vector &p) const
+  Consolidation::storage(const PressureOf &p) const
   {
-    Vector sum(pressure.get_partitioner());
+    Vector             sum(trial.get_partitioner());
+    const unsigned int n = functions.n_vertices;
     for (unsigned int c = 0; c < points.n_cells(); ++c)
       for (unsigned int q = points.first_point[c];
            q < points.first_point[c + 1];
            ++q)
         {
-          const double water =
-            points.weight[q] * value(p, c, q) /
-            materials.law(points.material[q]).fluid_modulus();
-          for (unsigned int i = 0; i < n_vertices; ++i)
+          const double water = points.weight[q] * p(q) / fluid_modulus(q);
+          for (unsigned int i = 0; i < n; ++i)
             sum.local_element(dim * node_of(c, i)) +=
-              N[n_vertices * q + i] * water;
+              functions.N[n * q + i] * water;
         }
+    sum.compress(VectorOperation::add);
+    return sum;
+  }
+
+  Vector
+  Consolidation::products(const std::vector<double> &matrices,
+                          const Vector              &p) const
+  {
+    Vector             sum(trial.get_partitioner());
+    const unsigned int n = functions.n_vertices;
+    const double      *a = matrices.data();
+    for (unsigned int c = 0; c < points.n_cells(); ++c)
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int j = 0; j < n; ++j, ++a)
+          sum.local_element(dim * node_of(c, i)) +=
+            *a * p.local_element(dim * node_of(c, j));
     sum.compress(VectorOperation::add);
     return sum;
   }
@@ -273,9 +241,9 @@ namespace geocone::GEOCONE_DIM
                        const unsigned int point) const
   {
     double sum = 0.;
-    for (unsigned int i = 0; i < n_vertices; ++i)
-      sum +=
-        N[n_vertices * point + i] * p.local_element(dim * node_of(cell, i));
+    for (unsigned int i = 0; i < functions.n_vertices; ++i)
+      sum += functions.N[functions.n_vertices * point + i] *
+             p.local_element(dim * node_of(cell, i));
     return sum;
   }
 
@@ -285,9 +253,10 @@ namespace geocone::GEOCONE_DIM
     std::vector<double> x(A.n_owned);
     for (unsigned int node = 0; node < row.size(); ++node)
       if (row[node] >= 0 && row[node] < A.n_owned)
-        x[row[node]] = is_drained[node] ? 0. : b.local_element(dim * node);
+        x[row[node]] =
+          functions.is_drained[node] ? 0. : b.local_element(dim * node);
     solver->solve(x);
-    Vector result(pressure.get_partitioner());
+    Vector result(trial.get_partitioner());
     for (unsigned int node = 0; node < row.size(); ++node)
       if (row[node] >= 0 && row[node] < A.n_owned)
         result.local_element(dim * node) = x[row[node]];
@@ -299,9 +268,8 @@ namespace geocone::GEOCONE_DIM
   Consolidation::update(const Vector &v)
   {
     inflow = divergence(v);
-    pressure.update_ghost_values();
-    Vector b = storage(pressure);
-    pressure.zero_out_ghost_values();
+    Vector b = stored_n;
+    b += smoothed_n;
     b.add(-h, inflow);
     trial = solve(b);
     for (unsigned int c = 0; c < points.n_cells(); ++c)
@@ -315,15 +283,16 @@ namespace geocone::GEOCONE_DIM
   Consolidation::compute_coupling()
   {
     const unsigned int n = points.n_nodes;
-    coupling.assign(points.n_cells() * n_vertices * dim * n, 0.);
+    coupling.assign(points.n_cells() * functions.n_vertices * dim * n, 0.);
     double *column = coupling.data();
     for (unsigned int c = 0; c < points.n_cells(); ++c)
-      for (unsigned int j = 0; j < n_vertices; ++j, column += dim * n)
+      for (unsigned int j = 0; j < functions.n_vertices; ++j, column += dim * n)
         for (unsigned int p = points.first_point[c];
              p < points.first_point[c + 1];
              ++p)
           {
-            const double weight = points.weight[p] * N[n_vertices * p + j];
+            const double weight =
+              points.weight[p] * functions.N[functions.n_vertices * p + j];
             for (unsigned int i = 0; i < n; ++i)
               {
                 const Tensor<1, dim> g = divergence_of(points, p, i);
@@ -337,9 +306,9 @@ namespace geocone::GEOCONE_DIM
   Consolidation::coupling_of_cell(const unsigned int c) const
   {
     const unsigned int  n_dofs = dim * points.n_nodes;
-    const double *const first  = &coupling[c * n_vertices * n_dofs];
-    std::vector<double> G(first, first + n_vertices * n_dofs);
-    for (unsigned int j = 0; j < n_vertices; ++j)
+    const double *const first  = &coupling[c * functions.n_vertices * n_dofs];
+    std::vector<double> G(first, first + functions.n_vertices * n_dofs);
+    for (unsigned int j = 0; j < functions.n_vertices; ++j)
       turned.forces_to_dofs(c, &G[j * n_dofs]);
     return G;
   }
@@ -348,13 +317,13 @@ namespace geocone::GEOCONE_DIM
   Consolidation::add_tangent(Vector &dst, const Vector &dv) const
   {
     const Vector        change = solve(divergence(dv)); // -dp/h
-    Vector              part(pressure.get_partitioner());
+    Vector              part(trial.get_partitioner());
     const unsigned int  n_dofs = dim * points.n_nodes;
     for (unsigned int c = 0; c < points.n_cells(); ++c)
       {
         const std::vector<double> G = coupling_of_cell(c);
         for (unsigned int i = 0; i < n_dofs; ++i)
-          for (unsigned int j = 0; j < n_vertices; ++j)
+          for (unsigned int j = 0; j < functions.n_vertices; ++j)
             part.local_element(
               dim * points.nodes[c * points.n_nodes + i / dim] + i % dim) +=
               h * G[n_dofs * j + i] * change.local_element(dim * node_of(c, j));
@@ -415,7 +384,7 @@ namespace geocone::GEOCONE_DIM
     for (unsigned int c = 0; c < points.n_cells(); ++c)
       for (unsigned int i = 0; i < dim * points.n_nodes; ++i)
         if (const int velocity = row_of_dof(c, i); velocity >= 0)
-          for (unsigned int j = 0; j < n_vertices; ++j)
+          for (unsigned int j = 0; j < functions.n_vertices; ++j)
             {
               const int p = row_of_pressure[row[node_of(c, j)]];
               columns[velocity].push_back(p);
@@ -456,8 +425,9 @@ namespace geocone::GEOCONE_DIM
         const std::vector<double> G = coupling_of_cell(c);
         for (unsigned int i = 0; i < n_dofs; ++i)
           if (const int velocity = row_of_dof(c, i); velocity >= 0)
-            for (unsigned int j = 0; j < n_vertices; ++j)
-              if (const unsigned int node = node_of(c, j); !is_drained[node])
+            for (unsigned int j = 0; j < functions.n_vertices; ++j)
+              if (const unsigned int node = node_of(c, j);
+                  !functions.is_drained[node])
                 {
                   const int    p = row_of_pressure[row[node]];
                   const double g = G[n_dofs * j + i];
@@ -470,45 +440,34 @@ namespace geocone::GEOCONE_DIM
   WaterBalance
   Consolidation::commit()
   {
-    pressure.update_ghost_values();
-    Vector change = storage(trial);
-    change -= storage(pressure);
-    pressure.zero_out_ghost_values();
-    // Sums of the balance: all terms, those at drained sides, and sizes.
+    Vector change =
+      storage([this](const unsigned int p) { return of_point[p]; });
+    change -= stored_n;
+    Vector seepage = products(functions.flow, trial);
+    seepage *= h;
+    if (functions.smooths())
+      {
+        seepage += products(functions.smoothing, trial);
+        seepage -= smoothed_n;
+      }
+    // Sums of the balance: all terms, the outflow, sizes, and the dissipation.
     std::array<double, 4> sums = {};
-    Vector                seepage(pressure.get_partitioner());
-    for (unsigned int c = 0; c < points.n_cells(); ++c)
-      for (unsigned int p = points.first_point[c];
-           p < points.first_point[c + 1];
-           ++p)
-        {
-          const unsigned int first = n_vertices * p;
-          Tensor<1, dim>     slope;
-          for (unsigned int i = 0; i < n_vertices; ++i)
-            slope +=
-              trial.local_element(dim * node_of(c, i)) * gradient[first + i];
-          const Tensor<1, dim> flow = mobility[points.material[p]] * slope;
-          sums[3] += h * points.weight[p] * (slope * flow);
-          for (unsigned int i = 0; i < n_vertices; ++i)
-            seepage.local_element(dim * node_of(c, i)) +=
-              h * points.weight[p] * (gradient[first + i] * flow);
-        }
-    seepage.compress(VectorOperation::add);
     for (unsigned int node = 0; node < row.size(); ++node)
       if (row[node] >= 0 && row[node] < A.n_owned)
         {
-          const unsigned int dof     = dim * node;
-          const double       stored  = change.local_element(dof),
-                       volume        = h * inflow.local_element(dof),
-                       through_edges = seepage.local_element(dof);
+          const unsigned int dof    = dim * node;
+          const double       stored = change.local_element(dof),
+                       volume       = h * inflow.local_element(dof),
+                       leaves       = seepage.local_element(dof);
           sums[0] += stored + volume;
-          if (is_drained[node])
-            sums[1] += stored + volume + through_edges;
+          sums[1] += functions.is_drained[node] ? stored + volume : -leaves;
           sums[2] += std::abs(stored) + std::abs(volume);
+          sums[3] += trial.local_element(dof) * leaves;
         }
-    sum_over_ranks(sums, pressure.get_mpi_communicator());
-    for (unsigned int i = 0; i < pressure.locally_owned_size(); ++i)
-      pressure.local_element(i) = trial.local_element(i);
+    sum_over_ranks(sums, trial.get_mpi_communicator());
+    if (at_vertices != nullptr)
+      for (unsigned int i = 0; i < trial.locally_owned_size(); ++i)
+        at_vertices->local_element(i) = trial.local_element(i);
     return {-sums[1] / h,
             std::abs(sums[0] - sums[1]) /
               std::max(sums[2], std::numeric_limits<double>::min()),

@@ -172,10 +172,7 @@ namespace geocone::GEOCONE_DIM
     space.prepare(
       mesh, method, scene.materials.traits().strongly_non_associated);
     if (method.is_mpm())
-      {
-        implicit_fem.refuse_consolidation();
-        stepper = &implicit_mpm;
-      }
+      stepper = &implicit_mpm;
     else
       stepper = &implicit_fem;
     std::vector<std::string> warnings = {

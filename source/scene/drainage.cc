@@ -11,10 +11,10 @@ namespace geocone
     const UsedWhere used_drainage[] = {
       {"Time stepping/Consolidation",
        "Discretisation/Method",
-       {"FEM", "explicit MPM"}},
+       {"FEM", "MPM", "explicit MPM"}},
       {"Time stepping/Drained sides",
        "Discretisation/Method",
-       {"FEM", "explicit MPM"}},
+       {"FEM", "MPM", "explicit MPM"}},
       {"Time stepping/Drained sides", "Time stepping/Consolidation", {"true"}}};
   } // namespace
 
@@ -30,7 +30,7 @@ namespace geocone
       acts,
       "Whether the excess pore pressures of undrained soil "
       "('Materials/NAME/Pore fluid bulk modulus') dissipate by flow "
-      "through its 'Permeability': with FEM in time steps of backward Euler, "
+      "through its 'Permeability': in time steps of backward Euler, or "
       "with explicit MPM by the velocities of soil and water, of which "
       "'Saturated "
       "water content' is the porosity. false: each point keeps its water.");

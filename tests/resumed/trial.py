@@ -70,6 +70,8 @@ METHODS = {
     # Excess pore pressures that are unknowns.
     "consolidation": ("../prm/consolidation/terzaghi.prm", {
         "Loading/consolidate/Output every": "5"}),
+    "consolidation mpm": ("../prm/consolidation/mud_mpm.prm", {
+        "Loading/settle/Output every": "5", "Loading/settle/Duration": "8e5"}),
     # Pore water that flows, and points that are taken away in time.
     "two-phase": ("../prm/consolidation/cut_below_water.prm", {
         "Mesh/Cell size": "1", "Loading/cut/Duration": "2",

@@ -6,7 +6,6 @@
 
 #include <geocone/conditions/loads.h>
 #include <geocone/implicit/implicit_stepper.h>
-#include <geocone/scene/drainage.h>
 
 #include <string>
 #include <vector>
@@ -27,11 +26,6 @@ namespace geocone::GEOCONE_DIM
     {
       return inertia;
     }
-
-    /** Rejects consolidation if another method is used.
-     *  @throws InputError */
-    void
-    refuse_consolidation() const;
 
     std::string
     prepare(const Scene           &scene,
@@ -133,10 +127,9 @@ namespace geocone::GEOCONE_DIM
     void
     check_stages(const MaterialPoints &points);
 
-    /** Rejects scenes and elements without consolidation.
-     *  @throws InputError */
     void
-    check_consolidation() const;
+    check_consolidation(
+      const LinearSolverParameters &linear_solver) const override;
 
     /** Nodes with zero excess pore pressure, by local node. Collective.
      *  @throws InputError for unknown sides */
@@ -146,9 +139,6 @@ namespace geocone::GEOCONE_DIM
     bool                   inertia = false;
     std::unique_ptr<Loads> loads;
     Vector                 weight_per_g;
-
-    Drainage drainage;
-    Vector   pore_pressure; ///< excess, see Consolidation
   };
 } // namespace geocone::GEOCONE_DIM
 

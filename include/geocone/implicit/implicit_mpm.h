@@ -156,6 +156,16 @@ namespace geocone::GEOCONE_DIM
     /** @} */
 
     void
+    check_consolidation(
+      const LinearSolverParameters &linear_solver) const override;
+
+    /** Adds the excess pore pressures of consolidating soil to the incremental
+     *  problem. Drained are free surfaces of the body, and sides of the mesh
+     *  that are named or whose velocity is not prescribed. Collective. */
+    void
+    add_flow_between(const MaterialPoints &points);
+
+    void
     begin_stage(const Stage &stage) override;
 
     void
@@ -400,6 +410,8 @@ namespace geocone::GEOCONE_DIM
     RankBalance balance;
 
     unsigned int n_light = 0; ///< low-mass basis functions
+
+    Vector pore_pressure; ///< excess, at vertices, of consolidating soil
 
     std::vector<Start> starts; ///< initial guesses in order
     dealii::Point<dim> datum;  ///< datum of the potential energy

@@ -9,6 +9,8 @@
 #include <geocone/implicit/ramped_forces.h>
 #include <geocone/implicit/scaled_loads.h>
 #include <geocone/implicit/time_integration.h>
+#include <geocone/problem/pressure_functions.h>
+#include <geocone/scene/drainage.h>
 #include <geocone/terms/absorbing_boundary.h>
 #include <geocone/terms/pore_pressures.h>
 #include <geocone/time_stepping/time_stepper.h>
@@ -217,6 +219,20 @@ namespace geocone::GEOCONE_DIM
     {}
     /** @} */
 
+    /** @name Consolidation */
+    /** @{ */
+
+    /** Rejects scenes without consolidation. @throws InputError */
+    virtual void
+    check_consolidation(const LinearSolverParameters &linear_solver) const;
+
+    /** Adds excess pore pressures to the incremental problem. Collective. */
+    void
+    add_flow(const MaterialPoints &points,
+             PressureFunctions     functions,
+             Vector               *at_vertices = nullptr);
+    /** @} */
+
     /** @name Removal and addition of material, with remarks for the log.
      *  Collective. */
     /** @{ */
@@ -246,6 +262,7 @@ namespace geocone::GEOCONE_DIM
       return integration.is_newmark() ? predicted : velocity_L;
     }
 
+    Drainage                            drainage;
     TimeIntegration                     integration;
     const Scene                        *scene = nullptr;
     BackgroundMesh                     *mesh  = nullptr;

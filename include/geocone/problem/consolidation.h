@@ -4,11 +4,10 @@
 #ifndef geocone_problem_consolidation_h
 #define geocone_problem_consolidation_h
 
+#include <geocone/laws/material_library.h>
 #include <geocone/linear/linear_solver.h>
-#include <geocone/mesh/background_mesh.h>
 #include <geocone/points/material_points.h>
-#include <geocone/scene/scene.h>
-#include <geocone/space/space.h>
+#include <geocone/problem/pressure_functions.h>
 #include <geocone/terms/pore_pressures.h>
 #include <geocone/terms/turned_dofs.h>
 
@@ -18,32 +17,30 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Excess pore pressures of consolidating soil at small strains (Biot 1941),
-   * in plane strain and axisymmetry. With the bulk modulus K_w/n of the pore
-   * fluid, hydraulic conductivity k and unit weight gamma of water, backward
-   * Euler gives
-   *   tr(e - e_n) + (n/K_w) (p - p_n) = h div((k/gamma) grad p),
-   * with p = 0 on drained sides and no flow through all others. The pressures
-   * are continuous and linear (bilinear on quadrilaterals), the velocities at
-   * least quadratic: Taylor-Hood elements, which satisfy the inf-sup condition.
-   * The matrices of PorePressures are sums over the points,
-   *   G = sum V (B' 1) N',   A = M + h sum V grad N' (k/gamma) grad N,
-   *   M = sum V (n/K_w) N' N,   f = M p_n.
-   * Pressures are stored as the first components of the vertices in vectors
-   * with the layout of the velocities.
+   * Excess pore pressures of consolidating soil (Biot 1941), in plane strain and
+   * axisymmetry. With the bulk modulus K_w/n of the pore fluid, hydraulic
+   * conductivity k and unit weight gamma of water, backward Euler gives
+   *   tr(e - e_n) + (n/K_w) (p - p_n) = h div((k/gamma) grad p).
+   * The pressures p are those of PressureFunctions. The matrices of
+   * PorePressures are sums over the points,
+   *   G = sum V (B' 1) N',   M = sum V (n/K_w) N' N,   A = M + S + h L,
+   *   f = sum V (n/K_w) N' p_n + S p_n,
+   * with the pressures p_n of the points at t_n, and of the vertices in S p_n. Pressures are stored as the
+   * first components of nodes in vectors with the layout of the velocities.
    */
   class Consolidation : public PorePressures
   {
   public:
-    /** @param is_drained whether p = 0 at each local node
-     *  @param pressure p_n, which must outlive the object */
-    Consolidation(const Scene             &scene,
-                  const BackgroundMesh    &mesh,
-                  const Space             &space,
-                  const MaterialPoints    &points,
-                  const Unknowns          &unknowns,
-                  const std::vector<bool> &is_drained,
-                  Vector                  &pressure);
+    /** @param layout of the velocities
+     *  @param at_vertices pressures at t_n to which those of the step are
+     *  smoothed, which must outlive the object; null where none are */
+    Consolidation(
+      const Materials      &materials,
+      const MaterialPoints &points,
+      const Unknowns       &unknowns,
+      PressureFunctions     functions,
+      const std::shared_ptr<const dealii::Utilities::MPI::Partitioner> &layout,
+      Vector *at_vertices = nullptr);
 
     void
     begin_step(const double h) override;
@@ -79,9 +76,16 @@ namespace geocone::GEOCONE_DIM
     Vector
     divergence(const Vector &v) const;
 
-    /** Computes M p with ghosts of p, in all owned pressures (m^2). */
+    /** Computes sum V (n/K_w) N' p of pressures p of the points, in all owned
+     *  pressures (m^2). */
+    template <typename PressureOf>
     Vector
-    storage(const Vector &p) const;
+    storage(const PressureOf &p) const;
+
+    /** Computes the sum of matrices of the cells times pressures p with ghosts,
+     *  in all owned pressures. */
+    Vector
+    products(const std::vector<double> &matrices, const Vector &p) const;
 
     /** Pressure at a point of a cell, from a vector with ghosts (Pa). */
     double
@@ -107,27 +111,32 @@ namespace geocone::GEOCONE_DIM
     int
     row_of_dof(const unsigned int cell, const unsigned int i) const;
 
+    /** K_w/n of a point (Pa). */
+    double
+    fluid_modulus(const unsigned int point) const
+    {
+      return materials.law(points.material[point]).fluid_modulus();
+    }
+
     /** Local node of a vertex of a cell. */
     unsigned int
     node_of(const unsigned int cell, const unsigned int vertex) const
     {
-      return points.nodes[cell * points.n_nodes + vertex];
+      return functions.nodes[cell * functions.n_vertices + vertex];
     }
 
-    const MaterialPoints               &points;
-    const Materials                    &materials;
-    const Unknowns                     &unknowns;
-    const TurnedDofs                    turned;
-    const std::vector<bool>             is_drained;
-    Vector                             &pressure;   ///< p_n
-    Vector                              trial;      ///< p(v)
-    Vector                              inflow;     ///< G' v
-    std::vector<double>                 of_point;   ///< p(v) at the points
-    const unsigned int                  n_vertices; ///< of a cell
-    std::vector<double>                 N; ///< vertex functions, by point
-    std::vector<dealii::Tensor<1, dim>> gradient;          ///< grad N (1/m)
-    std::vector<double>                 coupling; ///< G by cell and column
-    std::vector<dealii::SymmetricTensor<2, dim>> mobility; ///< k/gamma
+    const MaterialPoints         &points;
+    const Materials              &materials;
+    const Unknowns               &unknowns;
+    const TurnedDofs              turned;
+    const PressureFunctions       functions;
+    Vector *const                 at_vertices; ///< p_n at the vertices
+    Vector                        stored_n;    ///< sum V (n/K_w) N' p_n
+    Vector                        smoothed_n;  ///< S p_n
+    Vector                        trial;       ///< p(v)
+    Vector                        inflow;      ///< G' v
+    std::vector<double>           of_point;    ///< p(v) at the points
+    std::vector<double>           coupling;    ///< G by cell and column
     std::vector<int>              row; ///< in A, by local node; -1: none
     SparseMatrix                  A;
     std::unique_ptr<LinearSolver> solver;

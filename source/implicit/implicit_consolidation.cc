@@ -1,0 +1,181 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+// Consolidation in steps with fixed and moving points: its checks, drained sides,
+// and pressures as a part of the incremental problem.
+#include <geocone/base/exceptions.h>
+#include <geocone/implicit/implicit_fem.h>
+#include <geocone/implicit/implicit_mpm.h>
+#include <geocone/materials/retention.h>
+#include <geocone/problem/consolidation.h>
+
+#include <set>
+#include <utility>
+#include <vector>
+
+namespace geocone::GEOCONE_DIM
+{
+  namespace
+  {
+    [[noreturn]] void
+    refuse_consolidation(const std::string &allowed, const std::string &remedy)
+    {
+      throw InputError(Drainage::parameter, "true", allowed, remedy);
+    }
+  } // namespace
+
+  void
+  ImplicitStepper::check_consolidation(
+    const LinearSolverParameters &linear_solver) const
+  {
+    if (dim == 3)
+      refuse_consolidation("false in three dimensions",
+                           "compute a plane or axisymmetric scene");
+    scene->refuse_contact(std::string(Drainage::parameter) + " = true",
+                          "leave out contact, or consolidation");
+    if (scene->loading.changes_body())
+      refuse_consolidation(
+        "false with stages that remove, add or change material",
+        "compute these stages with undrained or drained soil");
+    for (unsigned int m = 0; m < scene->materials.size(); ++m)
+      if (scene->water.seepage.acts() &&
+          scene->materials.law(m).retention().adds_strength())
+        refuse_consolidation(
+          "false with a 'Bishop parameter'",
+          "consolidating soil is saturated: leave out 'Materials/" +
+            scene->materials.name(m) + "/Bishop parameter'");
+    if (scene->water.flow_steps().size() > 1)
+      refuse_consolidation(
+        "false where the steady pore pressures change in time",
+        "keep the water levels of all stages");
+    if (linear_solver.is_iterative())
+      throw InputError("Linear solver/Name",
+                       linear_solver.name.word(),
+                       "a direct solver with 'Time stepping/Consolidation'",
+                       "set it to automatic");
+  }
+
+  void
+  ImplicitStepper::add_flow(const MaterialPoints &points,
+                            PressureFunctions     functions,
+                            Vector               *at_vertices)
+  {
+    if constexpr (dim == 2)
+      {
+        flow = std::make_unique<Consolidation>(scene->materials,
+                                               points,
+                                               *constraints,
+                                               std::move(functions),
+                                               space->partitioner(),
+                                               at_vertices);
+        problem->add(*flow);
+      }
+  }
+
+  void
+  ImplicitFEM::check_consolidation(
+    const LinearSolverParameters &linear_solver) const
+  {
+    ImplicitStepper::check_consolidation(linear_solver);
+    if (inertia)
+      refuse_consolidation("false with inertia",
+                           "set Time stepping/Inertia = false");
+    if (space->is_spline() || space->degree() < 2)
+      throw InputError("Discretisation/Element",
+                       space->element(),
+                       std::string("P2, P3, Q2 or Q3 with ") +
+                         Drainage::parameter,
+                       "pressures are linear: velocities of degree 1 give "
+                       "oscillating ones");
+    if (space->has_ties())
+      refuse_consolidation("false with tied sides",
+                           "leave out 'Discretisation/Tied sides'");
+    for (const auto &boundary : scene->water.seepage.list)
+      if (!boundary->drain.empty())
+        refuse_consolidation("false with drains in the body",
+                             "leave out 'Seepage/" + boundary->name +
+                               "/Drain'");
+  }
+
+  std::vector<bool>
+  ImplicitFEM::drained_nodes() const
+  {
+    std::vector<bool> is_drained(space->n_local_nodes(), false);
+    for (const std::string &name : drainage.sides)
+      for (const unsigned int node : space->nodes_on_sides(
+             {mesh->side_id(name,
+                            Drainage::parameter_of_sides,
+                            "leave it out where no water leaves")}))
+        is_drained[node] = true;
+    for (const auto &boundary : scene->water.seepage.list)
+      for (const auto &[name, id] : mesh->named_sides())
+        if (boundary->is_on_side(name))
+          for (const unsigned int node : space->nodes_on_sides({id}))
+            if (boundary->holds_at(space->node_positions()[node]))
+              is_drained[node] = true;
+    return is_drained;
+  }
+
+  void
+  ImplicitMPM::check_consolidation(
+    const LinearSolverParameters &linear_solver) const
+  {
+    ImplicitStepper::check_consolidation(linear_solver);
+    if (!space->is_spline())
+      throw InputError("Discretisation/Element",
+                       space->element(),
+                       std::string("B-spline 2 | B-spline 3 with MPM and ") +
+                         Drainage::parameter,
+                       "take splines: the gradients of other functions jump "
+                       "where particles change cells");
+    if (!integration.is_backward_euler())
+      throw InputError("Material point method/Integration",
+                       integration.word(),
+                       std::string("backward Euler with ") +
+                         Drainage::parameter,
+                       "take it: the water balance is of first order in time");
+    if (!grid_follows.empty())
+      throw InputError(FollowingGrid::parameter,
+                       grid_follows,
+                       std::string("nothing with ") + Drainage::parameter,
+                       "leave it out");
+    scene->structures.refuse(std::string(Drainage::parameter) + " and MPM",
+                             "set Discretisation/Method = FEM");
+    scene->water.seepage.refuse(std::string(Drainage::parameter) + " and MPM",
+                                "give a level by 'Water/Table', or set "
+                                "Discretisation/Method = FEM");
+  }
+
+  void
+  ImplicitMPM::add_flow_between(const MaterialPoints &points)
+  {
+    std::set<dealii::types::boundary_id> named;
+    for (const std::string &name : drainage.sides)
+      named.insert(mesh->side_id(name,
+                                 Drainage::parameter_of_sides,
+                                 "leave it out where no water leaves"));
+    const auto &conditions = scene->dirichlet.list;
+    std::vector<std::set<dealii::types::boundary_id>> sides;
+    for (const auto &condition : conditions)
+      sides.push_back(mesh->side_ids(*condition)); // collective
+    const auto is_held = [&](const dealii::types::boundary_id side,
+                             const dealii::Point<dim>        &x) {
+      bool any = false;
+      for (unsigned int c = 0; c < conditions.size(); ++c)
+        any = any || (sides[c].count(side) > 0 && conditions[c]->holds_at(x));
+      return any;
+    };
+    if constexpr (dim == 2)
+      add_flow(points,
+               pressures_of_particles(*scene,
+                                      *mesh,
+                                      *space,
+                                      points,
+                                      [&](const dealii::types::boundary_id side,
+                                          const dealii::Point<dim>        &x) {
+                                        return named.count(side) > 0 ||
+                                               !is_held(side, x);
+                                      }),
+               &pore_pressure);
+  }
+} // namespace geocone::GEOCONE_DIM
