@@ -76,7 +76,7 @@ namespace geocone::GEOCONE_DIM
       all.is_drained.assign(space.n_local_nodes(), false);
       for (unsigned int c = 0; c < points.n_cells(); ++c)
         {
-          std::array<unsigned int, 4> node = {0, 1, 2, 3};
+          std::array<unsigned int, 4> node = {{0, 1, 2, 3}};
           if (space.is_spline())
             {
               const unsigned int p     = space.degree();

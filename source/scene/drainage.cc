@@ -39,7 +39,7 @@ namespace geocone
       sides,
       "Sides on which the excess pore pressure of consolidating "
       "soil is zero, comma-separated. All other sides are "
-      "impervious, except those of 'Seepage'; with explicit MPM, those "
+      "impervious, except those of 'Seepage'; with particles, those "
       "whose velocity is prescribed: free surfaces of the body are drained.");
   }
 } // namespace geocone

@@ -30,8 +30,8 @@ namespace geocone::GEOCONE_DIM
 
     std::vector<double> N; ///< n_vertices values per point
 
-    /** Matrices of the cells, n_vertices^2 values each: of the flow through
-     *  the soil and out of it, per pressure (m^4/(N s) m in the plane). */
+    /** Matrices L of the cells, n_vertices^2 values each: flow per pressure,
+     *  through the soil and out of it (m^4/(N s)). */
     std::vector<double> flow;
 
     /** Matrices S of the cells, which smooth the changes of the pressures
@@ -68,10 +68,10 @@ namespace geocone::GEOCONE_DIM
    * towards cells without particles, and those of drained sides, are surfaces
    * of the soil where p = 0 is imposed by an outflow per area c p (m/s) with
    *   c = alpha (k/gamma)/d
-   * for cells of size d. The mobility of cells at a surface is divided by f -
-   * 1/alpha, where f is the part of the cell that is filled, so that the flow
-   * from the inner vertices is that over the distance f d. Where k tends to
-   * zero, the surface becomes impervious. Collective.
+   * for cells of size d. The part f of a cell at a free surface is filled;
+   * functions are those of this part, and gradients towards the surface are
+   * scaled such that the flow from the inner vertices, and out, is that over the
+   * distance f d. Where k tends to zero, so does the outflow. Collective.
    *
    * Velocities of splines and pressures of the vertices are not inf-sup stable.
    * The changes of the pressures are smoothed by
