@@ -3,6 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/over_ranks.h>
+#include <geocone/base/text_of_place.h>
 #include <geocone/contact/contact.h>
 
 #include <deal.II/base/mpi.h>
@@ -137,48 +138,120 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
-  Contact::begin_step(ContactStep step)
+  ContactNode::support(const std::array<bool, dim> &is_prescribed,
+                       const Tensor<1, dim>        &v)
+  {
+    Tensor<1, dim> free = normal, carried;
+    for (unsigned int d = 0; d < dim; ++d)
+      if (is_prescribed[d])
+        {
+          free[d]    = 0.;
+          carried[d] = normal[d];
+        }
+    const double s = free.norm();
+    carried /= s;
+    normal = free / s;
+    least  = least / s - carried * v;
+    friction /= s;
+    tension *= s;
+    of_obstacle = outer_product(normal, carried);
+    for (unsigned int d = 0; d < dim; ++d)
+      if (!is_prescribed[d])
+        of_obstacle[d][d] += 1.;
+  }
+
+  bool
+  Contact::support(ContactNode  &node,
+                   const Vector &prescribed,
+                   std::string  &refusal) const
+  {
+    const unsigned int n = n_free(node.node);
+    if (n == dim)
+      return true;
+    const Tensor<1, dim> free = free_part(node.normal, node.node);
+    const double         part = free.norm(); // of the normal
+    if (n == 0 || part < (node.is_twin          ? hardly
+                          : node.touches_body() ? least_free_component
+                                                : least_free_normal))
+      {
+        if (node.touches_body() && !node.is_twin)
+          refusal = "a node of a 'Body' of the section 'Contacts' is held by a "
+                    "boundary condition against the other body\n"
+                    "  remedy:  exchange 'Body' and 'Other body', or hold it "
+                    "elsewhere";
+        return false;
+      }
+    if (node.touches_body())
+      {
+        if (node.is_twin) // u.n by its free part
+          node.least /= part;
+        node.normal = free / part;
+        return true;
+      }
+    std::array<bool, dim> is_prescribed;
+    Force                 v;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        is_prescribed[d] = !unknowns.is_free(dim * node.node + d);
+        v[d]             = prescribed.local_element(dim * node.node + d);
+      }
+    node.support(is_prescribed, v);
+    return true;
+  }
+
+  void
+  Contact::append(ContactNode &node, std::string &refusal)
+  {
+    if (list.empty() || list.back().node != node.node)
+      {
+        list.push_back(node);
+        return;
+      }
+    ContactNode &nearer = list.back();
+    const double cosine = nearer.normal * node.normal;
+    if (n_free(node.node) > 1 && std::abs(cosine) < parallel)
+      {
+        make_corner(nearer, node);
+        list.push_back(node);
+        return;
+      }
+    // The one that acts first in the free directions counts; with both normals
+    // in these it is the nearer one.
+    if (std::min(nearer.free_part_of_normal(), node.free_part_of_normal()) >
+        1. - 1e-12)
+      return;
+    if (cosine < 0. && nearer.least + node.least >= 0.)
+      refusal =
+        "the node at (" + text_of_place((*unknowns.node_positions)[node.node]) +
+        "), which a boundary condition leaves free in one direction, is "
+        "squeezed along it between two obstacles\n"
+        "  remedy:  leave the corner out of the body, or end the loading "
+        "before";
+    if (node.least > nearer.least)
+      nearer = node;
+  }
+
+  void
+  Contact::begin_step(ContactStep step, const Vector &prescribed)
   {
     obstacles.begin_step(std::move(step.bodies));
     has_pairs = step.has_pairs;
     list.clear();
+    std::string refusal;
     for (ContactNode &node : step.nodes)
-      {
-        const unsigned int   n    = n_free(node.node);
-        const Tensor<1, dim> free = free_part(node.normal, node.node);
-        const double         part = free.norm(); // of the normal
-        if (n == 0 ||
-            (n < dim && part < (node.is_twin ? hardly : least_free_component)))
-          {
-            if (node.touches_body() && !node.is_twin)
-              throw StepFailure(
-                "a node of a 'Body' of the section 'Contacts' is held by a "
-                "boundary condition against the other body\n"
-                "  remedy:  exchange 'Body' and 'Other body', or hold it "
-                "elsewhere");
-            continue;
-          }
-        if (n < dim)
-          {
-            if (node.is_twin) // u.n by its free part
-              node.least /= part;
-            node.normal = free / part;
-          }
-        make_tangents(node);
-        if (node.n_tangents == 0)
-          {
-            node.friction = 0.;
-            node.adhesion = 0.;
-          }
-        if (list.empty() || list.back().node != node.node)
-          list.push_back(node);
-        else if (n > 1 && std::abs(list.back().normal * node.normal) < parallel)
-          {
-            make_corner(list.back(), node);
-            list.push_back(node);
-          }
-        // else: the nearer one counts
-      }
+      if (support(node, prescribed, refusal))
+        {
+          make_tangents(node);
+          if (node.n_tangents == 0)
+            {
+              node.friction = 0.;
+              node.adhesion = 0.;
+            }
+          append(node, refusal);
+        }
+    refusal = text_of_any_rank(prescribed.get_mpi_communicator(), refusal);
+    if (!refusal.empty())
+      throw StepFailure(refusal);
   }
 
   void
@@ -299,11 +372,12 @@ namespace geocone::GEOCONE_DIM
   {
     for (unsigned int k = 0; k < n_motions; ++k)
       {
-        const Force G = RigidMotion::of_point(k, node.arm);
+        const Force G = node.of_obstacle * RigidMotion::of_point(k, node.arm);
         sums[k] += G * at.q;
         for (unsigned int l = 0; l < n_motions; ++l)
           sums[n_motions + n_motions * k + l] +=
-            rho * (G * (at.Q * RigidMotion::of_point(l, node.arm)));
+            rho * (G * (at.Q * (node.of_obstacle *
+                                RigidMotion::of_point(l, node.arm))));
       }
     sums[ObstacleMotions::n_sums - 1] += at.q.norm() * (1. + node.arm.norm());
   }
@@ -322,7 +396,8 @@ namespace geocone::GEOCONE_DIM
           const Projection at =
             project(node,
                     locals[i],
-                    obstacles.velocities()[node.obstacle].at(node.arm),
+                    node.of_obstacle *
+                      obstacles.velocities()[node.obstacle].at(node.arm),
                     law);
           add_to_obstacle(node,
                           locals[i].rho,
@@ -427,8 +502,9 @@ namespace geocone::GEOCONE_DIM
                               : obstacles.velocities()[node.obstacle].at(node.arm);
         if (!is_owned(node))
           continue;
-        // Supported directions do not move relative to the obstacle either.
-        const Force      velocity = free_part(node.velocity, node.node);
+        const Force      velocity = node.touches_body()
+                                      ? free_part(node.velocity, node.node)
+                                      : node.of_obstacle * node.velocity;
         const Projection at       = project(node, locals[i], velocity, law);
         nodal_contact[i].force    = locals[i].r;
         nodal_contact[i].state    = at.state;
@@ -536,8 +612,9 @@ namespace geocone::GEOCONE_DIM
           list[i].obstacle,
           [&](const unsigned int k, const unsigned int number) {
             const unsigned int node = list[i].node;
-            const Force        G    = RigidMotion::of_point(k, list[i].arm);
-            Force              GQ   = G; // G' Q, Q = 1 - A
+            const Force        G =
+              list[i].of_obstacle * RigidMotion::of_point(k, list[i].arm);
+            Force GQ = G; // G' Q, Q = 1 - A
             for (unsigned int a = 0; a < dim; ++a)
               for (unsigned int b = 0; b < dim; ++b)
                 GQ[b] -= G[a] * row_A[a].local_element(dim * node + b);
@@ -591,7 +668,7 @@ namespace geocone::GEOCONE_DIM
                             free_part(dv, node.node));
               for (unsigned int k = 0; k < n_motions; ++k)
                 sums[n_motions * node.obstacle + k] +=
-                  RigidMotion::of_point(k, node.arm) * p;
+                  (node.of_obstacle * RigidMotion::of_point(k, node.arm)) * p;
             }
         sum_over_ranks(sums, dst.get_mpi_communicator());
         for (unsigned int o = 0; o < obstacles.n_obstacles(); ++o)
@@ -609,7 +686,8 @@ namespace geocone::GEOCONE_DIM
                     du = free_part(dv, node.node) -
                          (node.touches_body()
                             ? velocity_of_partners(node, dv)
-                            : change[node.obstacle].at(node.arm));
+                            : node.of_obstacle *
+                                change[node.obstacle].at(node.arm));
         for (unsigned int a = 0; a < dim; ++a)
           if (unknowns.is_free(dim * node.node + a))
             {

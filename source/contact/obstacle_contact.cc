@@ -163,7 +163,7 @@ namespace geocone::GEOCONE_DIM
     for (unsigned int d = 0; d < dim; ++d)
       if (supports->is_free(dim * node + d))
         free[d] = normal[d];
-    return free.norm() < least_free_component;
+    return free.norm() < least_free_normal;
   }
 
   ContactStep
@@ -353,6 +353,8 @@ namespace geocone::GEOCONE_DIM
             contact.length = mesh_is_body ? sides->facing(node, at.normal) : 0.;
             apply_law(list[o]->law, contact);
             const double u_n = (v - V) * at.normal;
+            if (mesh_is_body && gap <= closable_gap(h, u_n))
+              refuse_turned(node, *list[o], refusal);
             rebound(u_n, list[o]->law, contact);
             near.push_back({contact, gap, closable_gap(h, u_n)});
           }
@@ -363,6 +365,23 @@ namespace geocone::GEOCONE_DIM
     refusal = text_of_any_rank(comm, refusal);
     if (!refusal.empty())
       throw StepFailure(refusal);
+  }
+
+  void
+  ObstacleContact::refuse_turned(const unsigned int node,
+                                 const Obstacle    &obstacle,
+                                 std::string       &refusal) const
+  {
+    for (const Unknowns::TurnedNode &turned : supports->turned_nodes)
+      if (turned.node == node)
+        refusal =
+          format("the obstacle '%s' touches the node at (%s), of which a "
+                 "boundary condition holds the 'Velocity normal'"
+                 "\n  remedy:  hold components of its velocity ('Velocity x'), "
+                 "replace the side by an obstacle, or end the condition before "
+                 "it ('Box')",
+                 obstacle.name.c_str(),
+                 text_of_place(place(node)).c_str());
   }
 
   void

@@ -46,13 +46,17 @@ namespace geocone::GEOCONE_DIM
                              relative = u - nodes[i].velocity;
         most[0]                       = std::max(most[0], nodal_contact.error);
         sums[6] += nodal_contact.size;
+        const double         s = nodes[i].free_part_of_normal();
+        const Tensor<1, dim> n = s * nodes[i].whole(nodes[i].normal);
         // Final gap from the initial one, -least h, unless the node rebounds.
         if (!nodes[i].rebounds)
           most[1] = std::max(
-            most[1], -h * (relative * nodes[i].normal - nodes[i].least));
+            most[1],
+            -h * s *
+              (nodal_contact.relative * nodes[i].normal - nodes[i].least));
         if (!contact.carries_load(i))
           continue;
-        const Tensor<1, dim> r = force(contact, i);
+        const Tensor<1, dim> free = force(contact, i), r = nodes[i].whole(free);
         // Vertices of quadratic tetrahedra have no tributary area.
         if (const double l = nodes[i].length;
             mesh_is_body && l > 0. &&
@@ -61,18 +65,16 @@ namespace geocone::GEOCONE_DIM
             sums[5] += l;
             if (nodal_contact.state == Contact::State::stick)
               sums[7] += l;
-            const double pressure = (r * nodes[i].normal) / l;
+            const double pressure = (r * n) / l;
             most[2]               = std::max(most[2], pressure);
-            most[3] =
-              std::max(most[3], (r / l - pressure * nodes[i].normal).norm());
+            most[3] = std::max(most[3], (r / l - pressure * n).norm());
           }
         // The work of a pair of bodies is the dissipation by friction and
-        // impact.
-        sums[3] += h * (r * (nodes[i].touches_body() ? relative : u));
+        // impact. That of the part in supports is in their work.
+        sums[3] += h * (free * (nodes[i].touches_body() ? relative : u));
         sums[4] -= h * (r * relative);
         if (nodes[i].impact < 0.)
-          sums[8] += h * (r * nodes[i].normal) *
-                     (nodes[i].impact - relative * nodes[i].normal) / 2.;
+          sums[8] += h * (r * n) * (nodes[i].impact - relative * n) / 2.;
       }
     sum_over_ranks(sums, comm);
     Utilities::MPI::max(ArrayView<const double>(most.data(), most.size()),
@@ -105,7 +107,7 @@ namespace geocone::GEOCONE_DIM
       {
         if (nodes[i].node >= space.n_owned_nodes() || !contact.carries_load(i))
           continue;
-        const Tensor<1, dim> r     = force(contact, i);
+        const Tensor<1, dim> r     = nodes[i].whole(force(contact, i));
         const unsigned int   o     = nodes[i].obstacle;
         const Point<dim>     about = scene.observation.moment_centre().value_or(
           nodes[i].touches_body() ? Point<dim>() : centre(o));
@@ -114,6 +116,22 @@ namespace geocone::GEOCONE_DIM
       }
     sum_states_over_ranks(result, comm);
     return result;
+  }
+
+  void
+  ObstacleContact::relieve_supports(const Contact  &contact,
+                                    const Unknowns &unknowns,
+                                    Vector         &reaction)
+  {
+    for (unsigned int i = 0; i < contact.nodes().size(); ++i)
+      if (const ContactNode &at = contact.nodes()[i];
+          contact.is_owned(at) && contact.carries_load(i))
+        {
+          const Tensor<1, dim> r = at.whole(force(contact, i));
+          for (unsigned int d = 0; d < dim; ++d)
+            if (unknowns.is_prescribed(dim * at.node + d))
+              reaction.local_element(dim * at.node + d) -= r[d];
+        }
   }
 
   double
@@ -148,7 +166,7 @@ namespace geocone::GEOCONE_DIM
           closed_nodes.local_element(dim * at.node + at.is_second);
         if (state == 0.)
           continue;
-        std::vector<Tensor<1, dim>> axes = {at.normal};
+        std::vector<Tensor<1, dim>> axes = {at.whole(at.normal)};
         if (state == 2.)
           axes.insert(axes.end(),
                       at.tangents.begin(),

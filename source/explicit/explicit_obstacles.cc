@@ -10,6 +10,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -26,10 +27,6 @@ namespace geocone::GEOCONE_DIM
      *  a cell between an obstacle that moves and the row before it, and the soil in it
      *  without support until that row is passed. */
     constexpr double of_surface = 0.4999;
-
-    /** Length of the free part of a contact normal below which the supports of a node act
-     *  alone. */
-    constexpr double least_free_part = 0.05;
 
     /** Gap of the points that are listed as near, over the size of a cell. */
     constexpr double listed = 2.;
@@ -209,7 +206,7 @@ namespace geocone::GEOCONE_DIM
     if (!refusal.empty())
       throw StepFailure(refusal);
     forces.assign(contacts.size(), {});
-    carried.assign(contacts.size(), {});
+    on_supports.clear();
   }
 
   void
@@ -294,8 +291,7 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
-  ExplicitObstacles::solve(const Node                       &node,
-                           const std::vector<unsigned char> &is_prescribed)
+  ExplicitObstacles::solve(const Node &node)
   {
     const Contact::Local &free = locals[&node - nodes.data()];
     const unsigned int    n    = node.end - node.begin;
@@ -314,11 +310,11 @@ namespace geocone::GEOCONE_DIM
             const Tensor<1, dim> others = sum - forces[k].q;
             const Contact::Local here   = {
                 {}, free.v + others / free.rho, free.rho};
-            forces[k] = Contact::project(
-              contacts[k],
-              here,
-              free_part(contacts[k].velocity, node.number, is_prescribed),
-              {});
+            forces[k] =
+              Contact::project(contacts[k],
+                               here,
+                               contacts[k].of_obstacle * contacts[k].velocity,
+                               {});
             change = std::max(change, (others + forces[k].q - sum).norm());
             sum    = others + forces[k].q;
           }
@@ -338,33 +334,34 @@ namespace geocone::GEOCONE_DIM
                                           least_mass);
                                }),
                 nodes.end());
-    // A contact acts along the free part of its normal, n.v = n_f.v_f + n_p.v_p with the
-    // prescribed part v_p of the velocity.
     for (const Node &node : nodes)
-      for (unsigned int k = node.begin; k < node.end; ++k)
-        {
-          ContactNode         &contact = contacts[k];
-          const Tensor<1, dim> free =
-            free_part(contact.normal, contact.node, is_prescribed);
-          const double size     = free.norm();
-          bool         is_alone = true;
-          for (unsigned int d = 0; d < dim; ++d)
-            if (is_prescribed[dim * contact.node + d])
-              contact.least -= contact.normal[d] *
-                               (transfer.read[node_size * contact.node + d] -
-                                contact.velocity[d]);
-          carried[k] = (contact.normal - free) / size;
-          contact.least /= size;
-          contact.normal = free / size;
-          for (unsigned int other = node.begin; other < k; ++other)
-            is_alone =
-              is_alone && contact.normal * contacts[other].normal > -parallel;
-          if (size < least_free_part || !is_alone)
-            {
-              contact.normal = carried[k] = Tensor<1, dim>();
-              contact.least               = -no_gap; // the supports act alone
-            }
-        }
+      {
+        std::array<bool, dim> is_held;
+        Tensor<1, dim>        v;
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            is_held[d] = is_prescribed[dim * node.number + d];
+            v[d]       = transfer.read[node_size * node.number + d];
+          }
+        for (unsigned int k = node.begin; k < node.end; ++k)
+          {
+            ContactNode &contact = contacts[k];
+            bool         acts =
+              free_part(contact.normal, contact.node, is_prescribed).norm() >=
+              least_free_normal;
+            if (acts)
+              contact.support(is_held, v);
+            for (unsigned int other = node.begin; other < k; ++other)
+              acts =
+                acts && contact.normal * contacts[other].normal > -parallel;
+            if (!acts) // the supports act alone
+              {
+                contact.normal      = Tensor<1, dim>();
+                contact.of_obstacle = Contact::Matrix();
+                contact.least       = -no_gap;
+              }
+          }
+      }
     locals.clear();
     for (const Node &node : nodes)
       {
@@ -409,7 +406,7 @@ namespace geocone::GEOCONE_DIM
       for (const Node &node : nodes)
         if (is_mine[node.number])
           {
-            solve(node, is_prescribed);
+            solve(node);
             for (unsigned int k = node.begin; k < node.end; ++k)
               Contact::add_to_obstacle(
                 contacts[k],
@@ -424,19 +421,20 @@ namespace geocone::GEOCONE_DIM
     const auto about = scene.observation.moment_centre();
     for (const Node &node : nodes)
       {
-        solve(node, is_prescribed);
+        solve(node);
         const Tensor<1, dim> mean = act_on(node);
         for (unsigned int k = node.begin; k < node.end && is_mine[node.number];
              ++k)
           {
             const ContactNode   &contact = contacts[k];
             const Tensor<1, dim> J       = dt * forces[k].q,
-                                 of_side = (J * contact.normal) * carried[k];
+                                 of_side = contact.whole(J) - J;
             const Tensor<1, dim> arm =
               about ? positions[node.number] - *about : contact.arm;
             for (unsigned int d = 0; d < dim; ++d)
               impulse[contact.obstacle].add(arm, d, J[d] + of_side[d]);
             sum.impulse += J;
+            on_supports[node.number] += of_side;
             sum.contact_dissipation -=
               (J + of_side) * (mean - contact.velocity);
             sum.support_work +=
@@ -461,8 +459,9 @@ namespace geocone::GEOCONE_DIM
               continue;
             Tensor<1, dim> u;
             for (unsigned int d = 0; d < dim; ++d)
-              u[d] = v[d] - contact.velocity[d];
-            u                     = free_part(u, node.number, is_prescribed);
+              u[d] = v[d];
+            u = free_part(u, node.number, is_prescribed) -
+                contact.of_obstacle * contact.velocity;
             const double   u_N    = u * contact.normal;
             Tensor<1, dim> change = (contact.least - u_N) * contact.normal;
             if (forces[k].state == Contact::State::stick)

@@ -209,7 +209,10 @@ namespace geocone::GEOCONE_DIM
         v[change_of_node] = node.change;
       }
     if (obstacles != nullptr)
-      obstacles->push(is_prescribed, least_mass, sum);
+      {
+        obstacles->push(is_prescribed, least_mass, sum);
+        relieve_supports();
+      }
     if (water != nullptr)
       water->add_velocity_of_soil(dt);
     if (moves)
@@ -291,6 +294,21 @@ namespace geocone::GEOCONE_DIM
     support_impulse[node.condition].add(
       node.place - transfer.centres[node.condition], node.component, impulse);
     sum.impulse[node.component] += impulse;
+  }
+
+  void
+  NodalUpdate::relieve_supports()
+  {
+    const auto &carried = obstacles->impulses_on_supports();
+    if (carried.empty())
+      return;
+    for (const PrescribedNode &node : transfer.prescribed)
+      if (const auto at = carried.find(node.node);
+          node.mine && at != carried.end())
+        support_impulse[node.condition].add(node.place -
+                                              transfer.centres[node.condition],
+                                            node.component,
+                                            -at->second[node.component]);
   }
 
   std::vector<Reaction>

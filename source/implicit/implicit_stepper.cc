@@ -196,6 +196,21 @@ namespace geocone::GEOCONE_DIM
     report.works.ghost_work = (step.h / step.solved_h) * ghost_work;
   }
 
+  std::vector<Reaction>
+  ImplicitStepper::support_reactions(const TimeStep       &step,
+                                     const MaterialPoints &points,
+                                     const Vector         &residual) const
+  {
+    Vector of_supports = residual;
+    if (obstacles->exists())
+      ObstacleContact::relieve_supports(
+        problem->contact(), *constraints, of_supports);
+    return constraints->reactions(of_supports,
+                                  points,
+                                  problem->internal_forces().total_stress(),
+                                  step.solved_at);
+  }
+
   void
   ImplicitStepper::update_supports(const TimeStep        &step,
                                    const Vector          &v,
@@ -283,8 +298,7 @@ namespace geocone::GEOCONE_DIM
     const double          excess = forces.excess_work();
     report.quality               = forces.quality(excess);
     report.works.excess_work     = (step.h / step.solved_h) * excess;
-    report.reactions             = constraints->reactions(
-      residual, points, forces.total_stress(), step.solved_at);
+    report.reactions             = support_reactions(step, points, residual);
     add_works(step, points, v, residual, report);
     report.works.dissipation = update_points(step, points);
     if (flow)

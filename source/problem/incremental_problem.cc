@@ -54,7 +54,7 @@ namespace geocone::GEOCONE_DIM
                                  ContactStep   touching)
   {
     if (contact_term)
-      contact_term->begin_step(std::move(touching));
+      contact_term->begin_step(std::move(touching), prescribed_velocity);
     links_now  = contact_term ? contact_term->links() : Links();
     h          = step;
     velocity_L = v;

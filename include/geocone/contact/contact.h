@@ -17,6 +17,7 @@
 
 #include <array>
 #include <cmath>
+#include <string>
 #include <vector>
 
 namespace geocone::GEOCONE_DIM
@@ -34,10 +35,14 @@ namespace geocone::GEOCONE_DIM
    *  between two normals that are treated as one. */
   const double parallel = std::cos(radians(10.));
 
-  /** Threshold for contact at a partially supported node: cosine of the largest
-   *  angle (10 degrees) between the contact normal and the free directions of
-   *  the node. If the angle is larger, the node has no contact. */
+  /** Threshold for contact with another body at a partially supported node: cosine
+   *  of the largest angle (10 degrees) between the contact normal and the free
+   *  directions of the node. */
   const double least_free_component = std::cos(radians(10.));
+
+  /** Length of the free part of an obstacle's normal below which the supports of
+   *  a node act alone. */
+  constexpr double least_free_normal = 0.05;
 
   /** Potential contact node, which may be in contact with an obstacle or another
    *  body in a step. */
@@ -48,8 +53,18 @@ namespace geocone::GEOCONE_DIM
     /** Index of the obstacle or contact pair to which the contact belongs.
      *  Contact pairs are numbered after the obstacles. */
     unsigned int           obstacle;
-    dealii::Tensor<1, dim> normal; ///< out of the obstacle or other body
-    dealii::Tensor<1, dim> arm;    ///< from the obstacle's centre (m)
+
+    /** Normal out of the obstacle or other body; at a partially supported node
+     *  the direction of its free part. */
+    dealii::Tensor<1, dim> normal;
+    dealii::Tensor<1, dim> arm; ///< from the obstacle's centre (m)
+
+    /** Matrix B of a contact with an obstacle. The velocity of the node relative
+     *  to the obstacle's velocity V there is u = v_f - B V, with the free part v_f
+     *  of its velocity; the force of the obstacle on the node is B' q, with the
+     *  free part q. At a free node B is the identity. */
+    dealii::Tensor<2, dim> of_obstacle =
+      dealii::Tensor<2, dim>(dealii::unit_symmetric_tensor<dim>());
 
     /** Orthonormal tangent vectors along which the node can slide. The vectors
      *  lie in the free directions of the node. */
@@ -98,6 +113,36 @@ namespace geocone::GEOCONE_DIM
     touches_body() const
     {
       return !partners.empty();
+    }
+
+    /**
+     * Restricts the contact with an obstacle to the free directions of the node.
+     * With n = n_f + n_p of the free and the prescribed directions, s = |n_f|, m =
+     * n_f/s and c = n_p/s, the laws of the normal force N and of u_N = n.(v - V)
+     * are those of q.m = s N and
+     *   u.m = u_N/s - c.v_p,  u = v_f - B V,  B = 1_f + m c',
+     * and friction acts along the free tangents, |q_T| <= (mu/s) q.m + c.
+     * @param is_prescribed by component
+     * @param v velocity, of which the prescribed components v_p count (m/s)
+     */
+    void
+    support(const std::array<bool, dim>  &is_prescribed,
+            const dealii::Tensor<1, dim> &v);
+
+    /** Force of the obstacle on the node, with the part that goes into supports.
+     *  @param q its part in the free directions */
+    dealii::Tensor<1, dim>
+    whole(const dealii::Tensor<1, dim> &q) const
+    {
+      return transpose(of_obstacle) * q;
+    }
+
+    /** Length s of the free part of the obstacle's normal, which is s
+     *  whole(normal). */
+    double
+    free_part_of_normal() const
+    {
+      return 1. / whole(normal).norm();
     }
 
     bool is_closed = false; ///< gap closed at the beginning of the step
@@ -167,9 +212,10 @@ namespace geocone::GEOCONE_DIM
    * entry has the share n_i k_i' r; the first one also has the component along
    * the edge, which vanishes in equilibrium. F and A are the sums of both.
    *
-   * A node supported in some directions is in contact only in the others, and
-   * only if the normal is along them or the nodes are twins. With a single free
-   * direction there is no friction.
+   * A node supported in some directions is in contact only in the others: with
+   * an obstacle by ContactNode::support(), with another body only if the normal
+   * is along them or the nodes are twins. With a single free direction there is
+   * no friction.
    */
   class Contact
   {
@@ -178,11 +224,12 @@ namespace geocone::GEOCONE_DIM
       : unknowns(unknowns)
     {}
 
-    /** Sets the potential contacts of a step.
+    /** Sets the potential contacts of a step. Collective.
+     *  @param prescribed contains the velocities of supports
      *  @throws StepFailure if a support acts on a node in contact with another
-     *  body */
+     *  body, or if two obstacles squeeze a node along its only free direction */
     void
-    begin_step(ContactStep step);
+    begin_step(ContactStep step, const Vector &prescribed);
 
     /** Groups of nodes that are coupled in the Jacobian by contact between
      *  bodies. Each group is a contact node, followed by its partners. */
@@ -285,7 +332,8 @@ namespace geocone::GEOCONE_DIM
       Matrix Q;
       State  state = State::open;
     };
-    /** @param velocity of the obstacle or other body */
+    /** @param velocity of the obstacle or other body, in the free directions of
+     *  the node */
     static Projection
     project(const ContactNode &node,
             const Local       &at,
@@ -330,8 +378,7 @@ namespace geocone::GEOCONE_DIM
     }
 
     /** Calls f(number, G) for each free rigid-body motion of the obstacle that
-     *  is in contact with a node. G is the velocity of the node due to a unit
-     *  motion. */
+     *  is in contact with a node. G is B V of the node due to a unit motion. */
     template <typename Function>
     void
     for_motions_of(const ContactNode &node, const Function &f) const
@@ -339,7 +386,7 @@ namespace geocone::GEOCONE_DIM
       if (!node.touches_body())
         obstacles.for_free(
           node.obstacle, [&](const unsigned int k, const unsigned int number) {
-            f(number, RigidMotion::of_point(k, node.arm));
+            f(number, node.of_obstacle * RigidMotion::of_point(k, node.arm));
           });
     }
     /** @} */
@@ -402,6 +449,20 @@ namespace geocone::GEOCONE_DIM
     /** Number of directions in which the motion of a node is not prescribed. */
     unsigned int
     n_free(const unsigned int node) const;
+
+    /** Restricts a contact node to its free directions.
+     *  @return whether it has contact
+     *  @param[in,out] refusal reason if that is impossible */
+    bool
+    support(ContactNode  &node,
+            const Vector &prescribed,
+            std::string  &refusal) const;
+
+    /** Appends a contact node to the list. Of two contacts of a node with the same
+     *  normal one counts, others are a corner.
+     *  @param[in,out] refusal reason if that is impossible */
+    void
+    append(ContactNode &node, std::string &refusal);
 
     /** Computes the tangents of a contact node. The normal must lie in the free
      *  directions. */

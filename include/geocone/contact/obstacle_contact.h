@@ -127,6 +127,14 @@ namespace geocone::GEOCONE_DIM
     std::vector<Reaction>
     reactions(const Contact &contact) const;
 
+    /** Subtracts from the forces in the rows of prescribed dofs what obstacles push
+     *  into the supports, so that reactions() and those of supports are the forces
+     *  that act on the body. */
+    static void
+    relieve_supports(const Contact  &contact,
+                     const Unknowns &unknowns,
+                     Vector         &reaction);
+
     /** Adds the displacement increments of obstacles and bodies in a step to
      *  the support displacements @p supports. They are the displacements of
      *  each obstacle, then, for each contact between bodies, of the first body
@@ -282,6 +290,13 @@ namespace geocone::GEOCONE_DIM
               const std::vector<Vector> &gaps,
               const NearBodies          &bodies,
               ContactStep               &step) const;
+
+    /** Refuses contact of a node whose dofs are not along the axes.
+     *  @param[in,out] refusal reason, if it is one */
+    void
+    refuse_turned(const unsigned int node,
+                  const Obstacle    &obstacle,
+                  std::string       &refusal) const;
 
     /** Appends the nearest potential contact of a node to the step. A second contact
      *  is appended if it has another normal and can also close.

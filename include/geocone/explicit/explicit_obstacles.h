@@ -12,6 +12,7 @@
 #include <geocone/transfer/grid_transfer.h>
 
 #include <array>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -84,6 +85,14 @@ namespace geocone::GEOCONE_DIM
     std::vector<Reaction>
     take_impulses();
 
+    /** Impulses of the obstacles in the last step that went into supports, by node of
+     *  this rank. */
+    const std::map<unsigned int, dealii::Tensor<1, dim>> &
+    impulses_on_supports() const
+    {
+      return on_supports;
+    }
+
     /** Displacements of the obstacles since the start of the run. */
     const std::vector<RigidMotion> &
     moved() const
@@ -135,8 +144,8 @@ namespace geocone::GEOCONE_DIM
               const unsigned int                node,
               const std::vector<unsigned char> &is_prescribed) const;
 
-    /** Removes nodes without mass and the supported parts of contact normals; takes the
-     *  velocities of the nodes. */
+    /** Removes nodes without mass, restricts contacts to the free directions, and takes
+     *  the velocities of the nodes. */
     void
     drop_supported(const std::vector<unsigned char> &is_prescribed,
                    const double                      least_mass);
@@ -148,7 +157,7 @@ namespace geocone::GEOCONE_DIM
 
     /** Contact forces of a node for given motions of the obstacles, in `forces`. */
     void
-    solve(const Node &node, const std::vector<unsigned char> &is_prescribed);
+    solve(const Node &node);
 
     dealii::Tensor<1, dim>
     centre(const unsigned int obstacle) const;
@@ -191,9 +200,8 @@ namespace geocone::GEOCONE_DIM
     std::vector<ContactNode> contacts;
     std::vector<Contact::Projection> forces; ///< of `contacts`
 
-    /** Supported part of each contact normal over the length of its free part: the
-     *  force of the obstacle in these directions goes into the supports. */
-    std::vector<dealii::Tensor<1, dim>> carried;
+    std::map<unsigned int, dealii::Tensor<1, dim>>
+                on_supports; ///< of impulses_on_supports()
     std::string refusal; ///< contacts that cannot be resolved
     std::vector<Node>                nodes;
     std::vector<Contact::Local>      locals; ///< of `nodes`

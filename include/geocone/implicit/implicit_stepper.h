@@ -313,6 +313,13 @@ namespace geocone::GEOCONE_DIM
               const Vector         &residual,
               StepReport           &report) const;
 
+    /** Forces of the supports on the body, without those that obstacles exert at
+     *  supported nodes. Collective. @param residual in all rows */
+    std::vector<Reaction>
+    support_reactions(const TimeStep       &step,
+                      const MaterialPoints &points,
+                      const Vector         &residual) const;
+
     /** Updates the support displacements and the reactions of the boundary
      *  conditions. */
     void
