@@ -61,6 +61,7 @@ namespace geocone::GEOCONE_DIM
     check_start_of_free(scene.obstacles, margin());
     if (!mesh_is_body)
       {
+        check_thin();
         for (unsigned int node = 0; node < space.n_local_nodes(); ++node)
           candidates.push_back(node);
         return;
@@ -77,6 +78,50 @@ namespace geocone::GEOCONE_DIM
       bodies.emplace(scene, mesh, space).check_start([this](const auto node) {
         return place(node);
       });
+  }
+
+  void
+  ObstacleContact::check_thin() const
+  {
+    double side = 1e300;
+    for (const auto &cell : mesh.own_cells())
+      side = std::min(side, BackgroundMesh::size_of(cell));
+    side = Utilities::MPI::min(side, comm);
+    for (const auto &obstacle : scene.obstacles.list)
+      {
+        const auto distance = [&](const Point<dim> &x) {
+          return obstacle->nearest(x, {}, {}).distance;
+        };
+        if (!is_thinner(*obstacle, side))
+          continue;
+        bool is_lost = obstacle->is_free();
+        for (const double part : {0., 0.5, 1.})
+          {
+            const RigidMotion V =
+              obstacle->velocity(part * scene.loading.duration());
+            for (unsigned int k = 0; k < n_motions; ++k)
+              is_lost = is_lost || V[k] != 0.;
+          }
+        // Cells that it crosses between their vertices.
+        for (const auto &cell : mesh.own_cells())
+          {
+            bool         has_node = false, is_crossed = false;
+            const double n = 16.;
+            for (const unsigned int a : cell->vertex_indices())
+              {
+                const Point<dim> &x = cell->vertex(a);
+                has_node = has_node || distance(x) <= closed_gap * size;
+                for (unsigned int b = 0; b < a; ++b)
+                  for (double k = 1.; k < n; ++k)
+                    is_crossed = is_crossed ||
+                                 distance(x + k / n * (cell->vertex(b) - x)) <
+                                   -1e-3 * side;
+              }
+            is_lost = is_lost || (is_crossed && !has_node);
+          }
+        if (Utilities::MPI::logical_or(is_lost, comm))
+          refuse_thin(*obstacle, side);
+      }
   }
 
   void

@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
+#include <geocone/base/log.h>
 #include <geocone/contact/obstacle_step.h>
+
+#include <cmath>
 
 namespace geocone::GEOCONE_DIM
 {
@@ -33,6 +36,36 @@ namespace geocone::GEOCONE_DIM
             }
       }
     return bodies;
+  }
+
+  namespace
+  {
+    /** Twice the depth of the centre. */
+    double
+    thickness(const Obstacle &obstacle)
+    {
+      return -2. * obstacle.nearest(obstacle.centre(), {}, {}).distance;
+    }
+  } // namespace
+
+  bool
+  is_thinner(const Obstacle &obstacle, const double cell_size)
+  {
+    return std::isfinite(obstacle.width()) && // a half-space has no thickness
+           thickness(obstacle) < (1. - 1e-6) * cell_size;
+  }
+
+  void
+  refuse_thin(const Obstacle &obstacle, const double cell_size)
+  {
+    throw InputError("Obstacles/Names",
+                     obstacle.name,
+                     format("obstacles that are thicker than a cell, %.3g m; "
+                            "this one has %.3g m",
+                            cell_size,
+                            thickness(obstacle)),
+                     "make it thicker, or take smaller cells: no node would be "
+                     "in it");
   }
 
   void

@@ -57,20 +57,9 @@ namespace geocone::GEOCONE_DIM
     , particle(scene.obstacles, positions)
     , gaps(scene.obstacles.list.size())
   {
-    // Twice the depth of the centre; a half-space has none.
     for (const auto &obstacle : scene.obstacles.list)
-      if (const double thickness =
-            -2. * obstacle->nearest(obstacle->centre(), {}, {}).distance;
-          std::isfinite(obstacle->width()) &&
-          thickness < (1. - 1e-6) * transfer.cell_size())
-        throw InputError(
-          "Obstacles/Names",
-          obstacle->name,
-          format("obstacles that are thicker than a cell, %.3g m; this one has "
-                 "%.3g m",
-                 transfer.cell_size(),
-                 thickness),
-          "make it thicker, or take smaller cells: no node would be in it");
+      if (is_thinner(*obstacle, transfer.cell_size()))
+        refuse_thin(*obstacle, transfer.cell_size());
     check_start_of_free(scene.obstacles, margin());
   }
 

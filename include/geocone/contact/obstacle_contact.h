@@ -228,6 +228,12 @@ namespace geocone::GEOCONE_DIM
     const bool            mesh_is_body;
     const Unknowns       *supports;
 
+    /** Checks that no obstacle passes between nodes of a background mesh.
+     *  Collective. @throws InputError for one that is thinner than a cell, unless it
+     *  stays where nodes of each cell that it crosses are in or on it */
+    void
+    check_thin() const;
+
     /** Checks that no given node of a body-fitted mesh lies inside an obstacle.
      *  Collective. @throws InputError if an obstacle does */
     void

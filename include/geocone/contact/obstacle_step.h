@@ -22,6 +22,15 @@ namespace geocone::GEOCONE_DIM
                  const double                    loaded_at,
                  const double                    h);
 
+  /** Returns true if an obstacle may have no node of a background mesh inside.
+   *  @param cell_size size of the smallest cell (m) */
+  bool
+  is_thinner(const Obstacle &obstacle, const double cell_size);
+
+  /** @throws InputError for an obstacle thinner than a cell */
+  [[noreturn]] void
+  refuse_thin(const Obstacle &obstacle, const double cell_size);
+
   /** @name Free obstacles that overlap with others */
   /** @{ */
   /** @throws InputError in the initial state
