@@ -224,7 +224,7 @@ namespace geocone::GEOCONE_DIM
       refusal =
         "the node at (" + text_of_place((*unknowns.node_positions)[node.node]) +
         "), which a boundary condition leaves free in one direction, is "
-        "squeezed along it between two obstacles\n"
+        "squeezed along it between two contacts\n"
         "  remedy:  leave the corner out of the body, or end the loading "
         "before";
     if (node.least > nearer.least)

@@ -227,7 +227,7 @@ namespace geocone::GEOCONE_DIM
     /** Sets the potential contacts of a step. Collective.
      *  @param prescribed contains the velocities of supports
      *  @throws StepFailure if a support acts on a node in contact with another
-     *  body, or if two obstacles squeeze a node along its only free direction */
+     *  body, or if two contacts squeeze a node along its only free direction */
     void
     begin_step(ContactStep step, const Vector &prescribed);
 
