@@ -18,6 +18,16 @@ namespace geocone::GEOCONE_DIM
     const std::string where_facets =
       dim == 3 ? "where loads are bounded in three dimensions"
                : "where loads are bounded around an axis";
+
+    [[noreturn]] void
+    refuse_difference(const BoundaryCondition &condition)
+    {
+      throw InputError(condition.parameter("Sides"),
+                       condition.part(),
+                       "one prescribed velocity where loads are bounded",
+                       "two conditions differ on a face of the mesh: leave "
+                       "one of them out there");
+    }
   } // namespace
 
   void
@@ -27,11 +37,7 @@ namespace geocone::GEOCONE_DIM
     last           = &condition;
     const auto set = [&](const unsigned int d, const double v) {
       if (value[d] && std::abs(*value[d] - v) > 1e-12 * std::abs(v))
-        throw InputError(condition.parameter("Sides"),
-                         condition.part(),
-                         "one prescribed velocity where loads are bounded",
-                         "two conditions differ on a face of the mesh: leave "
-                         "one of them out there");
+        refuse_difference(condition);
       value[d] = v;
     };
     for (unsigned int d = 0; d < dim; ++d)
@@ -63,7 +69,9 @@ namespace geocone::GEOCONE_DIM
               is_along = true;
               set(d, 0.);
             }
-        if (!is_along)
+        if (!is_along && dim == 3)
+          oblique = place.normal;
+        else if (!is_along)
           throw InputError(condition.parameter("Velocity normal"),
                            0,
                            "a plane normal to an axis " + where_facets,
@@ -83,12 +91,22 @@ namespace geocone::GEOCONE_DIM
           held.axis        = d;
           held.velocity[d] = *value[d];
         }
+    if (oblique && n_held == dim &&
+        std::abs(held.velocity * *oblique) > 1e-12 * held.velocity.norm())
+      refuse_difference(*last);
+    if (oblique && n_held == 0)
+      {
+        held.kind   = FacetCondition::Kind::plane;
+        held.axis   = dim;
+        held.normal = *oblique;
+        return held;
+      }
     if (n_held == 0)
       return held;
     held.kind =
       n_held == dim ? FacetCondition::Kind::fixed : FacetCondition::Kind::plane;
-    if (n_held < dim &&
-        (n_held > 1 || std::abs(place.normal[held.axis]) < 1. - 1e-12))
+    if (n_held < dim && (oblique || n_held > 1 ||
+                         std::abs(place.normal[held.axis]) < 1. - 1e-12))
       throw InputError(last->parameter("Velocity x"),
                        "components that are neither all of them nor that "
                        "normal to the side",
@@ -141,9 +159,7 @@ namespace geocone::GEOCONE_DIM
         middle += place.vertices[i] / double(dim);
         mean += t[i] / double(dim);
         largest = std::max(largest, t[i].norm());
-        for (unsigned int d = 0; d < dim; ++d)
-          if (held.holds(d))
-            on_held += std::abs(t[i][d]);
+        on_held += held.held_part(t[i]).norm();
       }
     if (held.kind == FacetCondition::Kind::fixed ? largest > 0.
                                                  : on_held > 1e-12 * largest)

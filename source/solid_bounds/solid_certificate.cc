@@ -95,11 +95,9 @@ namespace geocone::GEOCONE_DIM
               for (const unsigned int end :
                    simplex_nodes::edges_of_facet[i - 3])
                 left -= total(given[end]) / 2.;
-            for (unsigned int d = 0; d < dim; ++d)
-              if (held.holds(d))
-                power += A / n_facet * left[d] * held.velocity[d];
-              else
-                check.add_error(std::abs(left[d]));
+            const Tensor<1, dim> reaction = held.held_part(left);
+            power += A / n_facet * reaction * held.velocity;
+            check.add_error((left - reaction).norm());
           }
       }
     result.lambda = bound.factor == LoadFactor::velocity ? power : lambda;

@@ -35,7 +35,7 @@ namespace geocone::GEOCONE_DIM
         }
       json["body_force"] = {{"dead", dead}, {"live", live}};
 
-      Json faces = Json::array(), held = Json::array(),
+      Json faces = Json::array(), held = Json::array(), oblique = Json::array(),
            velocity = Json::array(), dead_pull = Json::array(),
            live_pull = Json::array();
       for (unsigned int f = 0; f < tetrahedra.facets.size(); ++f)
@@ -54,12 +54,14 @@ namespace geocone::GEOCONE_DIM
             }
           faces.push_back(tetrahedra.facets[f].vertices);
           held.push_back(of_face);
+          oblique.push_back(condition.is_oblique());
           velocity.push_back(triple(condition.velocity, given.units.velocity));
           dead_pull.push_back(dead_at);
           live_pull.push_back(live_at);
         }
       json["boundary"] = {{"face", faces},
                           {"held", held},
+                          {"oblique", oblique},
                           {"velocity", velocity},
                           {"dead", dead_pull},
                           {"live", live_pull}};

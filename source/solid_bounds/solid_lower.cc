@@ -4,6 +4,9 @@
 #include <geocone/solid_bounds/solid_points.h>
 
 #include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
 
 namespace geocone::GEOCONE_DIM
 {
@@ -33,6 +36,12 @@ namespace geocone::GEOCONE_DIM
       of_cell(const unsigned int cell, const unsigned int vertex) const
       {
         return dim * (n_u * cell + (n_u == 1 ? 0 : vertex));
+      }
+
+      bool
+      is_of_facet(const unsigned int dof) const
+      {
+        return dof >= first_w;
       }
 
       unsigned int
@@ -71,6 +80,19 @@ namespace geocone::GEOCONE_DIM
       const unsigned int first_w;
     };
 
+    /** Axes to which the equations of tractions on a facet refer: x, y and z, or the
+     *  normal of an oblique plane and two tangents. */
+    std::array<Tensor<1, dim>, dim>
+    axes_of_equations(const SolidScene &bound, const unsigned int facet)
+    {
+      if (bound.facet_conditions[facet].is_oblique())
+        return axes_of_facet(*bound.tetrahedra, facet);
+      std::array<Tensor<1, dim>, dim> axes;
+      for (unsigned int d = 0; d < dim; ++d)
+        axes[d][d] = 1.;
+      return axes;
+    }
+
     /** Equations of the stress of a cell at the coefficient between two of its
      *  vertices. */
     struct EquationsOfStress
@@ -103,16 +125,30 @@ namespace geocone::GEOCONE_DIM
             own.dofs[n]  = dof + d;
           }
       };
+      const auto turn = [&](const unsigned int facet) {
+        if (!bound.facet_conditions[facet].is_oblique())
+          return;
+        const auto      axes = axes_of_equations(bound, facet);
+        Eigen::Matrix3d columns;
+        for (unsigned int i = 0; i < dim; ++i)
+          for (unsigned int d = 0; d < dim; ++d)
+            columns(d, i) = axes[i][d];
+        own.B.middleCols<dim>(n - dim) =
+          (own.B.middleCols<dim>(n - dim) * columns).eval();
+      };
       add(equations.of_cell(c, i), order == 1 ? -4. : -20., g[j]);
       if (i != j)
         add(equations.of_cell(c, j), -20., g[i]);
       // A_f n_f = -3 V grad lambda_f.
       for (unsigned int f = 0; f < 4; ++f)
         if (f != i && f != j)
-          add(equations.between(
-                tetrahedra.facets_of_cell[c][f], cell[i], cell[j]),
-              order == 1 ? -4. : -5.,
-              g[f]);
+          {
+            const unsigned int facet = tetrahedra.facets_of_cell[c][f];
+            add(equations.between(facet, cell[i], cell[j]),
+                order == 1 ? -4. : -5.,
+                g[f]);
+            turn(facet);
+          }
       own.volume =
         tetrahedra.volume(c) / (L * L * L) / simplex_nodes::n_in_cell(order);
       return own;
@@ -173,6 +209,91 @@ namespace geocone::GEOCONE_DIM
         }
     }
 
+    /** Returns the rows of a symmetric semidefinite matrix with a unit diagonal that
+     *  depend on others, by a factorisation with the largest pivots first. */
+    std::vector<unsigned int>
+    dependent_rows(Eigen::MatrixXd G)
+    {
+      constexpr double          least = 1e-10; // of sin^2 of an angle
+      std::vector<unsigned int> left(G.rows());
+      std::iota(left.begin(), left.end(), 0);
+      while (!left.empty())
+        {
+          const auto pivot =
+            std::max_element(left.begin(), left.end(), [&](auto i, auto j) {
+              return G(i, i) < G(j, j);
+            });
+          if (!(G(*pivot, *pivot) > least))
+            break;
+          const Eigen::VectorXd column =
+            G.col(*pivot) / std::sqrt(G(*pivot, *pivot));
+          G.noalias() -= column * column.transpose();
+          left.erase(pivot);
+        }
+      return left;
+    }
+
+    /**
+     * Removes equations of tractions that follow from others at the same node of the mesh.
+     * Where two facets of a cell meet, n_2 . s n_1 = n_1 . s n_2, so the equations of a
+     * cell with two free facets depend on each other, and those of one with two
+     * perpendicular smooth planes; likewise around edges on a plane.
+     */
+    void
+    remove_dependent(const SolidScene        &bound,
+                     const unsigned int       order,
+                     const std::vector<bool> &vanishes,
+                     const EquilibriumDofs   &equations,
+                     ConicProblem            &problem)
+    {
+      const Tetrahedra &tetrahedra = *bound.tetrahedra;
+      const auto        nodes      = vertices_of_nodes(order);
+      // Cells and pairs of their vertices at each node of the mesh.
+      std::map<std::array<unsigned int, 2>,
+               std::vector<std::array<unsigned int, 3>>>
+        around;
+      for (unsigned int c = 0; c < tetrahedra.cells.size(); ++c)
+        for (unsigned int p = 0; p < nodes.size(); ++p)
+          if (const auto [i, j] = nodes[p]; !vanishes[nodes.size() * c + p])
+            {
+              const auto &cell  = tetrahedra.cells[c];
+              const auto [a, b] = std::minmax(cell[i], cell[j]);
+              around[{{a, b}}].push_back({{c, i, j}});
+            }
+      for (const auto &[node, all] : around)
+        {
+          std::vector<EquationsOfStress>       stresses;
+          std::map<unsigned int, unsigned int> number; // of the free dofs
+          for (const auto &[c, i, j] : all)
+            {
+              stresses.push_back(
+                equations_of_stress(bound, order, c, i, j, equations));
+              for (const unsigned int dof : stresses.back().dofs)
+                if (equations.is_of_facet(dof) && !problem.is_prescribed[dof])
+                  number.emplace(dof, 0);
+            }
+          std::vector<unsigned int> dofs;
+          for (auto &[dof, own] : number)
+            {
+              own = dofs.size();
+              dofs.push_back(dof);
+            }
+          Eigen::MatrixXd G = Eigen::MatrixXd::Zero(dofs.size(), dofs.size());
+          for (const EquationsOfStress &own : stresses)
+            for (unsigned int k = 0; k < own.dofs.size(); ++k)
+              for (unsigned int l = 0; l < own.dofs.size(); ++l)
+                if (const auto row = number.find(own.dofs[k]),
+                    column         = number.find(own.dofs[l]);
+                    row != number.end() && column != number.end())
+                  G(row->second, column->second) +=
+                    own.B.col(k).dot(own.B.col(l));
+          const Eigen::VectorXd size = G.diagonal().cwiseSqrt().cwiseInverse();
+          for (const unsigned int row :
+               dependent_rows(size.asDiagonal() * G * size.asDiagonal()))
+            problem.is_prescribed[dofs[row]] = true;
+        }
+    }
+
     /** Adds the given tractions and the held components of a facet. */
     void
     add_facet(const SolidScene      &bound,
@@ -183,15 +304,21 @@ namespace geocone::GEOCONE_DIM
       const double          L    = bound.units.length;
       const double          A    = bound.tetrahedra->area(f) / (L * L);
       const FacetCondition &held = bound.facet_conditions[f];
-      const auto            t    = bound.tractions(f);
+      const auto            axes = axes_of_equations(bound, f);
+      auto                  t    = bound.tractions(f);
+      if (held.is_oblique())
+        for (SolidScene::Load &at_vertex : t)
+          for (Tensor<1, dim> *part : {&at_vertex.dead, &at_vertex.live})
+            *part = Tensor<1, dim>(
+              {*part * axes[0], *part * axes[1], *part * axes[2]});
       for (unsigned int i = 0; i < equations.n_facet; ++i)
         {
           const unsigned int dof = equations.of_facet(f, i);
           for (unsigned int d = 0; d < dim; ++d)
-            if (held.holds(d))
+            if (held.is_oblique() ? d == 0 : held.holds(d))
               {
                 problem.is_prescribed[dof + d] = true;
-                problem.prescribed[dof + d]    = held.velocity[d];
+                problem.prescribed[dof + d]    = held.velocity * axes[d];
               }
           if (i < 3)
             add_load(problem, dof, A / equations.n_facet * t[i]);
@@ -254,6 +381,7 @@ namespace geocone::GEOCONE_DIM
     for (unsigned int f = 0; f < tetrahedra.facets.size(); ++f)
       add_facet(bound, f, equations, problem);
     remove_without_stress(bound, order, vanishes, equations, problem);
+    remove_dependent(bound, order, vanishes, equations, problem);
     points.move_to(problem);
     return problem;
   }

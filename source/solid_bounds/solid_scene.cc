@@ -179,17 +179,16 @@ namespace geocone::GEOCONE_DIM
         if (held[f].kind != FacetCondition::Kind::free)
           for (const unsigned int v : tetrahedra.facets[f].vertices)
             for (unsigned int d = 0; d < dim; ++d)
-              if (held[f].holds(d))
-                {
-                  const Tensor<1, dim> arm =
-                    (tetrahedra.vertices[v] - centre) / length;
-                  Tensor<1, dim> e;
-                  e[d]                          = 1.;
-                  const Tensor<1, dim>        m = cross_product_3d(arm, e);
-                  Eigen::Matrix<double, 6, 1> row;
-                  row << e[0], e[1], e[2], m[0], m[1], m[2];
-                  squares += row * row.transpose();
-                }
+              {
+                const Tensor<1, dim> arm =
+                  (tetrahedra.vertices[v] - centre) / length;
+                const Tensor<1, dim> e =
+                  held[f].held_part(Point<dim>::unit_vector(d));
+                const Tensor<1, dim>        m = cross_product_3d(arm, e);
+                Eigen::Matrix<double, 6, 1> row;
+                row << e[0], e[1], e[2], m[0], m[1], m[2];
+                squares += row * row.transpose();
+              }
       const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> solver(
         squares);
       if (!(solver.eigenvalues()[0] > 1e-10 * solver.eigenvalues()[5]))

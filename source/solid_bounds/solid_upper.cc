@@ -16,6 +16,18 @@ namespace geocone::GEOCONE_DIM
     using CutFaces = PointGroupOf<CutMohrCoulombCones, 6>;
     using Planes   = PointGroupOf<OpeningCone, 6>;
 
+    /** Unbounded normal stress of a plane that soil cannot leave: the jump vanishes. */
+    OpeningCone
+    closed_cone()
+    {
+      OpeningCone law;
+      law.A(0, 0)        = 0.;
+      law.o[0]           = 1.;
+      law.null_vector[0] = 1.;
+      law.finish();
+      return law;
+    }
+
     /** Dofs of the velocities of cells and of the bodies that hold facets. */
     class VelocityDofs
     {
@@ -64,8 +76,8 @@ namespace geocone::GEOCONE_DIM
             }
         faces     = std::make_unique<Faces>(of_faces);
         cut_faces = std::make_unique<CutFaces>(of_cut_faces);
-        planes =
-          std::make_unique<Planes>(std::vector<OpeningCone>{opening_cone()});
+        planes    = std::make_unique<Planes>(
+          std::vector<OpeningCone>{opening_cone(), closed_cone()});
       }
 
       /** Adds a jump within soil. @param k cohesion of the facet */
@@ -105,13 +117,16 @@ namespace geocone::GEOCONE_DIM
                   const double          weight,
                   const double          tension)
       {
-        Planes::Strains B;
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            B(0, d)       = -normal[d];
-            B(0, dim + d) = normal[d];
-          }
-        planes->add(B, dofs, weight, 0, tension);
+        planes->add(normal_jump(normal), dofs, weight, 0, tension);
+      }
+
+      /** Adds a smooth plane that soil cannot leave. */
+      void
+      add_closed(const Tensor<1, dim> &normal,
+                 const Dofs           &dofs,
+                 const double          weight)
+      {
+        planes->add(normal_jump(normal), dofs, weight, 1, 1.);
       }
 
       void
@@ -126,6 +141,18 @@ namespace geocone::GEOCONE_DIM
       }
 
     private:
+      static Planes::Strains
+      normal_jump(const Tensor<1, dim> &normal)
+      {
+        Planes::Strains B;
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            B(0, d)       = -normal[d];
+            B(0, dim + d) = normal[d];
+          }
+        return B;
+      }
+
       const std::vector<SpatialStrength> &strengths;
       std::vector<unsigned int>           number; ///< of the law of a material
       std::unique_ptr<Faces>              faces;
@@ -213,7 +240,8 @@ namespace geocone::GEOCONE_DIM
                              b = is_inner ? velocities.of_node(facet.cells[1],
                                                                second[i])
                                           : velocities.bodies.dof_of(held);
-          if (is_plane && !is_inner && mu == 0. && !one.is_cut())
+          const bool is_closed = is_plane && mu == 0. && !one.is_cut();
+          if (is_closed && !held.is_oblique())
             {
               problem.is_prescribed[a + held.axis] = true;
               problem.prescribed[a + held.axis]    = held.velocity[held.axis];
@@ -225,7 +253,9 @@ namespace geocone::GEOCONE_DIM
               dofs[d]       = a + d;
               dofs[dim + d] = b + d;
             }
-          if (is_plane && !is_inner)
+          if (is_closed)
+            jumps.add_closed(axes[0], dofs, weight);
+          else if (is_plane)
             jumps.add_opening(
               axes[0], dofs, weight, one.is_cut() ? one.tension : k[i] / mu);
           else

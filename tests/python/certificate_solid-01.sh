@@ -1,5 +1,6 @@
 # Bounds on tetrahedra are verified by a script that does not use the program: a reaction of clay, a
-# live weight with friction and a cut-off, a factor of safety under water, a circular cone.
+# live weight with friction and a cut-off, a factor of safety under water, a circular cone, an oblique
+# plane of symmetry.
 # Fields, loads and strengths that were changed are found, and so are forgeries.
 program=$1 root=$2 folder=$3
 rm -rf "$folder" && mkdir -p "$folder" && cd "$folder"
@@ -18,6 +19,7 @@ run weight bounds_solver 'Analysis/Velocities = quadratic' 'Analysis/Stresses = 
 run factor bounds_solver 'Analysis/Kind = strength reduction' 'Analysis/Solver tolerance = 1e-5' \
   'Water/Table = 0, 1' 'Materials/clay/Density = 1081'
 run circular bounds_block-04
+run oblique bounds_oblique-01
 PYTHONPATH="$root/tests/python" /usr/bin/python3 -B - "$root/scripts/check_certificate" <<'PYTHON'
 import copy
 import json
@@ -25,7 +27,7 @@ from pathlib import Path
 
 from verdict import CHECKER, verdict
 
-for folder in "reaction", "weight", "factor", "circular":
+for folder in "reaction", "weight", "factor", "circular", "oblique":
     good, text = verdict("check_folder", folder)
     assert good and text.count(" proved for ") == 2, folder
 
@@ -55,6 +57,32 @@ for folder, side, reason, place, factor in CHANGES:
     path.write_text(json.dumps(content))
     body, text = verdict("check", path)
     assert body is None and reason in text, (folder, side, place, text)
+
+# The oblique plane that is free or held wholly, pushed, or not there in one of two files.
+content = json.loads(Path("oblique", "certificate_lower.json").read_text())
+rim = content["boundary"]
+plane = rim["oblique"].index(True)
+for key, value, reason in (
+        ("oblique", False, "tractions"), ("held", [True] * 3, "axes and obliquely"),
+        ("velocity", [2., 0., 0.], "stated magnitude")):
+    before, rim[key][plane] = rim[key][plane], value
+    Path("changed_lower.json").write_text(json.dumps(content))
+    body, text = verdict("check", Path("changed_lower.json"))
+    assert body is None and reason in text, (key, text)
+    rim[key][plane] = before
+content = json.loads(Path("oblique", "certificate_upper.json").read_text())
+content["velocity"] = [[[0.9 * v[0], v[1], v[2]] for v in cell] for cell in content["velocity"]]
+Path("changed_upper.json").write_text(json.dumps(content))
+body, text = verdict("check", Path("changed_upper.json"))
+assert body is None and "flow" in text, text
+content = json.loads(Path("oblique", "certificate_upper.json").read_text())
+content["boundary"]["oblique"][plane] = False
+Path("plane").mkdir()
+Path("plane", "certificate_upper.json").write_text(json.dumps(content))
+Path("plane", "certificate_lower.json").write_text(
+    Path("oblique", "certificate_lower.json").read_text())
+good, text = verdict("check_folder", "plane")
+assert not good, text
 
 # A tetrahedron that is left out, and bounds of two problems.
 content = json.loads(Path("weight", "certificate_lower.json").read_text())
@@ -94,6 +122,7 @@ def detach(data, is_held):
     for i in range(4):
         rim["face"].append([n + j for j in range(4) if j != i])
         rim["held"].append([is_held] * 3)
+        rim["oblique"].append(False)
         rim["velocity"].append([0.] * 3)
     for kind in "dead", "live":
         data["body_force"][kind].append([0.] * 3)

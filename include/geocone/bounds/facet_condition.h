@@ -26,13 +26,35 @@ namespace geocone::GEOCONE_DIM
     };
     Kind                   kind = Kind::free;
     dealii::Tensor<1, dim> velocity;
-    unsigned int           axis = 0; ///< axis of the normal, for Kind::plane
+    unsigned int axis = 0; ///< of the normal, for Kind::plane; dim: oblique
+    dealii::Tensor<1, dim> normal; ///< unit normal of an oblique plane
+
+    /** Returns true for a plane whose normal is not along an axis. */
+    bool
+    is_oblique() const
+    {
+      return kind == Kind::plane && axis == dim;
+    }
 
     /** Returns true if a component of the velocity is prescribed. */
     bool
     holds(const unsigned int component) const
     {
       return kind == Kind::fixed || (kind == Kind::plane && axis == component);
+    }
+
+    /** Returns the part of a velocity that is prescribed, or of a traction that is the
+     *  reaction. */
+    dealii::Tensor<1, dim>
+    held_part(const dealii::Tensor<1, dim> &v) const
+    {
+      dealii::Tensor<1, dim> part;
+      if (is_oblique())
+        part = (v * normal) * normal;
+      for (unsigned int d = 0; d < dim; ++d)
+        if (holds(d))
+          part[d] = v[d];
+      return part;
     }
   };
 
@@ -50,7 +72,8 @@ namespace geocone::GEOCONE_DIM
   public:
     /** Adds the components prescribed by a boundary condition (m/s).
      *  @throws InputError if the velocity differs between the vertices or from another
-     *  condition, or for a normal velocity that is not zero or not along an axis */
+     *  condition, or for a normal velocity that is not zero; around an axis also for one
+     *  that is not along an axis */
     void
     add(const BoundaryCondition &condition, const FacetPlace &place);
 
@@ -62,6 +85,7 @@ namespace geocone::GEOCONE_DIM
 
   private:
     std::array<std::optional<double>, dim> value;
+    std::optional<dealii::Tensor<1, dim>>  oblique; ///< normal of a plane
     const BoundaryCondition               *last = nullptr;
   };
 
