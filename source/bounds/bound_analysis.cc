@@ -159,10 +159,9 @@ namespace geocone::GEOCONE_DIM
                                   "conditions/Names'");
     scene.absorbing.refuse(where(), "nothing moves fast here: leave it out");
     scene.obstacles.prepare();
-    if (!is_plane || is_round)
-      scene.obstacles.refuse(
-        where() + (is_round ? " around an axis" : " in three dimensions"),
-        "hold a part of the boundary instead");
+    if (is_round)
+      scene.obstacles.refuse(where() + " around an axis",
+                             "hold a part of the boundary instead");
     scene.contacts.refuse(where(),
                           is_plane ? "let one of the bodies be an obstacle"
                                    : "mesh the bodies as one");

@@ -161,6 +161,12 @@ namespace geocone::GEOCONE_DIM
         largest = std::max(largest, t[i].norm());
         on_held += held.held_part(t[i]).norm();
       }
+    if (held.kind == FacetCondition::Kind::interface && largest > 0.)
+      throw InputError(load.parameter("Sides"),
+                       load.part(),
+                       "tractions beside obstacles where loads are bounded",
+                       "leave the traction out where an obstacle touches the "
+                       "body");
     if (held.kind == FacetCondition::Kind::fixed ? largest > 0.
                                                  : on_held > 1e-12 * largest)
       throw InputError(load.parameter("Sides"),

@@ -107,6 +107,23 @@ namespace geocone::GEOCONE_DIM
     return all;
   }
 
+  std::vector<std::optional<InterfaceStrength::Soil>>
+  strength_of_cracks(const SolidScene  &bound,
+                     const unsigned int order,
+                     const unsigned int facet)
+  {
+    const SpatialStrength &one =
+      bound.strengths[bound.tetrahedra->material[cell_of_jump(bound, facet)]];
+    std::vector<std::optional<InterfaceStrength::Soil>> all;
+    for (const double c : strength_of_jumps(bound, order, facet))
+      {
+        all.emplace_back();
+        if (!one.is_cut())
+          all.back() = {c, one.face_friction()};
+      }
+    return all;
+  }
+
   std::vector<Tensor<1, dim>>
   forces_of_traction(const unsigned int                   order,
                      const std::array<Tensor<1, dim>, 3> &traction)
@@ -213,6 +230,13 @@ namespace geocone::GEOCONE_DIM
       },
       [](const auto &one) { return circular_cone(one.a); },
       cut_law);
+  }
+
+  double
+  least_start(const SolidScene &bound)
+  {
+    // Friction on obstacles has no strength of its own.
+    return bound.units.is_of_loads || !bound.interfaces.empty() ? 0.1 : 0.;
   }
 
   Eigen::Matrix<double, 6, 1>

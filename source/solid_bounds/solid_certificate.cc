@@ -95,6 +95,14 @@ namespace geocone::GEOCONE_DIM
               for (const unsigned int end :
                    simplex_nodes::edges_of_facet[i - 3])
                 left -= total(given[end]) / 2.;
+            if (held.kind == FacetCondition::Kind::interface)
+              {
+                const Mandel &s = stress[n_nodes * facet.cells[0] + first[i]];
+                bound.interfaces[held.obstacle].check(
+                  left, n, SemidefiniteCone::matrix(s).norm(), check);
+                power += A / n_facet * left * held.velocity;
+                continue;
+              }
             const Tensor<1, dim> reaction = held.held_part(left);
             power += A / n_facet * reaction * held.velocity;
             check.add_error((left - reaction).norm());
@@ -219,6 +227,7 @@ namespace geocone::GEOCONE_DIM
       const SpatialStrength &one =
         bound.strengths[tetrahedra.material[cell_of_jump(bound, f)]];
       const auto k           = strength_of_jumps(bound, order, f);
+      const auto cracks      = strength_of_cracks(bound, order, f);
       double    &dissipation = sum.result.dissipation_of_facet[f];
       for (unsigned int i = 0; i < outer.size(); ++i)
         {
@@ -228,7 +237,23 @@ namespace geocone::GEOCONE_DIM
                                 ? 0.
                                 : std::hypot(u * axes[1], u * axes[2]);
           const SpatialStrength::Flow flow =
-            one.flow_of_jump(k[i], u * axes[0], slip);
+            held.kind == FacetCondition::Kind::interface ? bound
+                                                             .interfaces
+                                                               [held.obstacle]
+                                                             .flow(
+                                                               u * axes[0],
+                                                               bound
+                                                                   .interfaces
+                                                                     [held
+                                                                        .obstacle]
+                                                                   .is_smooth()
+                                                                 ? 0.
+                                                                 : slip,
+                                                               cracks[i])
+                                                         : one.flow_of_jump(
+                                                             k[i],
+                                                             u * axes[0],
+                                                             slip);
           dissipation += A / outer.size() * flow.dissipation;
           sum.check.add_jump(flow);
         }
@@ -253,6 +278,8 @@ namespace geocone::GEOCONE_DIM
     // A body that moves by prescribed velocities has no other measure of its jumps.
     for (const Tensor<1, dim> &v : velocity)
       take_larger(sum.check.fastest, v.norm());
+    // Nor has a body that moves rigidly another one of its rates.
+    take_larger(sum.check.largest_rate, sum.check.fastest);
     sum.result.work = bound.factor == LoadFactor::velocity ? 1. : sum.work;
     sum.check.judge(sum.result, sum.power, sum.result.work);
     return sum.result;
@@ -260,10 +287,13 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    /** Returns whether a vertex of the body has friction alone. */
+    /** Returns whether a vertex of the body or an obstacle has friction alone. */
     bool
     has_no_cohesion(const SolidScene &bound)
     {
+      for (const InterfaceStrength &one : bound.interfaces)
+        if (one.adhesion == 0. || one.tension == 0.)
+          return true;
       for (unsigned int c = 0; c < bound.tetrahedra->cells.size(); ++c)
         for (const double k : bound.strength_at_vertices(c))
           if (k == 0.)

@@ -20,6 +20,25 @@ namespace geocone::GEOCONE_DIM
       return Json::array({unit * v[0], unit * v[1], unit * v[2]});
     }
 
+    /** Obstacles with their motions and interfaces. */
+    Json
+    obstacles_of(const SolidScene &given)
+    {
+      Json obstacles = Json::array();
+      for (const auto &obstacle : given.scene->obstacles.list)
+        {
+          const InterfaceLaw &law = obstacle->law;
+          obstacles.push_back(
+            {{"name", obstacle->name},
+             {"velocity", triple(obstacle->velocity(0.).centre)},
+             {"friction", law.friction},
+             {"adhesion", law.adhesion},
+             {"tensile_strength",
+              law.never_opens() ? Json() : Json(law.tension)}});
+        }
+      return obstacles;
+    }
+
     /** Loads of the cells, and loads and supports of the faces on the boundary. */
     void
     add_loads_and_supports(const SolidScene &given, Json &json)
@@ -36,8 +55,8 @@ namespace geocone::GEOCONE_DIM
       json["body_force"] = {{"dead", dead}, {"live", live}};
 
       Json faces = Json::array(), held = Json::array(), oblique = Json::array(),
-           velocity = Json::array(), dead_pull = Json::array(),
-           live_pull = Json::array();
+           obstacle = Json::array(), velocity = Json::array(),
+           dead_pull = Json::array(), live_pull = Json::array();
       for (unsigned int f = 0; f < tetrahedra.facets.size(); ++f)
         {
           if (tetrahedra.facets[f].cells[1] != Tetrahedra::none)
@@ -55,6 +74,10 @@ namespace geocone::GEOCONE_DIM
           faces.push_back(tetrahedra.facets[f].vertices);
           held.push_back(of_face);
           oblique.push_back(condition.is_oblique());
+          obstacle.push_back(
+            condition.kind == FacetCondition::Kind::interface ? int(condition
+                                                                      .obstacle)
+                                                              : -1);
           velocity.push_back(triple(condition.velocity, given.units.velocity));
           dead_pull.push_back(dead_at);
           live_pull.push_back(live_at);
@@ -62,6 +85,7 @@ namespace geocone::GEOCONE_DIM
       json["boundary"] = {{"face", faces},
                           {"held", held},
                           {"oblique", oblique},
+                          {"obstacle", obstacle},
                           {"velocity", velocity},
                           {"dead", dead_pull},
                           {"live", live_pull}};
@@ -106,6 +130,7 @@ namespace geocone::GEOCONE_DIM
     for (const auto &x : tetrahedra.vertices)
       vertices.push_back(triple(x));
     json["vertices"] = vertices;
+    json["obstacles"] = obstacles_of(given);
     add_loads_and_supports(given, json);
     Json fields = Json::array();
     for (std::size_t c = 0; c < tetrahedra.cells.size(); ++c)

@@ -1,7 +1,8 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-#include <geocone/solid_bounds/solid_points.h>
+#include <geocone/bounds/held_bodies.h>
+#include <geocone/solid_bounds/jump_points.h>
 
 #include <algorithm>
 #include <cmath>
@@ -44,6 +45,20 @@ namespace geocone::GEOCONE_DIM
         return dof >= first_w;
       }
 
+      /** Facet of an equation of tractions. */
+      unsigned int
+      facet_of(const unsigned int dof) const
+      {
+        return (dof - first_w) / (dim * n_facet);
+      }
+
+      /** Axis of an equation of tractions. */
+      unsigned int
+      axis_of(const unsigned int dof) const
+      {
+        return (dof - first_w) % dim;
+      }
+
       unsigned int
       of_facet(const unsigned int facet, const unsigned int node) const
       {
@@ -80,17 +95,21 @@ namespace geocone::GEOCONE_DIM
       const unsigned int first_w;
     };
 
-    /** Axes to which the equations of tractions on a facet refer: x, y and z, or the
-     *  normal of an oblique plane and two tangents. */
-    std::array<Tensor<1, dim>, dim>
+    /** Returns true if the equations of tractions on a facet refer to its normal and two
+     *  tangents instead of x, y and z: on oblique planes and obstacles. */
+    bool
+    refers_to_normal(const FacetCondition &held)
+    {
+      return held.is_oblique() || held.kind == FacetCondition::Kind::interface;
+    }
+
+    /** Axes to which the equations of tractions on a facet refer. */
+    JumpPoints::Axes
     axes_of_equations(const SolidScene &bound, const unsigned int facet)
     {
-      if (bound.facet_conditions[facet].is_oblique())
-        return axes_of_facet(*bound.tetrahedra, facet);
-      std::array<Tensor<1, dim>, dim> axes;
-      for (unsigned int d = 0; d < dim; ++d)
-        axes[d][d] = 1.;
-      return axes;
+      return refers_to_normal(bound.facet_conditions[facet])
+               ? axes_of_facet(*bound.tetrahedra, facet)
+               : global_axes();
     }
 
     /** Equations of the stress of a cell at the coefficient between two of its
@@ -126,7 +145,7 @@ namespace geocone::GEOCONE_DIM
           }
       };
       const auto turn = [&](const unsigned int facet) {
-        if (!bound.facet_conditions[facet].is_oblique())
+        if (!refers_to_normal(bound.facet_conditions[facet]))
           return;
         const auto      axes = axes_of_equations(bound, facet);
         Eigen::Matrix3d columns;
@@ -233,6 +252,18 @@ namespace geocone::GEOCONE_DIM
       return left;
     }
 
+    /** Returns whether an obstacle carries tractions on a facet along an axis of the
+     *  equations. */
+    bool
+    carries(const SolidScene  &bound,
+            const unsigned int facet,
+            const unsigned int axis)
+    {
+      const FacetCondition &held = bound.facet_conditions[facet];
+      return held.kind == FacetCondition::Kind::interface &&
+             (axis == 0 || !bound.interfaces[held.obstacle].is_smooth());
+    }
+
     /**
      * Removes equations of tractions that follow from others at the same node of the mesh.
      * Where two facets of a cell meet, n_2 . s n_1 = n_1 . s n_2, so the equations of a
@@ -287,11 +318,44 @@ namespace geocone::GEOCONE_DIM
                     row != number.end() && column != number.end())
                   G(row->second, column->second) +=
                     own.B.col(k).dot(own.B.col(l));
+          for (unsigned int i = 0; i < dofs.size(); ++i)
+            if (carries(bound,
+                        equations.facet_of(dofs[i]),
+                        equations.axis_of(dofs[i])))
+              G(i, i) *= 2.; // the traction on the obstacle
           const Eigen::VectorXd size = G.diagonal().cwiseSqrt().cwiseInverse();
           for (const unsigned int row :
                dependent_rows(size.asDiagonal() * G * size.asDiagonal()))
             problem.is_prescribed[dofs[row]] = true;
         }
+    }
+
+    /** Adds the tractions between the body and an obstacle. */
+    void
+    add_interface(const SolidScene        &bound,
+                  const unsigned int       order,
+                  const unsigned int       f,
+                  const std::vector<bool> &vanishes,
+                  const EquilibriumDofs   &equations,
+                  const HeldBodies        &bodies,
+                  JumpPoints              &jumps)
+    {
+      const Tetrahedra     &tetrahedra = *bound.tetrahedra;
+      const FacetCondition &held       = bound.facet_conditions[f];
+      const auto            axes       = axes_of_facet(tetrahedra, f);
+      const auto            nodes      = nodes_in_cell(tetrahedra, order, f, 0);
+      const double          L          = bound.units.length,
+                   weight = tetrahedra.area(f) / (L * L) / equations.n_facet;
+      const unsigned int first =
+        simplex_nodes::n_in_cell(order) * tetrahedra.facets[f].cells[0];
+      for (unsigned int i = 0; i < equations.n_facet; ++i)
+        if (!vanishes[first + nodes[i]])
+          jumps.add_at_obstacle(
+            held.obstacle,
+            axes,
+            dofs_of_both(equations.of_facet(f, i), bodies.dof_of(held)),
+            weight,
+            axes_of_equations(bound, f));
     }
 
     /** Adds the given tractions and the held components of a facet. */
@@ -357,9 +421,15 @@ namespace geocone::GEOCONE_DIM
     const Tetrahedra     &tetrahedra = *bound.tetrahedra;
     const double          L          = bound.units.length;
     const EquilibriumDofs equations(tetrahedra, order);
-    ConicProblem          problem = ConicProblem::of_dofs(equations.n());
-    problem.least_start           = bound.units.is_of_loads ? 0.1 : 0.;
+    HeldBodies            bodies(equations.n()); // obstacles
+    for (const FacetCondition &held : bound.facet_conditions)
+      if (held.kind == FacetCondition::Kind::interface)
+        bodies.add(held);
+    ConicProblem problem = ConicProblem::of_dofs(bodies.n_dofs());
+    problem.least_start  = least_start(bound);
+    bodies.prescribe(problem);
     SolidPoints             points   = empty_points(bound);
+    JumpPoints              jumps(bound);
     const std::vector<bool> vanishes = stress_free_nodes(bound, order);
     const auto              nodes    = vertices_of_nodes(order);
     for (unsigned int c = 0; c < tetrahedra.cells.size(); ++c)
@@ -379,10 +449,15 @@ namespace geocone::GEOCONE_DIM
                    tetrahedra.volume(c) / (L * L * L) * bound.body_force(c));
       }
     for (unsigned int f = 0; f < tetrahedra.facets.size(); ++f)
-      add_facet(bound, f, equations, problem);
+      {
+        add_facet(bound, f, equations, problem);
+        if (bound.facet_conditions[f].kind == FacetCondition::Kind::interface)
+          add_interface(bound, order, f, vanishes, equations, bodies, jumps);
+      }
     remove_without_stress(bound, order, vanishes, equations, problem);
     remove_dependent(bound, order, vanishes, equations, problem);
     points.move_to(problem);
+    jumps.move_to(problem);
     return problem;
   }
 } // namespace geocone::GEOCONE_DIM

@@ -107,6 +107,22 @@ namespace geocone::GEOCONE_DIM
     std::vector<FacetCondition> held;
     for (unsigned int f = 0; f < all.size(); ++f)
       held.push_back(all[f].condition(place_of(tetrahedra, f)));
+    const std::vector<int> touched = obstacles_of_facets(scene, tetrahedra);
+    for (unsigned int f = 0; f < held.size(); ++f)
+      if (touched[f] >= 0)
+        {
+          const Obstacle &obstacle = *scene.obstacles.list[touched[f]];
+          if (held[f].kind != FacetCondition::Kind::free)
+            throw InputError(obstacle.parameter("Shape"),
+                             obstacle.name,
+                             "an obstacle beside sides without prescribed "
+                             "velocities where loads are bounded",
+                             "it touches a face whose velocity is prescribed: "
+                             "leave one of them out there");
+          held[f].kind     = FacetCondition::Kind::interface;
+          held[f].velocity = obstacle.velocity(0.).centre;
+          held[f].obstacle = touched[f];
+        }
     return held;
   }
 
@@ -169,10 +185,23 @@ namespace geocone::GEOCONE_DIM
   {
     /** @throws InputError if a rigid motion of the body is free */
     void
-    check_rigid_motions(const Tetrahedra                  &tetrahedra,
+    check_rigid_motions(const Scene                       &scene,
+                        const Tetrahedra                  &tetrahedra,
                         const std::vector<FacetCondition> &held,
                         const double                       length)
     {
+      // The part of a translation that supports and obstacles resist.
+      const auto resisted = [&](const unsigned int    f,
+                                const Tensor<1, dim> &e) -> Tensor<1, dim> {
+        if (held[f].kind != FacetCondition::Kind::interface)
+          return held[f].held_part(e);
+        const Tensor<1, dim> n = tetrahedra.normal(f);
+        return InterfaceStrength(scene.obstacles.list[held[f].obstacle]->law,
+                                 1.)
+                   .is_smooth()
+                 ? (e * n) * n
+                 : e;
+      };
       Eigen::Matrix<double, 6, 6> squares = Eigen::Matrix<double, 6, 6>::Zero();
       const Point<dim>            centre  = tetrahedra.centre(0);
       for (unsigned int f = 0; f < held.size(); ++f)
@@ -183,7 +212,7 @@ namespace geocone::GEOCONE_DIM
                 const Tensor<1, dim> arm =
                   (tetrahedra.vertices[v] - centre) / length;
                 const Tensor<1, dim> e =
-                  held[f].held_part(Point<dim>::unit_vector(d));
+                  resisted(f, Point<dim>::unit_vector(d));
                 const Tensor<1, dim>        m = cross_product_3d(arm, e);
                 Eigen::Matrix<double, 6, 1> row;
                 row << e[0], e[1], e[2], m[0], m[1], m[2];
@@ -232,7 +261,7 @@ namespace geocone::GEOCONE_DIM
       ++n_cells[material];
     refuse_empty_regions(scene, n_cells);
     choose_units(scene, tetrahedra);
-    check_rigid_motions(tetrahedra, held, units.length);
+    check_rigid_motions(scene, tetrahedra, held, units.length);
     if (is_reaction())
       load_unit = units.stress * units.length * units.length *
                   std::abs(scene.observation.factor);
@@ -276,6 +305,8 @@ namespace geocone::GEOCONE_DIM
         one.scale(units.stress);
         bound.strengths.push_back(one);
       }
+    for (const auto &obstacle : scene.obstacles.list)
+      bound.interfaces.emplace_back(obstacle->law, units.stress);
     bound.facet_conditions = facet_conditions(scene, tetrahedra);
     for (FacetCondition &facet : bound.facet_conditions)
       facet.velocity /= units.velocity;

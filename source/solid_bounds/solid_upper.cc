@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/bounds/held_bodies.h>
-#include <geocone/solid_bounds/solid_points.h>
+#include <geocone/solid_bounds/jump_points.h>
 
-#include <memory>
+#include <map>
 
 namespace geocone::GEOCONE_DIM
 {
@@ -12,20 +12,19 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    using Faces    = PointGroupOf<FaceCone, 6>;
-    using CutFaces = PointGroupOf<CutMohrCoulombCones, 6>;
-    using Planes   = PointGroupOf<OpeningCone, 6>;
-
-    /** Unbounded normal stress of a plane that soil cannot leave: the jump vanishes. */
-    OpeningCone
-    closed_cone()
+    /** Returns whether soil may fail beside an obstacle before the interface does. */
+    bool
+    may_crack_beside(const SolidScene  &bound,
+                     const unsigned int order,
+                     const unsigned int f)
     {
-      OpeningCone law;
-      law.A(0, 0)        = 0.;
-      law.o[0]           = 1.;
-      law.null_vector[0] = 1.;
-      law.finish();
-      return law;
+      const FacetCondition &held = bound.facet_conditions[f];
+      if (held.kind != FacetCondition::Kind::interface)
+        return false;
+      for (const auto &soil : strength_of_cracks(bound, order, f))
+        if (soil && !bound.interfaces[held.obstacle].is_weaker_than(*soil))
+          return true;
+      return false;
     }
 
     /** Dofs of the velocities of cells and of the bodies that hold facets. */
@@ -38,6 +37,13 @@ namespace geocone::GEOCONE_DIM
       {
         for (const FacetCondition &held : bound.facet_conditions)
           bodies.add(held);
+        n_dofs = bodies.n_dofs();
+        for (unsigned int f = 0; f < bound.facet_conditions.size(); ++f)
+          if (may_crack_beside(bound, order, f))
+            {
+              first_of_crack[f] = n_dofs;
+              n_dofs += dim * simplex_nodes::n_on_facet(order);
+            }
       }
 
       unsigned int
@@ -48,116 +54,11 @@ namespace geocone::GEOCONE_DIM
 
       const unsigned int n_nodes;
       HeldBodies         bodies;
-    };
+      unsigned int       n_dofs; ///< with those between cracks and obstacles
 
-    /** Points of the jumps of velocity at facets. Each has six dofs, those of both
-     *  sides. */
-    class JumpPoints
-    {
-    public:
-      using Dofs = std::array<unsigned int, 6>;
-      using Axes = std::array<Tensor<1, dim>, dim>;
-
-      explicit JumpPoints(const std::vector<SpatialStrength> &strengths)
-        : strengths(strengths)
-      {
-        std::vector<FaceCone>            of_faces;
-        std::vector<CutMohrCoulombCones> of_cut_faces;
-        for (const SpatialStrength &one : strengths)
-          if (one.is_cut())
-            {
-              number.push_back(of_cut_faces.size());
-              of_cut_faces.push_back(cut_law(one));
-            }
-          else
-            {
-              number.push_back(of_faces.size());
-              of_faces.push_back(face_cone(one.face_friction()));
-            }
-        faces     = std::make_unique<Faces>(of_faces);
-        cut_faces = std::make_unique<CutFaces>(of_cut_faces);
-        planes    = std::make_unique<Planes>(
-          std::vector<OpeningCone>{opening_cone(), closed_cone()});
-      }
-
-      /** Adds a jump within soil. @param k cohesion of the facet */
-      void
-      add_in_soil(const unsigned int material,
-                  const Axes        &axes,
-                  const Dofs        &dofs,
-                  const double       weight,
-                  const double       k)
-      {
-        const SpatialStrength &one = strengths[material];
-        if (one.is_cut())
-          {
-            CutFaces::Strains B; // of a thin layer
-            for (unsigned int d = 0; d < dim; ++d)
-              {
-                B.col(dim + d) = symmetric_product(d, axes[0]);
-                B.col(d)       = -B.col(dim + d);
-              }
-            cut_faces->add(B, dofs, weight, number[material], one.k);
-            return;
-          }
-        Faces::Strains B;
-        for (unsigned int row = 0; row < dim; ++row)
-          for (unsigned int d = 0; d < dim; ++d)
-            {
-              B(row, d)       = -axes[row][d];
-              B(row, dim + d) = axes[row][d];
-            }
-        faces->add(B, dofs, weight, number[material], k);
-      }
-
-      /** Adds an opening at a smooth plane. @param tension tensile strength */
-      void
-      add_opening(const Tensor<1, dim> &normal,
-                  const Dofs           &dofs,
-                  const double          weight,
-                  const double          tension)
-      {
-        planes->add(normal_jump(normal), dofs, weight, 0, tension);
-      }
-
-      /** Adds a smooth plane that soil cannot leave. */
-      void
-      add_closed(const Tensor<1, dim> &normal,
-                 const Dofs           &dofs,
-                 const double          weight)
-      {
-        planes->add(normal_jump(normal), dofs, weight, 1, 1.);
-      }
-
-      void
-      move_to(ConicProblem &problem)
-      {
-        if (faces->n_points() > 0)
-          problem.groups.push_back(std::move(faces));
-        if (cut_faces->n_points() > 0)
-          problem.groups.push_back(std::move(cut_faces));
-        if (planes->n_points() > 0)
-          problem.groups.push_back(std::move(planes));
-      }
-
-    private:
-      static Planes::Strains
-      normal_jump(const Tensor<1, dim> &normal)
-      {
-        Planes::Strains B;
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            B(0, d)       = -normal[d];
-            B(0, dim + d) = normal[d];
-          }
-        return B;
-      }
-
-      const std::vector<SpatialStrength> &strengths;
-      std::vector<unsigned int>           number; ///< of the law of a material
-      std::unique_ptr<Faces>              faces;
-      std::unique_ptr<CutFaces>           cut_faces;
-      std::unique_ptr<Planes>             planes;
+      /** First dof of the soil between an obstacle and a crack beside it, of the facets
+       *  that have one. */
+      std::map<unsigned int, unsigned int> first_of_crack;
     };
 
     /** Tractions of a facet of the dead or the live load. */
@@ -247,12 +148,24 @@ namespace geocone::GEOCONE_DIM
               problem.prescribed[a + held.axis]    = held.velocity[held.axis];
               continue;
             }
-          JumpPoints::Dofs dofs;
-          for (unsigned int d = 0; d < dim; ++d)
+          if (held.kind == FacetCondition::Kind::interface)
             {
-              dofs[d]       = a + d;
-              dofs[dim + d] = b + d;
+              const auto   crack = velocities.first_of_crack.find(f);
+              unsigned int soil  = a;
+              if (crack != velocities.first_of_crack.end())
+                {
+                  soil = crack->second + dim * i;
+                  jumps.add_in_soil(
+                    material, axes, dofs_of_both(a, soil), weight, k[i]);
+                }
+              jumps.add_at_obstacle(held.obstacle,
+                                    axes,
+                                    dofs_of_both(soil, b),
+                                    weight,
+                                    global_axes());
+              continue;
             }
+          const JumpPoints::Dofs dofs = dofs_of_both(a, b);
           if (is_closed)
             jumps.add_closed(axes[0], dofs, weight);
           else if (is_plane)
@@ -292,13 +205,13 @@ namespace geocone::GEOCONE_DIM
   {
     const Tetrahedra  &tetrahedra = *bound.tetrahedra;
     const VelocityDofs velocities(bound, order);
-    ConicProblem problem = ConicProblem::of_dofs(velocities.bodies.n_dofs());
-    problem.least_start        = bound.units.is_of_loads ? 0.1 : 0.;
+    ConicProblem       problem = ConicProblem::of_dofs(velocities.n_dofs);
+    problem.least_start        = least_start(bound);
     velocities.bodies.prescribe(problem);
     SolidPoints points = empty_points(bound);
     for (unsigned int c = 0; c < tetrahedra.cells.size(); ++c)
       add_rates(bound, order, c, velocities, points, problem);
-    JumpPoints jumps(bound.strengths);
+    JumpPoints jumps(bound);
     for (unsigned int f = 0; f < tetrahedra.facets.size(); ++f)
       {
         add_jumps(bound, order, f, velocities, jumps, problem);

@@ -1,6 +1,6 @@
 # Bounds on tetrahedra are verified by a script that does not use the program: a reaction of clay, a
 # live weight with friction and a cut-off, a factor of safety under water, a circular cone, an oblique
-# plane of symmetry.
+# plane of symmetry, obstacles.
 # Fields, loads and strengths that were changed are found, and so are forgeries.
 program=$1 root=$2 folder=$3
 rm -rf "$folder" && mkdir -p "$folder" && cd "$folder"
@@ -20,6 +20,7 @@ run factor bounds_solver 'Analysis/Kind = strength reduction' 'Analysis/Solver t
   'Water/Table = 0, 1' 'Materials/clay/Density = 1081'
 run circular bounds_block-04
 run oblique bounds_oblique-01
+run plate bounds_obstacle-03
 PYTHONPATH="$root/tests/python" /usr/bin/python3 -B - "$root/scripts/check_certificate" <<'PYTHON'
 import copy
 import json
@@ -27,7 +28,7 @@ from pathlib import Path
 
 from verdict import CHECKER, verdict
 
-for folder in "reaction", "weight", "factor", "circular", "oblique":
+for folder in "reaction", "weight", "factor", "circular", "oblique", "plate":
     good, text = verdict("check_folder", folder)
     assert good and text.count(" proved for ") == 2, folder
 
@@ -46,6 +47,10 @@ CHANGES = (
     ("weight", "upper", "90 degrees", ("materials", 0, "friction_angle"), 4.5),
     ("circular", "lower", "only", ("materials", 0, "strength"), 0.9),
     ("circular", "upper", "only", ("materials", 0, "strength"), 1.1),
+    ("plate", "lower", "strength exceeded", ("obstacles", 0, "friction"), 0.9),
+    ("plate", "upper", "only", ("obstacles", 0, "friction"), 1.1),
+    ("plate", "lower", "otherwise than its obstacle", ("obstacles", 0, "velocity", 0), 2.),
+    ("plate", "upper", "friction is negative", ("obstacles", 0, "friction"), -1.),
 )
 for folder, side, reason, place, factor in CHANGES:
     content = json.loads(Path(folder, f"certificate_{side}.json").read_text())
@@ -83,6 +88,18 @@ Path("plane", "certificate_lower.json").write_text(
     Path("oblique", "certificate_lower.json").read_text())
 good, text = verdict("check_folder", "plane")
 assert not good, text
+
+# An obstacle that holds nothing, holds more than its faces, or is not there.
+content = json.loads(Path("plate", "certificate_lower.json").read_text())
+rim = content["boundary"]
+face = rim["obstacle"].index(0)
+for key, value, reason in (("obstacle", -1, "tractions"), ("obstacle", 1, "not there"),
+                           ("held", [True] * 3, "beside an obstacle")):
+    before, rim[key][face] = rim[key][face], value
+    Path("changed_lower.json").write_text(json.dumps(content))
+    body, text = verdict("check", Path("changed_lower.json"))
+    assert body is None and reason in text, (key, text)
+    rim[key][face] = before
 
 # A tetrahedron that is left out, and bounds of two problems.
 content = json.loads(Path("weight", "certificate_lower.json").read_text())
@@ -123,6 +140,7 @@ def detach(data, is_held):
         rim["face"].append([n + j for j in range(4) if j != i])
         rim["held"].append([is_held] * 3)
         rim["oblique"].append(False)
+        rim["obstacle"].append(-1)
         rim["velocity"].append([0.] * 3)
     for kind in "dead", "live":
         data["body_force"][kind].append([0.] * 3)

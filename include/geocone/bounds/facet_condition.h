@@ -21,13 +21,15 @@ namespace geocone::GEOCONE_DIM
     enum class Kind
     {
       free,
-      fixed, ///< all velocity components prescribed
-      plane  ///< only the normal component prescribed
+      fixed,    ///< all velocity components prescribed
+      plane,    ///< only the normal component prescribed
+      interface ///< contact with an obstacle that has the velocity
     };
     Kind                   kind = Kind::free;
     dealii::Tensor<1, dim> velocity;
     unsigned int axis = 0; ///< of the normal, for Kind::plane; dim: oblique
     dealii::Tensor<1, dim> normal; ///< unit normal of an oblique plane
+    unsigned int           obstacle = 0; ///< its number, for Kind::interface
 
     /** Returns true for a plane whose normal is not along an axis. */
     bool

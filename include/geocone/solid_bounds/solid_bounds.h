@@ -73,6 +73,13 @@ namespace geocone::GEOCONE_DIM
                     const unsigned int facet);
   /** @} */
 
+  /** Returns the strength of a crack in the soil at each point of a facet, as for jumps;
+   *  no value for soil with a tensile strength. */
+  std::vector<std::optional<InterfaceStrength::Soil>>
+  strength_of_cracks(const SolidScene  &bound,
+                     const unsigned int order,
+                     const unsigned int facet);
+
   /** Returns the strength k at the nodes of a cell. */
   std::vector<double>
   strength_at_nodes(const SolidScene  &bound,

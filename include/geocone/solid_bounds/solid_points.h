@@ -20,6 +20,10 @@ namespace geocone::GEOCONE_DIM
   SolidPoints
   empty_points(const SolidScene &bound);
 
+  /** Least strength of the initial stresses (ConicProblem). */
+  double
+  least_start(const SolidScene &bound);
+
   /** sym(b x g) of the unit vector b along a component. */
   Eigen::Matrix<double, 6, 1>
   symmetric_product(const unsigned int            component,

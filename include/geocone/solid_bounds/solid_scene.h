@@ -9,6 +9,7 @@
 #include <geocone/bounds/spatial_strength.h>
 #include <geocone/mesh/tetrahedra.h>
 #include <geocone/scene/scene.h>
+#include <geocone/solid_bounds/interface_strength.h>
 
 #include <array>
 #include <optional>
@@ -27,6 +28,7 @@ namespace geocone::GEOCONE_DIM
     LoadFactor                 factor     = LoadFactor::automatic;
     BoundUnits                 units;
     std::vector<SpatialStrength> strengths; ///< strength of each material
+    std::vector<InterfaceStrength> interfaces; ///< strength of each obstacle's
     std::vector<FacetCondition>
       facet_conditions; ///< prescribed velocity of each facet
 
