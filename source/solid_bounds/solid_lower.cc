@@ -393,26 +393,83 @@ namespace geocone::GEOCONE_DIM
     }
   } // namespace
 
+  namespace
+  {
+    /** Strain rates B q of all stresses of cells, in the order of the cells. */
+    std::vector<Mandel>
+    rates_of_stresses(const SolidScene      &bound,
+                      const unsigned int     order,
+                      const Eigen::VectorXd &q)
+    {
+      const EquilibriumDofs equations(*bound.tetrahedra, order);
+      std::vector<Mandel>   rates;
+      for (unsigned int c = 0; c < bound.tetrahedra->cells.size(); ++c)
+        for (const auto &[i, j] : vertices_of_nodes(order))
+          {
+            const EquationsOfStress own =
+              equations_of_stress(bound, order, c, i, j, equations);
+            Mandel rate = Mandel::Zero();
+            for (unsigned int k = 0; k < own.dofs.size(); ++k)
+              rate += q[own.dofs[k]] * own.B.col(k);
+            rates.push_back(rate);
+          }
+      return rates;
+    }
+  } // namespace
+
   std::vector<double>
   dual_power_of_cells(const SolidScene          &bound,
                       const unsigned int         order,
                       const std::vector<Mandel> &stress,
                       const Eigen::VectorXd     &q)
   {
-    const EquilibriumDofs equations(*bound.tetrahedra, order);
-    const auto            nodes = vertices_of_nodes(order);
-    std::vector<double>   power(bound.tetrahedra->cells.size(), 0.);
+    const Tetrahedra         &tetrahedra = *bound.tetrahedra;
+    const double              L          = bound.units.length;
+    const std::vector<Mandel> rate       = rates_of_stresses(bound, order, q);
+    const unsigned int        n          = simplex_nodes::n_in_cell(order);
+    std::vector<double>       power(tetrahedra.cells.size(), 0.);
     for (unsigned int c = 0; c < power.size(); ++c)
-      for (unsigned int p = 0; p < nodes.size(); ++p)
-        {
-          const EquationsOfStress own = equations_of_stress(
-            bound, order, c, nodes[p][0], nodes[p][1], equations);
-          Mandel rate = Mandel::Zero();
-          for (unsigned int i = 0; i < own.dofs.size(); ++i)
-            rate += q[own.dofs[i]] * own.B.col(i);
-          power[c] += own.volume * stress[nodes.size() * c + p].dot(rate);
-        }
+      for (unsigned int p = n * c; p < n * (c + 1); ++p)
+        power[c] +=
+          tetrahedra.volume(c) / (L * L * L) / n * stress[p].dot(rate[p]);
     return power;
+  }
+
+  std::vector<Mandel>
+  in_equilibrium(const SolidScene          &bound,
+                 const unsigned int         order,
+                 const ConicProblem        &problem,
+                 const double               lambda,
+                 const std::vector<Mandel> &stress)
+  {
+    std::vector<BlockMatrix::Set> sets;
+    for (const auto &group : problem.groups)
+      sets.push_back(group->set());
+    BlockMatrix matrix(problem.is_prescribed, sets);
+    matrix.clear();
+    Eigen::VectorXd left = -lambda * problem.live - problem.dead;
+    for (unsigned int i = 0; i < problem.groups.size(); ++i)
+      {
+        problem.groups[i]->add_elastic_blocks(matrix, i, 0.);
+        problem.groups[i]->add_forces(left);
+      }
+    if (!matrix.factorise())
+      return stress;
+    Eigen::VectorXd q = Eigen::VectorXd::Zero(problem.n_dofs());
+    for (unsigned int k = 0; k < 4; ++k)
+      {
+        Eigen::VectorXd F = left;
+        for (const auto &group : problem.groups)
+          group->add_elastic_forces(q, 0., F);
+        q -= matrix.solve(F);
+      }
+    std::vector<Mandel>       all      = stress;
+    const std::vector<Mandel> rate     = rates_of_stresses(bound, order, q);
+    const std::vector<bool>   vanishes = stress_free_nodes(bound, order);
+    for (unsigned int p = 0; p < all.size(); ++p)
+      if (!vanishes[p])
+        all[p] += rate[p];
+    return all;
   }
 
   ConicProblem

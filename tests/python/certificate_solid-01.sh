@@ -21,6 +21,9 @@ run factor bounds_solver 'Analysis/Kind = strength reduction' 'Analysis/Solver t
 run circular bounds_block-04
 run oblique bounds_oblique-01
 run plate bounds_obstacle-03
+run rough bounds_obstacle-02 'Obstacles/plate/Tensile strength = 30' \
+  'Materials/soil/Type = Mohr-Coulomb' 'Materials/soil/Cohesion = 300' \
+  'Materials/soil/Friction angle = 20' 'Materials/soil/Dilatancy angle = 20'
 PYTHONPATH="$root/tests/python" /usr/bin/python3 -B - "$root/scripts/check_certificate" <<'PYTHON'
 import copy
 import json
@@ -28,7 +31,7 @@ from pathlib import Path
 
 from verdict import CHECKER, verdict
 
-for folder in "reaction", "weight", "factor", "circular", "oblique", "plate":
+for folder in "reaction", "weight", "factor", "circular", "oblique", "plate", "rough":
     good, text = verdict("check_folder", folder)
     assert good and text.count(" proved for ") == 2, folder
 
@@ -51,6 +54,8 @@ CHANGES = (
     ("plate", "upper", "only", ("obstacles", 0, "friction"), 1.1),
     ("plate", "lower", "otherwise than its obstacle", ("obstacles", 0, "velocity", 0), 2.),
     ("plate", "upper", "friction is negative", ("obstacles", 0, "friction"), -1.),
+    ("rough", "lower", "only", ("obstacles", 0, "adhesion"), 0.9),
+    ("rough", "upper", "only", ("obstacles", 0, "adhesion"), 1.1),
 )
 for folder, side, reason, place, factor in CHANGES:
     content = json.loads(Path(folder, f"certificate_{side}.json").read_text())

@@ -129,6 +129,16 @@ namespace geocone::GEOCONE_DIM
   ConicProblem
   lower_problem(const SolidScene &bound, const unsigned int order);
 
+  /** Returns the stresses of cells with the elastic ones that their residual of
+   *  equilibrium causes: the smallest that restore it.
+   *  @param problem solved lower-bound problem @param lambda its load factor */
+  std::vector<Mandel>
+  in_equilibrium(const SolidScene          &bound,
+                 const unsigned int         order,
+                 const ConicProblem        &problem,
+                 const double               lambda,
+                 const std::vector<Mandel> &stress);
+
   /** Returns the power of the stresses of each cell with the dual variables of the
    *  lower-bound problem.
    *  @param stress of the nodes of all cells @param q dual variables */
