@@ -25,6 +25,55 @@ namespace geocone::GEOCONE_DIM
           t[i] += m(i, j) * n[j];
       return t;
     }
+
+    /** Returns a load at a load factor, and notes whether a part of it is dead. */
+    Tensor<1, dim>
+    total(const SolidScene::Load &load, const double lambda, StressCheck &check)
+    {
+      check.is_dead = check.is_dead || load.dead.norm() > 0.;
+      return load.dead + lambda * load.live;
+    }
+
+    /** Compares the stresses of cells with the strength, and their divergence with the
+     *  body forces. */
+    void
+    check_cells(const SolidScene          &bound,
+                const unsigned int         order,
+                const std::vector<Mandel> &stress,
+                const double               lambda,
+                StressCheck               &check)
+    {
+      const Tetrahedra  &tetrahedra = *bound.tetrahedra;
+      const double       L          = bound.units.length;
+      const unsigned int n_nodes    = simplex_nodes::n_in_cell(order);
+      for (unsigned int c = 0; c < tetrahedra.cells.size(); ++c)
+        {
+          const SpatialStrength &one = bound.strengths[tetrahedra.material[c]];
+          const auto             k   = strength_at_nodes(bound, order, c);
+          const Mandel *const    s   = &stress[n_nodes * c];
+          for (unsigned int i = 0; i < n_nodes; ++i)
+            {
+              const Eigen::Matrix3d m    = SemidefiniteCone::matrix(s[i]);
+              const double          used = one.utilisation(k[i], m);
+              check.add(used, k[i] > 0. ? k[i] : m.norm(), m.norm());
+              // Without strength a part of the stresses is not nearer to its cone.
+              check.is_dead = check.is_dead || (k[i] == 0. && used > 1.);
+            }
+          const auto           g = tetrahedra.gradients(c);
+          const Tensor<1, dim> b = total(bound.body_force(c), lambda, check);
+          for (unsigned int i = 0; i < (order == 1 ? 1 : 4); ++i)
+            {
+              Tensor<1, dim> divergence;
+              for (unsigned int j = 0; j < 4; ++j)
+                divergence +=
+                  order *
+                  traction_of(s[order == 1 ? j : simplex_nodes::node(i, j)],
+                              L * g[j]);
+              check.add_error((divergence + b).norm() *
+                              std::cbrt(tetrahedra.volume(c)) / L);
+            }
+        }
+    }
   } // namespace
 
   SolidBound
@@ -40,37 +89,7 @@ namespace geocone::GEOCONE_DIM
     SolidBound result;
     result.stress = stress;
     StressCheck check;
-    const auto  total = [&](const SolidScene::Load &load) {
-      check.is_dead = check.is_dead || load.dead.norm() > 0.;
-      return load.dead + lambda * load.live;
-    };
-    for (unsigned int c = 0; c < tetrahedra.cells.size(); ++c)
-      {
-        const SpatialStrength &one = bound.strengths[tetrahedra.material[c]];
-        const auto             k   = strength_at_nodes(bound, order, c);
-        const Mandel *const    s   = &stress[n_nodes * c];
-        for (unsigned int i = 0; i < n_nodes; ++i)
-          {
-            const Eigen::Matrix3d m    = SemidefiniteCone::matrix(s[i]);
-            const double          used = one.utilisation(k[i], m);
-            check.add(used, k[i] > 0. ? k[i] : m.norm(), m.norm());
-            // Without strength a part of the stresses is not nearer to its cone.
-            check.is_dead = check.is_dead || (k[i] == 0. && used > 1.);
-          }
-        const auto           g = tetrahedra.gradients(c);
-        const Tensor<1, dim> b = total(bound.body_force(c));
-        for (unsigned int i = 0; i < (order == 1 ? 1 : 4); ++i)
-          {
-            Tensor<1, dim> divergence;
-            for (unsigned int j = 0; j < 4; ++j)
-              divergence +=
-                order *
-                traction_of(s[order == 1 ? j : simplex_nodes::node(i, j)],
-                            L * g[j]);
-            check.add_error((divergence + b).norm() *
-                            std::cbrt(tetrahedra.volume(c)) / L);
-          }
-      }
+    check_cells(bound, order, stress, lambda, check);
     double power = 0.; // of the reactions to prescribed velocities
     for (unsigned int f = 0; f < tetrahedra.facets.size(); ++f)
       {
@@ -90,11 +109,11 @@ namespace geocone::GEOCONE_DIM
                                    nodes_in_cell(tetrahedra, order, f, 1)[i]],
                             n);
             else if (i < 3)
-              left -= total(given[i]);
+              left -= total(given[i], lambda, check);
             else
               for (const unsigned int end :
                    simplex_nodes::edges_of_facet[i - 3])
-                left -= total(given[end]) / 2.;
+                left -= total(given[end], lambda, check) / 2.;
             if (held.kind == FacetCondition::Kind::interface)
               {
                 const Mandel &s = stress[n_nodes * facet.cells[0] + first[i]];

@@ -11,6 +11,11 @@ GEOCONE_VTK=0 "$root/scripts/plot" run > said
 grep -qx "run/mechanism.png" said
 grep -qx "run/model.png" said
 grep -qx "run/paraview_state.py" said
+# Sand without cohesion dissipates nothing.
+"$program" "$root/tests/three/bounds_sand-03.prm" --quiet --output sand \
+  --set 'Output/Fields = true' --set 'Output/Expectations ='
+GEOCONE_VTK=0 "$root/scripts/plot" sand > said
+grep -qx "sand/mechanism.png" said
 PYTHONPATH=$root/python /usr/bin/python3 -B - <<'PYTHON'
 import json
 

@@ -1,8 +1,8 @@
 # Copyright (C) 2026 by the geocone authors
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """mechanism.png of bounds in three dimensions: the mechanism of the upper bound on the deformed
-body, its dissipation, and the cells' parts of the gap (by VTK where it is installed:
-rendered.py)."""
+body, its dissipation unless soil has none, and the cells' parts of the gap (by VTK where it is
+installed: rendered.py)."""
 
 import numpy as np
 from matplotlib.cm import ScalarMappable
@@ -38,7 +38,7 @@ def deformed(field, vertices):
 
 
 def panels_of(field, vertices):
-    """Creates the panels of a field: mechanism, dissipation and, if there is any, the gap."""
+    """Creates the panels of a field: mechanism and, if there are any, dissipation and gap."""
     def of_cells(name):
         return field.data[name][field.cells[:, 0], 0]
 
@@ -50,11 +50,11 @@ def panels_of(field, vertices):
     speed = np.linalg.norm(field.data["velocity"][field.cells].mean(axis=1), axis=1)
     most = max(level(speed, volumes), np.finfo(float).tiny)
     shown = [Panel(deformed(field, vertices), speed / most, norm_of(1.), STEPS,
-                   "mechanism of the upper bound: speed", "relative"),
-             Panel(field.points, of_cells("dissipation"),
-                   logarithmic(of_cells("dissipation"), volumes), RATES,
-                   "dissipation of the upper bound per volume", "over the mean")]
-    part = of_cells("part_of_gap")
+                   "mechanism of the upper bound: speed", "relative")]
+    density, part = of_cells("dissipation"), of_cells("part_of_gap")
+    if np.any(density > 0.):  # none without cohesion
+        shown.append(Panel(field.points, density, logarithmic(density, volumes), RATES,
+                           "dissipation of the upper bound per volume", "over the mean"))
     if np.any(part > 0.):
         shown.append(Panel(field.points, part, logarithmic(part, np.ones(len(part))), RATES,
                            f"parts of the gap of {len(part)} tetrahedra", "over the mean"))
@@ -66,8 +66,10 @@ def draw_mechanism(run, field, path):
     if that is inside."""
     vertices = vertices_of(field.points)
     first = np.unique(vertices, return_index=True)[1]
-    view, faces, normals, cut = chosen_view(field.points, field.cells,
-                                            field.data["dissipation"][:, 0], vertices)
+    density = field.data["dissipation"][:, 0]
+    if not np.any(density > 0.):
+        density = field.data["part_of_gap"][:, 0]
+    view, faces, normals, cut = chosen_view(field.points, field.cells, density, vertices)
     shown = panels_of(field, vertices)
     places = np.concatenate([view.seen(panel.points) for panel in shown])
     margin = 0.03 * np.ptp(places, axis=0).max()
