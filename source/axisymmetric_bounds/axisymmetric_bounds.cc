@@ -4,6 +4,7 @@
 #include <geocone/axisymmetric_bounds/axisymmetric_points.h>
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
+#include <geocone/bounds/load_choice.h>
 #include <geocone/plane_bounds/bound_loads.h>
 
 #include <algorithm>
@@ -78,7 +79,7 @@ namespace geocone::GEOCONE_DIM
         (is_live(LoadFactor::weight) ? cell.body_force.live
                                      : cell.body_force.dead) = weight;
         if (scene.water.acts())
-          (bound.factor == LoadFactor::all ? cell.body_force.live
+          (is_live(factor_of_water(scene)) ? cell.body_force.live
                                            : cell.body_force.dead) +=
             seepage_force_of_cell(bound, c);
         cells.push_back(cell);

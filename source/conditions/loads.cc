@@ -201,7 +201,8 @@ namespace geocone::GEOCONE_DIM
           for (unsigned int dof = 0; dof < force.locally_owned_size(); ++dof)
             force.local_element(dof) +=
               g[dof % dim] * weight_per_g.local_element(dof);
-        if (scene.water.acts() && !scaled)
+        if (scene.water.acts() &&
+            (scene.water.scales_with_weight() ? counts("weight") : !scaled))
           {
             const std::vector<double> parts =
               scene.water.interpolation_weights(t);

@@ -44,6 +44,10 @@ namespace geocone::GEOCONE_DIM
           "false with a 'Bishop parameter'",
           "consolidating soil is saturated: leave out 'Materials/" +
             scene->materials.name(m) + "/Bishop parameter'");
+    if (scene->water.scales_with_weight())
+      refuse_consolidation("false with a 'Water/Pore pressure ratio'",
+                           "its pressures do not dissipate: give steady ones "
+                           "by 'Water/Table'");
     if (scene->water.flow_steps().size() > 1)
       refuse_consolidation(
         "false where the steady pore pressures change in time",

@@ -427,7 +427,8 @@ namespace geocone::GEOCONE_DIM
     const Tensor<1, dim> g =
       has_weight ? scene->gravity.at(t) : Tensor<1, dim>();
     moving->add_tractions(dst, t, stage, scaled);
-    if (scene->water.acts() && !scaled)
+    if (scene->water.acts() &&
+        (scene->water.scales_with_weight() ? has_weight : !scaled))
       add_water(points, t, dst);
     for (unsigned int dof = 0; dof < dst.locally_owned_size(); ++dof)
       dst.local_element(dof) =

@@ -251,9 +251,12 @@ namespace geocone::GEOCONE_DIM
                                mesh_parameters.type.word(),
                                "unstructured where there is water and "
                                "'Analysis/Kind' is not steps",
-                               format("the table cuts the cell at (%g, %g); "
+                               format("%s the cell at (%g, %g); "
                                       "strict bounds need cells on one side of "
                                       "it",
+                                      scene.water.scales_with_weight()
+                                        ? "a kink of the pore pressures cuts"
+                                        : "the table cuts",
                                       centre[0],
                                       centre[1]));
           }

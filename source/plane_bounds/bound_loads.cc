@@ -1,6 +1,7 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <geocone/bounds/load_choice.h>
 #include <geocone/cone/second_order_cone.h>
 #include <geocone/materials/retention.h>
 #include <geocone/plane_bounds/bar_rows.h>
@@ -136,7 +137,7 @@ namespace geocone::GEOCONE_DIM
                         side,
                         cell,
                         seepage_force_of_cell(bound, cell),
-                        bound.loads(problem, LoadFactor::all));
+                        bound.loads(problem, factor_of_water(bound.scene)));
   }
 
   std::optional<std::array<double, 3>>

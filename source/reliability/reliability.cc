@@ -123,10 +123,7 @@ namespace geocone::GEOCONE_DIM
         "Analysis/Confidence", confidence, "> 0, < 1", "0.95 is usual");
     prepare_scene(options);
     scene.materials.refuse_strength_formulas("with " + where());
-    if (scene.water.acts())
-      throw InputError("Water/Table",
-                       "set",
-                       "none with " + where(),
+    scene.water.refuse(where(),
                        "give undrained strengths and total unit weights");
     prepare_triangles();
     first_mesh.emplace(fitted_mesh(mesh_parameters, scene, comm));

@@ -376,6 +376,11 @@ namespace geocone::GEOCONE_DIM
       place[1]                 = y;
       return water == nullptr ? 0. : water->pressure(place);
     };
+    const auto saturates = [&](const double y) {
+      dealii::Point<dim> place = x;
+      place[1]                 = y;
+      return water != nullptr && water->saturates(place);
+    };
     double vertical =
       stage < 0 ? pressure(x[1]) - pressure(surface) - surcharge : 0.;
     for (const Layer &layer :
@@ -384,12 +389,10 @@ namespace geocone::GEOCONE_DIM
         {
           const ConstitutiveLaw &law = materials.law(layer.material);
           double                 wet = layer.low; // up to here
-          if (law.saturated_density() > law.density() && pressure(wet) > 0.)
-            wet = pressure(layer.high) > 0.
+          if (law.saturated_density() > law.density() && saturates(wet))
+            wet = saturates(layer.high)
                     ? layer.high
-                    : border(layer.low, layer.high, [&](const double y) {
-                        return pressure(y) > 0.;
-                      });
+                    : border(layer.low, layer.high, saturates);
           vertical -= g * (law.saturated_density() * (wet - layer.low) +
                            law.density() * (layer.high - wet));
           if (stage >= 0)

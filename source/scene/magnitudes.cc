@@ -72,7 +72,7 @@ namespace geocone::GEOCONE_DIM
                  "negative, e.g. 0, -9.81",
                  gravity[1]));
       if (const double weight = scene.water.weight();
-          scene.water.acts() && g > 0. &&
+          scene.water.acts() && !scene.water.scales_with_weight() && g > 0. &&
           (weight < lightest_water * g || weight > heaviest_water * g))
         warnings.push_back(
           format("water weighs %g N/m^3 ('Water/Unit weight'), where its "
@@ -111,9 +111,9 @@ namespace geocone::GEOCONE_DIM
           warnings.push_back(
             format("the density of '%s' is %g kg/m^3", name.c_str(), density));
         if (scene.materials.law(m).saturated_density() > density &&
-            !scene.water.acts())
+            (!scene.water.acts() || scene.water.scales_with_weight()))
           warnings.push_back("the saturated unit weight of '" + name +
-                             "' is not used: there is no water");
+                             "' is not used: there is no water table");
         const auto strength = scene.materials.law(m).plane_strain_strength();
         if (!strength)
           continue;

@@ -112,6 +112,49 @@ namespace geocone::GEOCONE_DIM
         }
     }
 
+    /** Refuses free upright sides where pore pressures follow from the soil
+     *  columns: they are not zero there, and would support the side as those of
+     *  free water. Sides that an obstacle or another body can hold, and tied
+     *  ones, are not checked. */
+    void
+    refuse_free_upright_sides(const Scene &scene)
+    {
+      const Geometry &geometry = scene.geometry;
+      if (!scene.water.scales_with_weight() || scene.has_contact() ||
+          !ParameterFile::value("Discretisation/Tied sides").empty())
+        return;
+      const auto check = [&](const std::string        &name,
+                             const unsigned int        normal,
+                             const dealii::Point<dim> &foot) {
+        for (const auto *conditions : {&scene.dirichlet, &scene.tractions})
+          for (const auto &condition : conditions->list)
+            if (condition->is_on_side(name) &&
+                (condition->components[normal] || condition->normal))
+              return;
+        throw InputError(
+          "Water/Pore pressure ratio",
+          ParameterFile::value("Water/Pore pressure ratio"),
+          "0 with a free upright side, '" + name + "'",
+          format("pore pressures of up to %.3g Pa would support it as those of "
+                 "free water: prescribe its normal velocity or a traction, or "
+                 "incline it over a small distance",
+                 scene.water.pressure(foot)));
+      };
+      const auto [low, high] = geometry.bounding_box();
+      for (const auto &[name, id] : geometry.sides)
+        if constexpr (dim == 2)
+          {
+            const auto [a, b] = geometry.side_ends(id);
+            if (std::abs(a[0] - b[0]) < geometry.rounding() &&
+                !(geometry.is_axisymmetric() && a[0] < geometry.rounding()))
+              check(name, 0, a[1] < b[1] ? a : b);
+          }
+        else
+          for (const unsigned int d : {0, 2})
+            if (name == side_of_box[d][0] || name == side_of_box[d][1])
+              check(name, d, low);
+    }
+
     /** Refuses tensile strengths, which steps know in the plane alone. */
     [[maybe_unused]] void
     refuse_tension(const Materials &materials)
@@ -226,6 +269,7 @@ namespace geocone::GEOCONE_DIM
         for (const auto &condition : conditions->list)
           condition->replace_groups(geometry.sides_of_hole);
       }
+    refuse_free_upright_sides(*this);
   }
 
   void
@@ -234,14 +278,14 @@ namespace geocone::GEOCONE_DIM
     gravity.prepare();
     materials.set_gravity(
       gravity.at(std::numeric_limits<double>::max()).norm());
-    water.prepare(gravity, geometry);
+    water.prepare(gravity, geometry, regions, materials);
   }
 
   double
   Scene::density(const unsigned int material, const dealii::Point<dim> &x) const
   {
     const ConstitutiveLaw &law = materials.law(material);
-    return law.saturated_density() > law.density() && water.pressure(x) > 0.
+    return law.saturated_density() > law.density() && water.saturates(x)
              ? law.saturated_density()
              : law.density();
   }

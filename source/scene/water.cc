@@ -36,6 +36,13 @@ namespace geocone::GEOCONE_DIM
       "analysis, with the columns x, y (m) and u (Pa), a row for each point of "
       "a rectangular grid around the body. At the ground surface it is the "
       "pressure of the open water.");
+    add_parameter(
+      "Pore pressure ratio",
+      pressure_ratio,
+      "Pore pressure ratio r_u [-] instead of a table (Bishop and Morgenstern "
+      "1960), >= 0 and < 1: the pore pressure is r_u times the total vertical "
+      "stress at the start, the weight of the soil column up to the ground "
+      "surface. 0: none.");
     add_parameter("Unit weight", unit_weight, "Unit weight of water [N/m^3].");
   }
 
@@ -48,6 +55,7 @@ namespace geocone::GEOCONE_DIM
                        "empty beside 'Water/Table'",
                        "give the pressures, or the line");
     seepage.prepare(geometry);
+    check_ratio();
     if (seepage.acts() && !(file.empty() && table.empty()))
       throw InputError(file.empty() ? "Water/Table" : "Water/File",
                        file.empty() ? dealii::Patterns::Tools::to_string(table)
@@ -79,7 +87,30 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
-  Water::prepare(const Gravity &gravity, const Geometry &geometry)
+  Water::check_ratio() const
+  {
+    if (!(pressure_ratio >= 0. && pressure_ratio < 1.))
+      throw InputError("Water/Pore pressure ratio",
+                       pressure_ratio,
+                       ">= 0, < 1",
+                       "0.5 is the ratio of water up to the ground, of half of "
+                       "the unit weight of the soil");
+    for (const auto &[is_given, name] :
+         {std::pair<bool, const char *>(!file.empty(), "Water/File"),
+          {!table.empty(), "Water/Table"},
+          {seepage.acts(), "Seepage/Names"}})
+      if (scales_with_weight() && is_given)
+        throw InputError("Water/Pore pressure ratio",
+                         pressure_ratio,
+                         std::string("0 beside '") + name + "'",
+                         "both give the pore pressures: take one of them out");
+  }
+
+  void
+  Water::prepare(const Gravity   &gravity,
+                 const Geometry  &geometry,
+                 const Regions   &regions,
+                 const Materials &materials)
   {
     prepare_pressures(geometry);
     if (!acts())
@@ -92,6 +123,18 @@ namespace geocone::GEOCONE_DIM
         "g_y < 0 where there is water",
         std::string(dim == 2 ? "e.g. 0, -9.81" : "e.g. 0, -9.81, 0") +
           "; or leave the water out");
+    columns.reset();
+    if (!scales_with_weight())
+      return;
+    std::vector<double> weights;
+    for (unsigned int m = 0; m < materials.size(); ++m)
+      weights.push_back(-g[1] * materials.law(m).density());
+    columns.emplace(geometry,
+                    regions,
+                    weights,
+                    "Water/Pore pressure ratio",
+                    pressure_ratio,
+                    "give the pressures by 'Water/File'");
   }
 
   void
@@ -115,6 +158,13 @@ namespace geocone::GEOCONE_DIM
     Seepage::Levels levels = seepage.levels();
     for (const auto &stage : loading.list)
       {
+        if (scales_with_weight() && stage->changes_body())
+          throw InputError("Water/Pore pressure ratio",
+                           pressure_ratio,
+                           "0 where a stage changes the body, as '" +
+                             stage->name + "' does",
+                           "the pressures are those of the soil at the start: "
+                           "give them by 'Water/Table', which stages can move");
         const double end  = begin + stage->duration;
         double       from = begin;
         for (const Seepage::Step &flow : seepage.steps(*stage, begin, levels))
@@ -197,6 +247,8 @@ namespace geocone::GEOCONE_DIM
   bool
   Water::is_level() const
   {
+    if (columns)
+      return columns->are_level();
     return !varies_in_cells() &&
            std::all_of(table.begin(), table.end(), [&](const Point<2> &p) {
              return p[1] == table.front()[1];
@@ -217,6 +269,8 @@ namespace geocone::GEOCONE_DIM
               initial_weights[i] * std::max(all_flows[i].pressure.value(x), 0.);
         return sum;
       }
+    if (columns)
+      return pressure_ratio * columns->stress(x);
     return table.empty()
              ? 0.
              : unit_weight * std::max(level(table, x[0])[0] - x[1], 0.);
@@ -257,6 +311,8 @@ namespace geocone::GEOCONE_DIM
                  ? f
                  : -flow.pressure.gradient(x);
       }
+    if (columns)
+      return -pressure_ratio * columns->gradient(x);
     if (table.empty())
       return f;
     const auto [y, slope] =
@@ -273,6 +329,8 @@ namespace geocone::GEOCONE_DIM
   Water::lines(const Point<dim> &lower, const Point<dim> &upper) const
   {
     std::vector<std::array<Point<dim>, 2>> all;
+    if (columns)
+      return columns->lines();
     if (!table.empty())
       add_lines(table, lower, upper, all);
     for (const Later &of_stage : later)
@@ -320,6 +378,9 @@ namespace geocone::GEOCONE_DIM
   Water::refuse(const std::string &what, const std::string &remedy) const
   {
     seepage.refuse(what, remedy);
+    if (scales_with_weight())
+      throw InputError(
+        "Water/Pore pressure ratio", pressure_ratio, "0 with " + what, remedy);
     if (acts())
       throw InputError(grid ? "Water/File" : "Water/Table",
                        grid ? file : dealii::Patterns::Tools::to_string(table),

@@ -32,8 +32,9 @@ namespace geocone::GEOCONE_DIM
       factor == LoadFactor::weight || factor == LoadFactor::all;
     (is_live ? load.live : load.dead) = b;
     if (scene->water.acts())
-      (factor == LoadFactor::all ? load.live : load.dead) +=
-        seepage_force(cell) * units.length / units.stress;
+      (factor == factor_of_water(*scene) || factor == LoadFactor::all
+         ? load.live
+         : load.dead) += seepage_force(cell) * units.length / units.stress;
     return load;
   }
 

@@ -16,6 +16,15 @@
 
 namespace geocone::GEOCONE_DIM
 {
+  /** Returns the choice of loads that includes the pore pressures: those by the
+   *  pore pressure ratio grow with the weight, others only with all loads. */
+  inline LoadFactor
+  factor_of_water(const Scene &scene)
+  {
+    return scene.water.scales_with_weight() ? LoadFactor::weight
+                                            : LoadFactor::all;
+  }
+
   /** Loads that are multiplied by the load factor of a limit analysis, in two and three
    *  dimensions. */
   class LoadChoice

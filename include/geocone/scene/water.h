@@ -8,7 +8,7 @@
 #include <geocone/boundary/loading.h>
 #include <geocone/functions/pressure_grid.h>
 #include <geocone/functions/simplex_field.h>
-#include <geocone/geometry/geometry.h>
+#include <geocone/geometry/soil_columns.h>
 #include <geocone/scene/seepage.h>
 
 #include <deal.II/base/parameter_acceptor.h>
@@ -27,8 +27,10 @@ namespace geocone
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Pore water pressure: hydrostatic, from a seepage analysis (Seepage) or from
-   * a file (PressureGrid). Water at rest below a piezometric line y = Y(x),
+   * Pore water pressure: hydrostatic, from a seepage analysis (Seepage), from a
+   * file (PressureGrid) or by the pore pressure ratio r_u of Bishop and
+   * Morgenstern (1960), u = r_u sigma_v, where sigma_v is the total vertical
+   * stress of the soil column above (SoilColumns). Water at rest below a piezometric line y = Y(x),
    * uniform along z in three dimensions, has the pressure
    *   u = gamma_w max(0, Y(x) - y).
    * Effective stresses s' = s + u 1 (tension positive) satisfy
@@ -46,10 +48,13 @@ namespace geocone::GEOCONE_DIM
   public:
     explicit Water(const ParameterFile &file);
 
-    /** Checks the parameters. @param geometry of the body, already prepared
-     *  @throws InputError */
+    /** Checks the parameters. @param geometry,regions,materials of the body,
+     *  already prepared @throws InputError */
     void
-    prepare(const Gravity &gravity, const Geometry &geometry);
+    prepare(const Gravity   &gravity,
+            const Geometry  &geometry,
+            const Regions   &regions,
+            const Materials &materials);
 
     /** Checks the parameters of pore water that do not depend on gravity.
      *  @throws InputError */
@@ -59,10 +64,20 @@ namespace geocone::GEOCONE_DIM
     bool
     acts() const
     {
-      return !table.empty() || grid.has_value() || seepage.acts();
+      return !table.empty() || grid.has_value() || seepage.acts() ||
+             scales_with_weight();
     }
 
-    /** Returns true if the water table is horizontal. */
+    /** Returns true if the pore pressures are proportional to the weight of the
+     *  soil, by the pore pressure ratio. */
+    bool
+    scales_with_weight() const
+    {
+      return pressure_ratio > 0.;
+    }
+
+    /** Returns true if the water table is horizontal, or the pore pressures of
+     *  soil columns depend on y alone. */
     bool
     is_level() const;
 
@@ -130,6 +145,15 @@ namespace geocone::GEOCONE_DIM
     double
     pressure(const dealii::Point<dim> &x) const;
 
+    /** Returns true if the soil at x has its saturated density: below the water
+     *  table, where the initial pore pressure is positive. With the pore
+     *  pressure ratio no soil has: unit weights are total ones. */
+    bool
+    saturates(const dealii::Point<dim> &x) const
+    {
+      return !scales_with_weight() && pressure(x) > 0.;
+    }
+
     /** Returns the seepage force -grad u (N/m^3) at the point x for one
      *  piezometric line or flow problem.
      *  @param line index: 0 initially, then in the order of stages */
@@ -164,7 +188,8 @@ namespace geocone::GEOCONE_DIM
     /**
      * Returns the line segments across which the seepage force is
      * discontinuous. These are the water table, and vertical lines below its
-     * vertices. The list is empty for pressures from a file or from seepage.
+     * vertices, or those of the soil columns. The list is empty for pressures
+     * from a file or from seepage.
      * @param lower,upper corners of a box around the body
      */
     std::vector<std::array<dealii::Point<dim>, 2>>
@@ -178,6 +203,11 @@ namespace geocone::GEOCONE_DIM
 
   private:
     using Table = std::vector<dealii::Point<2>>; ///< vertices (x, y)
+
+    /** Rejects a pore pressure ratio out of its limits or beside other pore
+     *  pressures. @throws InputError */
+    void
+    check_ratio() const;
 
     /** Checks that the x coordinates of a piezometric line increase. @throws
      *  InputError */
@@ -199,6 +229,8 @@ namespace geocone::GEOCONE_DIM
     std::string                 file;
     std::optional<PressureGrid> grid;
     Table                       table;
+    double                      pressure_ratio = 0.; ///< r_u
+    std::optional<SoilColumns>  columns;
     std::vector<Flow>           all_flows;
     std::vector<double> initial_weights; ///< parts() at the initial time
 
