@@ -209,10 +209,7 @@ namespace geocone::GEOCONE_DIM
         v[change_of_node] = node.change;
       }
     if (obstacles != nullptr)
-      {
-        obstacles->push(is_prescribed, least_mass, sum);
-        relieve_supports();
-      }
+      push_by_obstacles();
     if (water != nullptr)
       water->add_velocity_of_soil(dt);
     if (moves)
@@ -297,8 +294,9 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
-  NodalUpdate::relieve_supports()
+  NodalUpdate::push_by_obstacles()
   {
+    obstacles->push(is_prescribed, least_mass, sum);
     const auto &carried = obstacles->impulses_on_supports();
     if (carried.empty())
       return;

@@ -135,10 +135,11 @@ namespace geocone::GEOCONE_DIM
     void
     add_impulse(const PrescribedNode &node, const double impulse);
 
-    /** Subtracts from the reactions of boundary conditions what obstacles push into
-     *  them: both then are the forces that act on the body. */
+    /** Adds the contact forces of obstacles to the nodal velocities. What they push
+     *  into supports is subtracted from the reactions of the boundary conditions: both
+     *  then are the forces that act on the body. */
     void
-    relieve_supports();
+    push_by_obstacles();
 
     /** Adds the work done by gravity on the points during the step, from the
      *  nodal velocities (array GridTransfer::read) with which the points
