@@ -22,9 +22,9 @@ namespace mechanics_soil_columns_01
   test()
   {
     dealii::ParameterAcceptor::clear();
-    const ParameterFile file(GEOCONE_SOURCE_DIR
-                             "/tests/mechanics/soil_columns.prm");
-    Scene               scene(file);
+    const ParameterFile file(
+      GEOCONE_SOURCE_DIR "/tests/mechanics/soil_columns.prm", {});
+    Scene scene(file);
     file.parse();
     scene.prepare();
     for (const Place &x : {Place(2., 8.),
