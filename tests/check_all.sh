@@ -31,6 +31,6 @@ n_checked=$(find . -name '*.checked' | wc -l)
 if [ "$n_files" != "$n_checked" ] || [ -e results ]; then
   echo "$n_checked of $n_files files were checked"
   ls
-  tail -5 all stderr
+  tail -n 5 all stderr
   exit 1
 fi
