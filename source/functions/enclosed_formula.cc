@@ -276,7 +276,9 @@ namespace geocone::GEOCONE_DIM
       Enclosed
       magnitude(const Enclosed &x)
       {
-        return larger(x, negative(x));
+        Enclosed e = larger(x, negative(x));
+        e.value    = RealInterval(std::max(lower(e.value), 0.), upper(e.value));
+        return e;
       }
 
       Enclosed
@@ -331,13 +333,23 @@ namespace geocone::GEOCONE_DIM
         return jump(RealInterval(-pi, pi));
       }
 
-      /** Truth of a value: 1, 0, or not known. */
+      /** Truth of a value, of `?:` that of a number that is not zero: 1, 0, or not
+       *  known. */
       RealInterval
       truth(const RealInterval &x)
       {
         if (lower(x) == 0. && upper(x) == 0.)
           return RealInterval(0.);
         return zero_in(x) ? RealInterval(0., 1.) : RealInterval(1.);
+      }
+
+      /** Truth in `if`, `&` and `|`: that of the nearest whole number. */
+      RealInterval
+      rounded_truth(const RealInterval &x)
+      {
+        return is_bounded(x) ? truth(RealInterval(std::round(lower(x)),
+                                                  std::round(upper(x))))
+                             : RealInterval(0., 1.);
       }
 
       /** 1 where all values of x are positive, 0 where none is. */
@@ -448,7 +460,7 @@ namespace geocone::GEOCONE_DIM
            }},
           {"exp", exponential},
           {"floor", [](E x) { return steps(x, std::floor); }},
-          {"int", [](E x) { return steps(x, nearest); }},
+          {"int", [](E x) { return steps(x, std::round); }},
           {"ln", logarithm},
           {"log", logarithm},
           {"log10",
@@ -484,7 +496,7 @@ namespace geocone::GEOCONE_DIM
         if (name == "atan2")
           return angle(x[0], x[1]);
         if (name == "if")
-          return choice(x[0].value, x[1], x[2]);
+          return choice(rounded_truth(x[0].value), x[1], x[2]);
         if (name == "pow")
           return power(x[0], x[1]);
         Enclosed e = x[0];
@@ -517,7 +529,8 @@ namespace geocone::GEOCONE_DIM
           return jump(truth(difference));
         if (name == "==")
           return jump(RealInterval(1.) - truth(difference));
-        const RealInterval s = truth(a.value), t = truth(b.value);
+        const RealInterval s = rounded_truth(a.value),
+                           t = rounded_truth(b.value);
         return jump(name == "&" ? min(s, t) : max(s, t));
       }
 

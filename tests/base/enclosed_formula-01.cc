@@ -156,7 +156,9 @@ namespace base_enclosed_formula_01
           "erfc(x - 1) + pow(x, y) + pow(y, 3) + _e - pi",
           "20e3*(1 + 0.3*sin(2*pi*x/5)) + 2.5e3*max(0, 2 - y)",
           "1/(x + 0.1) + x/y/2 - 3/(2 + cos(x))",
-          "y <= 1 != (x >= 1)"})
+          "y <= 1 != (x >= 1)",
+          "if(0.4*x, 1, 2) + (x & 1) + (0.3 | y) + (0.4 ? 1 : 2)",
+          "int(x - 1.5)*int(5*y - 6.5) + sqrt(abs(x - 1)) + 3"})
       {
         check_formula(text, "test", FormulaVariables::place);
         Expression exact;
