@@ -202,6 +202,7 @@ namespace geocone::GEOCONE_DIM
     for (const unsigned int material : triangles.material)
       ++n_cells[material];
     refuse_empty_regions(scene, n_cells);
+    refuse_cut_cells(scene, triangles);
     if (scene.geometry.is_axisymmetric())
       return check_axisymmetric_loads(scene, triangles);
     check_strength(scene, triangles);

@@ -30,8 +30,9 @@ namespace geocone::GEOCONE_DIM
       return faces;
     }
 
-    /** Distances of the midpoint and both ends of an edge from an obstacle. */
-    std::array<double, 3>
+    /** Distances of both ends of an edge and of places in it from an obstacle. Obstacles are
+     *  convex, so that they touch a part of the edge that has an end in it, or is inside. */
+    std::vector<double>
     distances(const Obstacle       &obstacle,
               const Point<dim>     &a,
               const Point<dim>     &b,
@@ -40,7 +41,22 @@ namespace geocone::GEOCONE_DIM
       const auto from = [&](const Point<dim> &x) {
         return obstacle.nearest(x, {}, into_body).distance;
       };
-      return {{from(Point<dim>(a + (b - a) / 2.)), from(a), from(b)}};
+      std::vector<double> all = {from(a), from(b)};
+      for (const double part : {1e-3,
+                                0.02,
+                                0.1,
+                                0.2,
+                                0.3,
+                                0.4,
+                                0.5,
+                                0.6,
+                                0.7,
+                                0.8,
+                                0.9,
+                                0.98,
+                                0.999})
+        all.push_back(from(Point<dim>(a + part * (b - a))));
+      return all;
     }
   } // namespace
 
@@ -75,8 +91,8 @@ namespace geocone::GEOCONE_DIM
             const Point<dim> &a    = triangles.vertices[ends[0]],
                              &b    = triangles.vertices[ends[1]];
             const double         tolerance = 1e-6 * a.distance(b);
-            const Tensor<1, dim> n         = normal_into_body(held);
-            const auto           found     = distances(obstacle, a, b, n);
+            const Tensor<1, dim> normal    = normal_into_body(held);
+            const auto           found     = distances(obstacle, a, b, normal);
             const std::string    where     = format(
               "the edge from (%g, %g) to (%g, %g)", a[0], a[1], b[0], b[1]);
             if (*std::min_element(found.begin(), found.end()) < -tolerance)
@@ -84,16 +100,21 @@ namespace geocone::GEOCONE_DIM
                                obstacle.name,
                                "outside the body at the start",
                                where + " is in it: move it, or the body");
-            const unsigned int n_touching =
-              std::count_if(found.begin(), found.end(), [&](const double d) {
-                return d < tolerance;
-              });
-            if (n_touching == 3)
+            const auto n_touching = [&](const unsigned int first,
+                                        const unsigned int end) {
+              return std::count_if(
+                found.begin() + first,
+                found.begin() + end,
+                [&](const double d) { return d < tolerance; });
+            };
+            const unsigned int n = found.size(), n_ends = n_touching(0, 2),
+                               n_inside = n_touching(2, n);
+            if (n_ends + n_inside == n)
               {
-                all.push_back({held, n, int(o), faces_of(obstacle)});
+                all.push_back({held, normal, int(o), faces_of(obstacle)});
                 touches = true;
               }
-            else if (n_touching == 2)
+            else if (n_inside > 0 || n_ends == 2)
               throw InputError(
                 obstacle.parameter("Shape"),
                 obstacle.name,

@@ -166,6 +166,19 @@ namespace geocone::GEOCONE_DIM
               all.push_back(x);
               is_inside.push_back(parts[0] * parts[1] * parts[2] > 0);
             }
+        // Next to the edges and corners, where contact in part begins.
+        constexpr double near = 1e-3;
+        for (unsigned int k = 0; k < 3; ++k)
+          for (const double part :
+               {near, 0.1, 0.3, 0.5, 0.7, 0.9, 1. - 2. * near})
+            {
+              const Tensor<1, dim> a(tetrahedra.vertices[v[k]]),
+                b(tetrahedra.vertices[v[(k + 1) % 3]]),
+                c(tetrahedra.vertices[v[(k + 2) % 3]]);
+              all.push_back(
+                Point<dim>((1. - near - part) * a + part * b + near * c));
+              is_inside.push_back(true);
+            }
       }
 
       std::vector<Point<dim>> all;

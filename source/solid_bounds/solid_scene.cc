@@ -261,6 +261,7 @@ namespace geocone::GEOCONE_DIM
     for (const unsigned int material : tetrahedra.material)
       ++n_cells[material];
     refuse_empty_regions(scene, n_cells);
+    refuse_cut_cells(scene, tetrahedra);
     choose_units(scene, tetrahedra);
     check_rigid_motions(scene, tetrahedra, held, units.length);
     if (is_reaction())
