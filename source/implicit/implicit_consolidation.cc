@@ -9,6 +9,7 @@
 #include <geocone/materials/retention.h>
 #include <geocone/problem/consolidation.h>
 
+#include <map>
 #include <set>
 #include <utility>
 #include <vector>
@@ -145,9 +146,14 @@ namespace geocone::GEOCONE_DIM
                        "leave it out");
     scene->structures.refuse(std::string(Drainage::parameter) + " and MPM",
                              "set Discretisation/Method = FEM");
-    scene->water.seepage.refuse(std::string(Drainage::parameter) + " and MPM",
-                                "give a level by 'Water/Table', or set "
-                                "Discretisation/Method = FEM");
+    // The buoyancy of a table would be that of the changing volume.
+    scene->water.refuse(std::string(Drainage::parameter) + " and MPM",
+                        "give soil below water its buoyant density, without a "
+                        "table, or set Discretisation/Method = FEM");
+    scene->dirichlet.refuse_stages(
+      std::string(Drainage::parameter) + " and MPM",
+      "let them act in all stages: a side is "
+      "impervious where its velocity is prescribed");
   }
 
   void
@@ -162,12 +168,26 @@ namespace geocone::GEOCONE_DIM
     std::vector<std::set<dealii::types::boundary_id>> sides;
     for (const auto &condition : conditions)
       sides.push_back(mesh->side_ids(*condition)); // collective
+    // Axes of the normals of the sides of the box.
+    std::map<dealii::types::boundary_id, unsigned int> axis;
+    for (unsigned int d = 0; d < dim; ++d)
+      for (const char *name : side_of_box[d])
+        if (const auto side = mesh->named_sides().find(name);
+            side != mesh->named_sides().end())
+          axis[side->second] = d;
     const auto is_held = [&](const dealii::types::boundary_id side,
                              const dealii::Point<dim>        &x) {
-      bool any = false;
+      const auto along = axis.find(side);
       for (unsigned int c = 0; c < conditions.size(); ++c)
-        any = any || (sides[c].count(side) > 0 && conditions[c]->holds_at(x));
-      return any;
+        {
+          const BoundaryCondition &one = *conditions[c];
+          if (sides[c].count(side) > 0 && !one.moves_with_body() &&
+              one.holds_at(x) &&
+              (along == axis.end() || one.normal ||
+               one.components[along->second]))
+            return true;
+        }
+      return false;
     };
     if constexpr (dim == 2)
       add_flow(points,

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
+#include <geocone/base/log.h>
 #include <geocone/base/over_ranks.h>
 #include <geocone/problem/consolidation.h>
 
@@ -160,9 +161,11 @@ namespace geocone::GEOCONE_DIM
       if (row[node] >= 0 && row[node] < A.n_owned && functions.is_drained[node])
         A.value[A.entry(row[node], row[node])] = 1.;
     if (!solver->factorise(A))
-      throw RunError("the water balance of a step of " + std::to_string(h) +
-                     " s is singular\n  remedy:  check 'Permeability' and "
-                     "'Pore fluid bulk modulus'");
+      throw RunError(
+        format("the water balance of a step of %g s is singular", h) +
+        "\n  remedy:  check 'Permeability' and 'Pore fluid bulk modulus'; if "
+        "no "
+        "side is drained, water that does not compress has no pressure level");
   }
 
   Vector

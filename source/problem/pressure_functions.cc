@@ -196,11 +196,14 @@ namespace geocone::GEOCONE_DIM
             {
               const unsigned int d = f / 2, along = 1 - d;
               const double       out = outflow * K[d][d] / box.side_length(d) *
-                                 filled[along] * box.side_length(along) / 2. *
-                                 mesh.measure(cell->face(f)->center());
+                                 filled[along] * box.side_length(along);
+              // Integral of the vertex function over the face, linear in the measure.
               for (unsigned int i = 0; i < n; ++i)
                 if ((d == 0 ? i % 2 : i / 2) == f % 2)
-                  matrix[(n + 1) * i] += out;
+                  matrix[(n + 1) * i] +=
+                    out / 6. *
+                    (mesh.measure(cell->vertex(i)) +
+                     2. * mesh.measure(cell->face(f)->center()));
             }
       }
 
