@@ -95,10 +95,11 @@ namespace geocone::GEOCONE_DIM
         if (!is_thinner(*obstacle, side))
           continue;
         bool is_lost = obstacle->is_free();
-        for (const double part : {0., 0.5, 1.})
+        constexpr unsigned int n_times = 1000; // at which it may move
+        for (unsigned int i = 0; i <= n_times && !is_lost; ++i)
           {
-            const RigidMotion V =
-              obstacle->velocity(part * scene.loading.duration());
+            const RigidMotion V = obstacle->velocity(double(i) / n_times *
+                                                     scene.loading.duration());
             for (unsigned int k = 0; k < n_motions; ++k)
               is_lost = is_lost || V[k] != 0.;
           }

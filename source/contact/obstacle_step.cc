@@ -9,6 +9,8 @@
 
 namespace geocone::GEOCONE_DIM
 {
+  using dealii::Point;
+
   std::vector<ObstacleBody>
   bodies_of_step(const Scene                    &scene,
                  const std::vector<RigidMotion> &velocity,
@@ -40,11 +42,35 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    /** Twice the depth of the centre. */
+    /** Diameter of the largest inscribed disc or ball, whose centre is found from that of
+     *  the obstacle by steps that are halved: the depth is concave. */
     double
     thickness(const Obstacle &obstacle)
     {
-      return -2. * obstacle.nearest(obstacle.centre(), {}, {}).distance;
+      Point<dim> x     = obstacle.centre();
+      const auto depth = [&](const Point<dim> &at) {
+        return -obstacle.nearest(at, {}, {}).distance;
+      };
+      double deepest = depth(x);
+      for (double step = std::abs(deepest); step > 1e-3 * std::abs(deepest);
+           step /= 2.)
+        for (bool again = true; again;)
+          {
+            again = false;
+            for (const double sign : {-1., 1.})
+              for (unsigned int d = 0; d < dim; ++d)
+                {
+                  Point<dim> other = x;
+                  other[d] += sign * step;
+                  if (const double own = depth(other); own > deepest)
+                    {
+                      x       = other;
+                      deepest = own;
+                      again   = true;
+                    }
+                }
+          }
+      return 2. * deepest;
     }
   } // namespace
 
