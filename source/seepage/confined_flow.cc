@@ -145,18 +145,22 @@ namespace geocone::GEOCONE_DIM
             matrix.value[matrix.entry(nodes[a], nodes[b])] +=
               local[a * nodes.size() + b];
       }
+    // Prescribed rows and columns are eliminated, so that the matrix stays symmetric.
     const SparseMatrix  balance = matrix;
     std::vector<double> h(n, 0.);
     for (unsigned int i = 0; i < n; ++i)
-      if (prescribed[i])
+      for (int e = matrix.row_start[i]; e < matrix.row_start[i + 1]; ++e)
         {
-          const double diagonal = matrix.value[matrix.entry(i, i)];
-          for (int e = matrix.row_start[i]; e < matrix.row_start[i + 1]; ++e)
+          const unsigned int j = matrix.column[e];
+          if (prescribed[i] && i == j)
+            h[i] = matrix.value[e] * (*prescribed[i] + positions[i][1]);
+          else if (!prescribed[i] && prescribed[j])
+            h[i] -= matrix.value[e] * (*prescribed[j] + positions[j][1]);
+          if ((prescribed[i] || prescribed[j]) && i != j)
             matrix.value[e] = 0.;
-          matrix.value[matrix.entry(i, i)] = diagonal;
-          h[i] = diagonal * (*prescribed[i] + positions[i][1]);
         }
-    const auto solver = make_umfpack();
+    const auto solver =
+      make_cholmod(LinearSolverParameters::IndexSize::automatic);
     solver->analyse(matrix);
     if (!solver->factorise(matrix))
       throw RunError("the flow of water was not found: its linear system is "
