@@ -166,6 +166,7 @@ namespace geocone::GEOCONE_DIM
               all.push_back(x);
               is_inside.push_back(parts[0] * parts[1] * parts[2] > 0);
             }
+        shown = all[all.size() / 2];
         // Next to the edges and corners, where contact in part begins.
         constexpr double near = 1e-3;
         for (unsigned int k = 0; k < 3; ++k)
@@ -183,6 +184,7 @@ namespace geocone::GEOCONE_DIM
 
       std::vector<Point<dim>> all;
       std::vector<bool>       is_inside;
+      Point<dim>              shown; ///< in messages
     };
 
     /** Returns whether an obstacle touches a facet. @throws InputError if in part */
@@ -194,7 +196,7 @@ namespace geocone::GEOCONE_DIM
     {
       const double         tolerance = 1e-6 * std::sqrt(tetrahedra.area(facet));
       const Tensor<1, dim> into_body = -tetrahedra.normal(facet);
-      const Point<dim>     x         = points.all[points.all.size() / 2];
+      const Point<dim>    &x         = points.shown;
       const std::string    where =
         format("the face at (%g, %g, %g)", x[0], x[1], x[2]);
       unsigned int n_touching = 0, n_inside = 0;
