@@ -536,16 +536,14 @@ namespace geocone::GEOCONE_DIM
   }
 
   BoundScene
-  BoundedLoad::reduced(const Scene     &scene,
-                       const Triangles &triangles,
-                       const double     F) const
+  BoundedLoad::reduced(BoundScene bound, const double F) const
   {
-    BoundScene bound = on(scene, triangles);
+    const Materials &materials = bound.scene.materials;
     for (unsigned int m = 0; m < bound.strengths.size(); ++m)
-      if (scene.materials[m].is_reduced())
+      if (materials[m].is_reduced())
         bound.strengths[m].reduce(F);
     for (unsigned int m = 0; m < flow_cones.size(); ++m)
-      if (scene.materials[m].is_reduced())
+      if (materials[m].is_reduced())
         {
           const double a = flow_cones[m].a, cos_phi = std::sqrt(1. - a * a);
           bound.change(m, a / cos_phi / F, 1. / cos_phi / F, 1. / F);
@@ -554,16 +552,14 @@ namespace geocone::GEOCONE_DIM
   }
 
   BoundScene
-  BoundedLoad::by_davis(const Scene       &scene,
-                        const Triangles   &triangles,
+  BoundedLoad::by_davis(BoundScene         bound,
                         const double       F,
                         const DavisVariant variant) const
   {
-    BoundScene bound = on(scene, triangles);
     for (unsigned int m = 0; m < flow_cones.size(); ++m)
       {
         const FlowCone &cone   = flow_cones[m];
-        const double    by     = scene.materials[m].is_reduced() ? F : 1.;
+        const double    by     = bound.scene.materials[m].is_reduced() ? F : 1.;
         const auto      cosine = [](const double sine) {
           return std::sqrt(1. - sine * sine);
         };

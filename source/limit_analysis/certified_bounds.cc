@@ -183,7 +183,7 @@ namespace geocone::GEOCONE_DIM
                  const double       tolerance)
   {
     const BoundScene davis =
-      load.by_davis(scene, triangles, 1., DavisVariant::A);
+      load.by_davis(load.on(scene, triangles), 1., DavisVariant::A);
     return {{load.load_of_unit_factor() *
                certified_lower(davis, tolerance).bound.load,
              load.load_of_unit_factor() *

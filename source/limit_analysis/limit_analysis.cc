@@ -326,11 +326,10 @@ namespace geocone::GEOCONE_DIM
   LimitAnalysis::bound_factor()
   {
     // A stopped level is repeated.
-    StrengthReduction next = reduction;
-    reduced                = next.on_mesh(
-      [&](const double F) {
-        return bounded_load.reduced(scene, *triangles, F);
-      },
+    StrengthReduction next  = reduction;
+    const BoundScene  given = bounded_load.on(scene, *triangles);
+    reduced                 = next.on_mesh(
+      [&](const double F) { return bounded_load.reduced(given, F); },
       inner_tolerance());
     reduction        = next;
     bounds           = std::move(reduced.bounds);
@@ -363,11 +362,11 @@ namespace geocone::GEOCONE_DIM
       fans = std::move(sizes->fans);
     else if (file_domain || mesh_parameters.is_unstructured())
       {
+        const BoundScene given = bounded_load.on(scene, *triangles);
         const BoundScene bound =
           reduces_strength()
-            ? bounded_load.reduced(
-                scene, *triangles, level.certified() ? level.upper : 1.)
-            : bounded_load.on(scene, *triangles);
+            ? bounded_load.reduced(given, level.certified() ? level.upper : 1.)
+            : given;
         // The load is known roughly. An eighth of the gap is left to the rays, or more of it
         // where fans would have more than half of the triangles.
         const double load = reduces_strength() ? 1. : bounds.upper.bound.load;
@@ -479,8 +478,8 @@ namespace geocone::GEOCONE_DIM
                                bounded_load.load_of_unit_factor());
     const double F_lower   = reduced.lower.value_or(1.),
                  F_upper   = reduced.upper.value_or(1.);
-    const BoundScene below = bounded_load.reduced(scene, *triangles, F_lower),
-                     above = bounded_load.reduced(scene, *triangles, F_upper);
+    const BoundScene below = bounded_load.reduced(given, F_lower),
+                     above = bounded_load.reduced(given, F_upper);
     return gradients_of_safety(given,
                                {below, reduced.lower_proof, F_lower},
                                {above, reduced.upper_proof, F_upper});
@@ -559,6 +558,7 @@ namespace geocone::GEOCONE_DIM
     if (!reduces_strength())
       return {
         davis_estimate(bounded_load, scene, *triangles, inner_tolerance())};
+    const BoundScene given = bounded_load.on(scene, *triangles);
     std::vector<std::array<double, 2>> estimates;
     for (const DavisVariant variant :
          {DavisVariant::A, DavisVariant::B, DavisVariant::C})
@@ -566,7 +566,7 @@ namespace geocone::GEOCONE_DIM
         const StrengthReduction::Level estimate =
           StrengthReduction(reduction).on_mesh(
             [&](const double F) {
-              return bounded_load.by_davis(scene, *triangles, F, variant);
+              return bounded_load.by_davis(given, F, variant);
             },
             inner_tolerance());
         estimates.push_back(

@@ -71,19 +71,17 @@ namespace geocone::GEOCONE_DIM
     BoundScene
     on(const Scene &scene, const Triangles &triangles) const;
 
-    /** Returns the input of a limit analysis on a mesh for the strength reduced
-     *  by the factor F, i.e. c/F and tan(phi)/F. */
+    /** Returns the input of a limit analysis for the strength reduced by the factor F,
+     *  i.e. c/F and tan(phi)/F. @param bound input on a mesh, of on() */
     BoundScene
-    reduced(const Scene     &scene,
-            const Triangles &triangles,
-            const double     F) const;
+    reduced(BoundScene bound, const double F) const;
 
-    /** Returns the input of a limit analysis on a mesh for Davis's equivalent material.
+    /** Returns the input of a limit analysis for Davis's equivalent material.
      *  This material has associated flow and the strength q c/F and q tan(phi)/F, where q
-     *  = cos(theta) cos(phi)/(1 - sin(theta) sin(phi)). */
+     *  = cos(theta) cos(phi)/(1 - sin(theta) sin(phi)). @param bound input on a mesh, of
+     *  on() */
     BoundScene
-    by_davis(const Scene       &scene,
-             const Triangles   &triangles,
+    by_davis(BoundScene         bound,
              const double       F,
              const DavisVariant variant) const;
 
