@@ -31,16 +31,17 @@ namespace base_enclosed_formula_01
     return std::uniform_real_distribution<double>(a, b)(random_bits);
   }
 
-  Range
+  RealInterval
   around(const double x, const double size)
   {
     return {x - size * uniform(0., 1.), x + size * uniform(0., 1.)};
   }
 
   bool
-  is_in(const double value, const Range &bounds, const double rounding)
+  is_in(const double value, const RealInterval &bounds, const double rounding)
   {
-    return value >= bounds.least - rounding && value <= bounds.most + rounding;
+    return value >= lower(bounds) - rounding &&
+           value <= upper(bounds) + rounding;
   }
 
   /** Counts values outside of the bounds. */
@@ -50,20 +51,19 @@ namespace base_enclosed_formula_01
     unsigned int n = 0;
     for (unsigned int i = 0; i < 300; ++i)
       {
-        const double               size = std::pow(10., uniform(-6., 0.));
-        const Point<2>             x(uniform(0.2, 2.), uniform(0.3, 2.));
-        const std::array<Range, 2> point = {{{x[0], x[0]}, {x[1], x[1]}}},
-                                   box   = {{around(x[0], 0.1 * size),
-                                             around(x[1], 0.1 * size)}};
+        const double      size = std::pow(10., uniform(-6., 0.));
+        const Point<2>    x(uniform(0.2, 2.), uniform(0.3, 2.));
+        const IntervalBox point = {{RealInterval(x[0]), RealInterval(x[1])}},
+                          box   = {{around(x[0], 0.1 * size),
+                                    around(x[1], 0.1 * size)}};
         const Enclosure here = enclosed.in(point), all = enclosed.in(box);
         const double    value = exact.value(x, 0.),
                      rounding = 1e-12 * (1. + std::abs(value));
         n += !is_in(value, here.value, rounding);
-        n += here.is_lipschitz &&
-             here.value.most - here.value.least > 2. * rounding;
+        n += here.is_lipschitz && width(here.value) > 2. * rounding;
         const auto in_box = [&]() {
-          return Point<2>(uniform(box[0].least, box[0].most),
-                          uniform(box[1].least, box[1].most));
+          return Point<2>(uniform(lower(box[0]), upper(box[0])),
+                          uniform(lower(box[1]), upper(box[1])));
         };
         for (unsigned int j = 0; j < 10; ++j)
           {
@@ -72,14 +72,8 @@ namespace base_enclosed_formula_01
             n += !is_in(of_a, all.value, rounding);
             if (!all.is_lipschitz)
               continue;
-            Range change = {0., 0.};
-            for (unsigned int d = 0; d < 2; ++d)
-              {
-                const double u = all.gradient[d].least * (b[d] - a[d]),
-                             v = all.gradient[d].most * (b[d] - a[d]);
-                change.least += std::min(u, v);
-                change.most += std::max(u, v);
-              }
+            const RealInterval change =
+              all.gradient[0] * (b[0] - a[0]) + all.gradient[1] * (b[1] - a[1]);
             n += !is_in(of_b - of_a, change, rounding);
           }
       }

@@ -4,32 +4,16 @@
 #ifndef geocone_functions_enclosed_formula_h
 #define geocone_functions_enclosed_formula_h
 
-#include <geocone/base/types.h>
+#include <geocone/functions/interval_functions.h>
 
 #include <deal.II/base/point.h>
 
 #include <array>
-#include <memory>
+#include <functional>
 #include <string>
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Range of real numbers between two bounds. */
-  struct Range
-  {
-    double least, most;
-  };
-
-  /** Bounds of the values and the gradient of a function in a box. */
-  struct Enclosure
-  {
-    Range                  value;
-    std::array<Range, dim> gradient; ///< generalised; of Lipschitz functions
-
-    /** False if the function may jump, or its gradient be infinite. */
-    bool is_lipschitz = true;
-  };
-
   /**
    * Formula in the coordinates with rigorous bounds of its values and gradients in a box,
    * by interval arithmetic (natural extension, gradient by the chain rule; Moore 1966).
@@ -42,16 +26,17 @@ namespace geocone::GEOCONE_DIM
     /** @param text accepted by check_formula() with FormulaVariables::place */
     explicit EnclosedFormula(const std::string &text);
 
-    /** Bounds of the values and gradients in a box of positions (m), but for rounding
-     *  errors. */
+    /** Bounds of the values and gradients in a box, but for rounding errors. */
     Enclosure
-    in(const std::array<Range, dim> &box) const;
+    in(const IntervalBox &box) const
+    {
+      return function(box);
+    }
 
     /** Linear functions below and above the values on a simplex. */
     struct OnSimplex
     {
-      std::array<double, dim + 1> below,
-        above; ///< linear bounds, at the vertices
+      std::array<double, dim + 1> below, above; ///< at the vertices
     };
 
     /**
@@ -65,8 +50,7 @@ namespace geocone::GEOCONE_DIM
     on_simplex(const std::array<dealii::Point<dim>, dim + 1> &vertices) const;
 
   private:
-    class Evaluation;
-    std::shared_ptr<const Evaluation> evaluation;
+    std::function<Enclosure(const IntervalBox &)> function;
   };
 } // namespace geocone::GEOCONE_DIM
 
