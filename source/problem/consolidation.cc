@@ -163,8 +163,7 @@ namespace geocone::GEOCONE_DIM
     if (!solver->factorise(A))
       throw RunError(
         format("the water balance of a step of %g s is singular", h) +
-        "\n  remedy:  check 'Permeability' and 'Pore fluid bulk modulus'; if "
-        "no "
+        "\n  remedy:  check 'Permeability' and 'Pore fluid bulk modulus'; if no "
         "side is drained, water that does not compress has no pressure level");
   }
 

@@ -25,8 +25,9 @@ namespace geocone::GEOCONE_DIM
    * PorePressures are sums over the points,
    *   G = sum V (B' 1) N',   M = sum V (n/K_w) N' N,   A = M + S + h L,
    *   f = sum V (n/K_w) N' p_n + S p_n,
-   * with the pressures p_n of the points at t_n, and of the vertices in S p_n. Pressures are stored as the
-   * first components of nodes in vectors with the layout of the velocities.
+   * with the pressures p_n of the points at t_n, and of the vertices in S p_n.
+   * Pressures are stored as the first components of nodes in vectors with the
+   * layout of the velocities.
    */
   class Consolidation : public PorePressures
   {
