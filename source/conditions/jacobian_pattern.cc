@@ -65,7 +65,6 @@ namespace geocone::GEOCONE_DIM
     : one_triangle(one_triangle)
   {
     const unsigned int      n      = points.n_nodes;
-    const unsigned int      n_dofs = dim * n;
     const std::vector<int> &row_of = unknowns.free_row;
 
     matrix              = SparseMatrix();
@@ -90,32 +89,39 @@ namespace geocone::GEOCONE_DIM
                   matrix.column.push_back(row_of[dim * other + d]);
             matrix.row_start.push_back(matrix.column.size());
           }
+    matrix.column.shrink_to_fit();
     matrix.value.assign(matrix.column.size(), 0.);
 
-    // The columns of a node's components are adjacent: one search finds all.
-    places_of_cell =
-      std::size_t(n_dofs) * (one_triangle ? n_dofs + 1 : 2 * n_dofs) / 2;
-    places.reserve(points.n_cells() * places_of_cell);
-    std::vector<int> rows(n_dofs);
-    const auto index_of = [&](const unsigned int i, const unsigned int j) {
-      return rows[i] < 0 || rows[j] < 0 ? -1
-             : one_triangle && rows[i] < rows[j]
-               ? matrix.entry(rows[j], rows[i])
-               : matrix.entry(rows[i], rows[j]);
+    // The columns of a node's components are adjacent, and so are its rows.
+    const auto first_row = [&](const unsigned int node) {
+      int row = -1;
+      for (unsigned int d = dim; d-- > 0;)
+        row = row_of[dim * node + d] >= 0 ? row_of[dim * node + d] : row;
+      return row;
     };
+    const auto distance = [&](const int row, const int column) {
+      return row < 0 || column < 0
+               ? 0
+               : matrix.entry(row, column) - matrix.row_start[row];
+    };
+    pairs_of_cell = std::size_t(n) * (one_triangle ? n + 1 : 2 * n) / 2;
+    rows.reserve(points.n_cells() * dim * n);
+    offsets.reserve(points.n_cells() * pairs_of_cell);
+    std::vector<int> first(n);
     for (unsigned int c = 0; c < points.n_cells(); ++c)
       {
         for (unsigned int i = 0; i < n; ++i)
-          for (unsigned int d = 0; d < dim; ++d)
-            rows[dim * i + d] = row_of[dim * points.nodes[c * n + i] + d];
-        for (unsigned int i = 0; i < n_dofs; ++i)
-          for (unsigned int j = one_triangle ? i : 0; j < n_dofs; ++j)
-            {
-              const bool second =
-                j % dim == 1 && rows[i] >= 0 && rows[j - 1] >= 0 &&
-                rows[j] >= 0 && (!one_triangle || (j > i && rows[j] < rows[i]));
-              places.push_back(second ? places.back() + 1 : index_of(i, j));
-            }
+          {
+            const unsigned int node = points.nodes[c * n + i];
+            first[i]                = first_row(node);
+            for (unsigned int d = 0; d < dim; ++d)
+              rows.push_back(row_of[dim * node + d]);
+          }
+        for (unsigned int i = 0; i < n; ++i)
+          for (unsigned int j = one_triangle ? i : 0; j < n; ++j)
+            offsets.push_back(one_triangle && first[i] < first[j]
+                                ? -1 - distance(first[j], first[i])
+                                : distance(first[i], first[j]));
       }
     diagonal.resize(matrix.n_rows());
     for (int row = 0; row < matrix.n_rows(); ++row)

@@ -16,7 +16,7 @@ namespace geocone::GEOCONE_DIM
   /**
    * Sparsity pattern of the Jacobian on the free dofs. Two nodes are coupled if they
    * share a cell with material points. Stores the positions of the entries of cell
-   * matrices and of the diagonal in the array of values.
+   * matrices, by pairs of nodes, and of the diagonal in the array of values.
    */
   class JacobianPattern
   {
@@ -55,12 +55,51 @@ namespace geocone::GEOCONE_DIM
     void
     add_cell(const unsigned int c, const double *K, SparseMatrix &matrix) const
     {
-      constexpr int m     = dim * n;
-      const int    *place = &places[c * places_of_cell];
+      constexpr int d = dim, m = d * n;
+      const int    *row    = &rows[std::size_t(m) * c];
+      const int    *offset = &offsets[pairs_of_cell * c];
+      bool          all    = true;
+      int           start[m];  // of the row of a dof in the array of values
+      int           column[m]; // of a dof among the free dofs of its node
       for (int i = 0; i < m; ++i)
-        for (int j = one_triangle ? i : 0; j < m; ++j, ++place)
-          if (*place >= 0)
-            matrix.value[*place] += K[m * i + j];
+        {
+          all       = all && row[i] >= 0;
+          start[i]  = row[i] >= 0 ? matrix.row_start[row[i]] : 0;
+          column[i] = i % d > 0 ? column[i - 1] + (row[i - 1] >= 0) : 0;
+        }
+      double *const value = matrix.value.data();
+      // Adds the block of nodes i and j, or its transpose, to the rows of i.
+      const auto add = [&](const int i, const int j, const int at, auto of) {
+        for (int a = d * i; a < d * (i + 1); ++a)
+          for (int b = 0; b < d; ++b)
+            if (all)
+              value[start[a] + at + b] += of(a, d * j + b);
+            else if (row[a] >= 0 && row[d * j + b] >= 0)
+              value[start[a] + at + column[d * j + b]] += of(a, d * j + b);
+      };
+      const auto plain = [K](const int a, const int b) { return K[m * a + b]; };
+      const auto turned = [K](const int a, const int b) {
+        return K[m * b + a];
+      };
+      for (int i = 0; i < n; ++i)
+        {
+          if (!one_triangle)
+            for (int j = 0; j < n; ++j, ++offset)
+              add(i, j, *offset, plain);
+          else
+            {
+              for (int a = d * i; a < d * (i + 1); ++a)
+                for (int b = a; b < d * (i + 1); ++b)
+                  if (row[a] >= 0 && row[b] >= 0)
+                    value[start[b] + *offset + column[a]] += plain(a, b);
+              ++offset;
+              for (int j = i + 1; j < n; ++j, ++offset)
+                if (*offset >= 0)
+                  add(i, j, *offset, plain);
+                else
+                  add(j, i, -1 - *offset, turned);
+            }
+        }
     }
 
     /** Adds a value to the Jacobian entry of a pair of free dofs. If one triangle
@@ -85,13 +124,20 @@ namespace geocone::GEOCONE_DIM
   private:
     bool one_triangle = false;
 
+    /** Rows of the dofs of each cell, or a negative number for dofs that are
+     *  not free. */
+    std::vector<int> rows;
+
     /**
-     * Positions of the entries of each cell matrix in the array of Jacobian values.
-     * A cell has (dim n_nodes)^2 entries, or one entry per symmetric pair if one
-     * triangle is stored; -1 for dofs that are not free.
+     * Places of the blocks of pairs of nodes of each cell in the rows of the first
+     * node: distance from the start of the row to the first entry in the columns
+     * of the second one. It is the same in the rows of all components of a node,
+     * which have the same columns. All pairs in row-major order or, if one
+     * triangle is stored, the pairs i <= j, where -1 - d is the distance d in the
+     * rows of the second node if these are below those of the first one.
      */
-    std::vector<int> places;
-    std::size_t      places_of_cell = 0;
+    std::vector<int> offsets;
+    std::size_t      pairs_of_cell = 0;
 
     /** Position of the diagonal entry of each free dof in the array of Jacobian
      *  values. */
