@@ -79,50 +79,56 @@ namespace geocone::GEOCONE_DIM
       return is_shear(i) ? t[i] / sqrt2 : t[i];
     }
 
-    /** Names of the cell data: the material and means. */
-    std::vector<std::string>
-    names_of_means(const Materials &materials)
+    /** Cell data at a point: the material, and variables of which means are
+     *  written. */
+    std::vector<
+      std::pair<std::string, std::function<double(const unsigned int)>>>
+    variables_of_cells(const MaterialPoints &points, const Materials &materials)
     {
-      std::vector<std::string> names = {"material"};
-      for (int i = 0; i < n_spatial; ++i)
-        names.push_back(std::string("stress_") + tensor_component[i]);
-      names.push_back("plastic_strain_rate");
-      names.push_back("cumulative_plastic_strain");
+      std::vector<
+        std::pair<std::string, std::function<double(const unsigned int)>>>
+                 list;
+      const auto add = [&](const std::string &name, const auto &value) {
+        list.emplace_back(name, value);
+      };
+      add("material", [&](const unsigned int p) { return points.material[p]; });
+      for (int i = 0; i < n_mandel; ++i)
+        add(std::string("stress_") + tensor_component[i],
+            [&points, i](const unsigned int p) {
+              return component(points.stress[p], i);
+            });
+      if constexpr (dim == 2)
+        add(std::string("stress_") + tensor_component[n_mandel],
+            [&](const unsigned int p) {
+              return materials[points.material[p]].stress_zz(
+                components_of(points.stress[p]), points.history_of(p));
+            });
+      add("plastic_strain_rate",
+          [&](const unsigned int p) { return points.plastic_strain_rate[p]; });
+      add("cumulative_plastic_strain", [&](const unsigned int p) {
+        return points.cumulative_plastic_strain[p];
+      });
       if (materials.traits().undrained)
-        names.push_back("excess_pore_pressure");
-      return names;
+        add("excess_pore_pressure",
+            [&](const unsigned int p) { return points.excess_pressure(p); });
+      return list;
     }
 
-    /** The material and the volume means listed by names_of_means(). */
-    std::vector<double>
-    means_of_cell(const MaterialPoints &points,
-                  const Materials      &materials,
-                  const unsigned int    c)
+    /** Volume mean over the points of a cell. */
+    double
+    mean_over(const MaterialPoints                            &points,
+              const unsigned int                               c,
+              const std::function<double(const unsigned int)> &value)
     {
-      const unsigned int first = points.first_point[c],
-                         last  = points.first_point[c + 1];
-      double area              = 0.;
-      for (unsigned int p = first; p < last; ++p)
-        area += points.volume[p];
-      std::vector<double> means = {double(points.material[first])};
-      const auto          add   = [&](const auto &value) {
-        double sum = 0.;
-        for (unsigned int p = first; p < last; ++p)
+      double volume = 0., sum = 0.;
+      for (unsigned int p = points.first_point[c];
+           p < points.first_point[c + 1];
+           ++p)
+        {
+          volume += points.volume[p];
           sum += points.volume[p] * value(p);
-        means.push_back(sum / area);
-      };
-      for (int i = 0; i < n_mandel; ++i)
-        add([&](const auto p) { return component(points.stress[p], i); });
-      if constexpr (dim == 2)
-        add([&](const auto p) {
-          return materials[points.material[p]].stress_zz(
-            components_of(points.stress[p]), points.history_of(p));
-        });
-      add([&](const auto p) { return points.plastic_strain_rate[p]; });
-      add([&](const auto p) { return points.cumulative_plastic_strain[p]; });
-      if (materials.traits().undrained)
-        add([&](const auto p) { return points.excess_pressure(p); });
-      return means;
+        }
+      return sum / volume;
     }
 
     /** Components of points or vectors, one after another. */
@@ -136,14 +142,8 @@ namespace geocone::GEOCONE_DIM
       };
     }
 
-    FieldTable::Fill
-    copy_of(std::vector<double> &&from)
-    {
-      return [from = std::move(from)](std::vector<double> &to) { to = from; };
-    }
-
-    /** Table of cells as linear ones, with nodal vectors and means, which the table
-     *  owns. */
+    /** Table of cells as linear ones, with nodal vectors and means. All arguments
+     *  must outlive it. */
     FieldTable
     table_of_cells(const BackgroundMesh                              &mesh,
                    const Space                                       &space,
@@ -151,51 +151,63 @@ namespace geocone::GEOCONE_DIM
                    const Materials                                   &materials,
                    const std::vector<std::pair<std::string, Vector>> &on_nodes)
     {
-      const auto parts = sub_cells(space.degree(), mesh.is_simplicial());
-      const std::vector<std::string>   names = names_of_means(materials);
-      std::vector<double>              places, N(points.n_nodes);
-      std::vector<std::vector<double>> vectors(on_nodes.size()),
-        means(names.size());
-      for (unsigned int c = 0; c < points.n_cells(); ++c)
-        {
-          const auto               &cell  = points.cells[c];
-          const unsigned int       *nodes = &points.nodes[c * points.n_nodes];
-          const std::vector<double> mean  = means_of_cell(points, materials, c);
-          for (const auto &part : parts)
-            for (const Point<dim> &unit : part)
-              {
-                const Point<dim> x =
-                  mesh.mapping().transform_unit_to_real_cell(cell, unit);
-                space.evaluate(cell, unit, N.data(), nullptr);
-                for (unsigned int d = 0; d < dim; ++d)
-                  {
-                    places.push_back(x[d]);
-                    for (unsigned int f = 0; f < on_nodes.size(); ++f)
-                      {
-                        double value = 0.;
-                        for (unsigned int i = 0; i < points.n_nodes; ++i)
-                          value += N[i] * on_nodes[f].second.local_element(
-                                            dim * nodes[i] + d);
-                        vectors[f].push_back(value);
-                      }
-                  }
-                for (unsigned int m = 0; m < mean.size(); ++m)
-                  means[m].push_back(mean[m]);
-              }
-        }
+      std::vector<Point<dim>> nodes; // of all parts of a cell
+      for (const auto &part : sub_cells(space.degree(), mesh.is_simplicial()))
+        nodes.insert(nodes.end(), part.begin(), part.end());
       FieldTable table;
       using Kind      = FieldTable::Cell;
       table.cell      = mesh.is_simplicial()
                           ? dim == 2 ? Kind::triangle : Kind::tetrahedron
                         : dim == 2 ? Kind::quadrilateral
                                    : Kind::hexahedron;
-      table.n_nodes   = places.size() / dim;
-      table.positions = copy_of(std::move(places));
-      for (unsigned int f = 0; f < on_nodes.size(); ++f)
+      table.n_nodes   = points.n_cells() * nodes.size();
+      table.positions = [&, nodes](std::vector<double> &to) {
+        auto value = to.begin();
+        for (const auto &cell : points.cells)
+          for (const Point<dim> &unit : nodes)
+            {
+              const Point<dim> x =
+                mesh.mapping().transform_unit_to_real_cell(cell, unit);
+              for (unsigned int d = 0; d < dim; ++d)
+                *value++ = x[d];
+            }
+      };
+      for (const auto &[name, vector] : on_nodes)
         table.columns.push_back(
-          {on_nodes[f].first, dim, copy_of(std::move(vectors[f]))});
-      for (unsigned int m = 0; m < names.size(); ++m)
-        table.columns.push_back({names[m], 1, copy_of(std::move(means[m]))});
+          {name, dim, [&, nodes, v = &vector](std::vector<double> &to) {
+             const unsigned int  n = points.n_nodes;
+             std::vector<double> N(n * nodes.size());
+             auto                value = to.begin();
+             for (unsigned int c = 0; c < points.n_cells(); ++c)
+               {
+                 if (c == 0 || space.is_spline())
+                   for (unsigned int k = 0; k < nodes.size(); ++k)
+                     space.evaluate(
+                       points.cells[c], nodes[k], &N[n * k], nullptr);
+                 for (unsigned int k = 0; k < nodes.size(); ++k)
+                   for (unsigned int d = 0; d < dim; ++d)
+                     {
+                       double sum = 0.;
+                       for (unsigned int i = 0; i < n; ++i)
+                         sum +=
+                           N[n * k + i] *
+                           v->local_element(dim * points.nodes[n * c + i] + d);
+                       *value++ = sum;
+                     }
+               }
+           }});
+      for (const auto &[name, value] : variables_of_cells(points, materials))
+        table.columns.push_back(
+          {name,
+           1,
+           [&, n = nodes.size(), is_first = name == "material", value = value](
+             std::vector<double> &to) {
+             for (unsigned int c = 0; c < points.n_cells(); ++c)
+               std::fill_n(to.begin() + n * c,
+                           n,
+                           is_first ? value(points.first_point[c])
+                                    : mean_over(points, c, value));
+           }});
       return table;
     }
 
