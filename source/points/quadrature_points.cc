@@ -24,7 +24,7 @@ namespace geocone::GEOCONE_DIM
     const unsigned int p = space.degree();
     if (!mesh.is_simplicial())
       return QGauss<dim>(p + 1);
-    if (p < 3) // 1 point of degree 1; 3 or 4 of degree 2
+    if (p < 3) // 1 point of degree 1; 6 of degree 4 in the plane, 3 in space
       return QGaussSimplex<dim>(p);
     return QWitherdenVincentSimplex<dim>(3); // 7 points, degree 5
   }
@@ -119,15 +119,18 @@ namespace geocone::GEOCONE_DIM
     MaterialPoints points;
     points.n_nodes = space.nodes_per_cell();
     points.use(false, scene.materials.n_history());
+    for (const auto &cell : mesh.own_cells())
+      if (is_there(cell))
+        points.cells.push_back(cell);
     CellValues values(space, mesh, stress_quadrature(space, mesh));
+    const std::size_t n_points = points.cells.size() * values.quadrature.size();
+    points.set_capacity(n_points);
+    points.gradients.reserve(n_points * dim * points.n_nodes);
     std::vector<types::global_dof_index> nodes;
     HistoryStart                         start;
-    for (const auto &cell : mesh.own_cells())
+    for (const auto &cell : points.cells)
       {
-        if (!is_there(cell))
-          continue;
         values.reinit(cell);
-        points.cells.push_back(cell);
         space.cell_nodes(cell, nodes);
         for (const types::global_dof_index node : nodes)
           points.nodes.push_back(space.local_node(node));
