@@ -17,8 +17,10 @@ namespace geocone
     /**
      * Conjugate gradients, or GMRES for non-symmetric matrices, with a
      * preconditioner. Systems that take too many iterations are solved
-     * directly, and so are the next ones: one after the first failure, two
-     * after the next, and so on, until one converges in time.
+     * directly, and so are the next ones: one after the first failure, three
+     * after the next, and so on, until one converges in time. Systems that are
+     * too large for this have the solution of the last iteration, if its
+     * residual is below the right-hand side.
      */
     class IterativeSolver : public LinearSolver
     {
@@ -32,6 +34,7 @@ namespace geocone
         , largest_tolerance(
             std::max(parameters.tolerance, parameters.largest_tolerance))
         , max_iterations(parameters.max_iterations)
+        , largest_direct(parameters.largest_direct)
         , preconditioner(std::move(preconditioner))
         , direct(std::move(direct))
         , tolerance(parameters.tolerance)
@@ -66,6 +69,8 @@ namespace geocone
       analyse(const SparseMatrix &matrix) override
       {
         direct_is_ready = false;
+        is_large        = nodes.n_components == 3 &&
+                   std::size_t(matrix.n_global) > largest_direct;
         rows.reinit(matrix);
         preconditioner->analyse(matrix, std::move(nodes));
         solution.reinit(rows.layout());
@@ -81,7 +86,7 @@ namespace geocone
           --n_to_skip;
         else
           is_direct = !preconditioner->factorise(matrix);
-        return is_direct ? factorise_directly() : true;
+        return !is_direct || (!is_large && factorise_directly());
       }
 
       void
@@ -123,8 +128,8 @@ namespace geocone
       }
 
     private:
-      /** @return whether the tolerance was reached within the allowed
-       *  iterations */
+      /** @return whether the solution is within the tolerance after the allowed
+       *  iterations, or is to be used without */
       bool
       iterate(double *x)
       {
@@ -154,9 +159,16 @@ namespace geocone
         ++counts.systems;
         counts.total += control.last_step();
         counts.most = std::max(counts.most, control.last_step());
-        if (converged)
+        if (!converged && is_large)
+          {
+            ++counts.stopped;
+            // Neither NaN nor a larger residual than that of zero.
+            if (!(control.last_value() < norm))
+              solution = 0.;
+          }
+        if (converged || is_large)
           std::copy_n(solution.begin(), last->n_owned, x);
-        return converged;
+        return converged || is_large;
       }
 
       /** Factorises the last matrix by the direct solver. */
@@ -206,7 +218,7 @@ namespace geocone
 
       const bool                      symmetric;
       const double                    smallest_tolerance, largest_tolerance;
-      const unsigned int              max_iterations;
+      const unsigned int              max_iterations, largest_direct;
       std::unique_ptr<Preconditioner> preconditioner;
       std::unique_ptr<LinearSolver>   direct;
 
@@ -218,6 +230,7 @@ namespace geocone
 
       const SparseMatrix *last = nullptr; ///< last factorised
       SparseMatrix        for_direct;
+      bool                is_large        = false; ///< for direct solvers
       bool                direct_is_ready = false;
       bool                is_direct       = false;
       unsigned int        n_in_a_row = 0, n_to_skip = 0; ///< failures

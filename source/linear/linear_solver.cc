@@ -19,10 +19,6 @@ namespace geocone
       {"Linear solver/Largest tolerance",
        "Linear solver/Name",
        {"automatic", "multigrid", "p-multigrid"}}};
-
-    /** Number of degrees of freedom in three dimensions up to which 'automatic'
-     *  selects a direct solver (doc/performance.md). */
-    constexpr std::size_t largest_direct_in_space = 300000;
   } // namespace
 
   void
@@ -40,8 +36,7 @@ namespace geocone
       *this,
       "Name",
       ". Automatic: Cholmod for associated flow on one rank, otherwise Mumps; "
-      "beyond 300 000 degrees of freedom in three dimensions p-multigrid, "
-      "where "
+      "beyond Largest direct system in three dimensions p-multigrid, where "
       "it is possible and there are no obstacles. Multigrid needs less memory "
       "in "
       "three dimensions; p-multigrid is for FEM with P2, P3, Q2 or Q3.");
@@ -76,9 +71,18 @@ namespace geocone
     add_parameter("Maximum iterations",
                   max_iterations,
                   "Maximum number of multigrid iterations; if exceeded, a "
-                  "direct solver solves the system.",
+                  "direct solver solves the system, or beyond Largest direct "
+                  "system Newton's method takes the direction found.",
                   prm,
                   dealii::Patterns::Integer(1));
+    add_parameter("Largest direct system",
+                  largest_direct,
+                  "Number of unknowns in three dimensions up to which "
+                  "'automatic' selects a direct solver, and multigrid leaves "
+                  "to one what exceeds Maximum iterations: 300 000 take about "
+                  "5 GB and a minute.",
+                  prm,
+                  dealii::Patterns::Integer(0));
   }
 
   std::unique_ptr<LinearSolver>
@@ -108,8 +112,7 @@ namespace geocone
   LinearSolverParameters::selects_p_multigrid(const std::size_t n_dofs) const
   {
     return name == Name::p_multigrid ||
-           (name == Name::automatic && !out_of_core &&
-            n_dofs > largest_direct_in_space);
+           (name == Name::automatic && !out_of_core && n_dofs > largest_direct);
   }
 
   std::unique_ptr<LinearSolver>

@@ -378,6 +378,7 @@ namespace geocone::GEOCONE_DIM
                               : Json();
         json["linear_iterations_max"]   = counts->most;
         json["factorisations_directly"] = counts->directly;
+        json["linear_solutions_above_tolerance"] = counts->stopped;
       }
     return json;
   }

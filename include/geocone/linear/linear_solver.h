@@ -26,6 +26,7 @@ namespace geocone
     unsigned int total    = 0; ///< iterations for these right-hand sides
     unsigned int most     = 0; ///< for one right-hand side
     unsigned int directly = 0; ///< matrices left to the direct solver
+    unsigned int stopped  = 0; ///< solutions above the tolerance
   };
 
   /**
@@ -152,6 +153,10 @@ namespace geocone
     double       largest_tolerance = 1e-2;
     unsigned int max_iterations    = 200;
 
+    /** Number of unknowns in three dimensions up to which direct solvers are
+     *  used: by 'automatic', and for systems that exceed max_iterations. */
+    unsigned int largest_direct = 300000;
+
     /**
      * Creates the selected linear solver. The following solvers are available:
      * - Cholmod: supernodal Cholesky of SuiteSparse; one rank, symmetric
@@ -209,7 +214,8 @@ namespace geocone
   /** Creates a Krylov solver with a preconditioner: conjugate gradients, or
    *  GMRES for non-symmetric matrices. See LinearSolverParameters for the
    *  tolerances.
-   *  @param direct direct solver for systems that exceed max_iterations */
+   *  @param direct direct solver for systems that exceed max_iterations, up
+   *  to largest_direct unknowns in three dimensions */
   std::unique_ptr<LinearSolver>
   make_iterative(const bool                      symmetric,
                  const LinearSolverParameters   &parameters,
