@@ -101,9 +101,25 @@ namespace geocone::GEOCONE_DIM
         functions *= (p + 3) / 3.;
       const double points = !expected.is_simplicial ? std::pow(p + 1., dim)
                             : p == 1                ? 1.
-                            : p == 2                ? dim + 1.
+                            : p == 2                ? 6.
                                                     : 7.;
       return {p, spline, nodes_per_cell, functions, points};
+    }
+
+    /** Returns true if p-multigrid solves the linear systems: by its name or, in
+     *  three dimensions, by 'automatic' (LinearSolverParameters). */
+    bool
+    has_p_multigrid(const double      unknowns,
+                    const CellCounts &of_cell,
+                    const Method     &method,
+                    const bool        has_obstacles)
+    {
+      const std::string name = ParameterFile::value("Linear solver/Name");
+      return !method.is_mpm() && of_cell.degree > 1 &&
+             (name == "p-multigrid" ||
+              (name == "automatic" && dim == 3 && !has_obstacles &&
+               unknowns > std::stod(ParameterFile::value(
+                            "Linear solver/Largest direct system"))));
     }
   } // namespace
 
@@ -151,12 +167,21 @@ namespace geocone::GEOCONE_DIM
         // Columns per row: the functions that overlap a function's support.
         const double row = dim * (of_cell.is_spline ? std::pow(2. * p + 1., dim)
                                                     : 3.5 * of_cell.functions);
-        of_points        = e.points * (1000. + 100. * of_cell.functions);
-        of_nodes         = e.unknowns * (1500. + 60. * row);
-        // In three dimensions fill-in grows as n^(4/3).
-        if (dim == 3)
-          of_nodes += 60. * std::pow(e.unknowns, 4. / 3.);
-        e.memory = 160e6;
+        e.memory         = 160e6;
+        if (has_p_multigrid(
+              e.unknowns, of_cell, method, !scene.obstacles.list.empty()))
+          {
+            of_points = e.points * (600. + 30. * of_cell.functions);
+            of_nodes  = e.unknowns * (1000. + 14. * row);
+          }
+        else
+          {
+            of_points = e.points * (1000. + 100. * of_cell.functions);
+            of_nodes  = e.unknowns * (1500. + 60. * row);
+            // In three dimensions fill-in grows as n^(4/3).
+            if (dim == 3)
+              of_nodes += 60. * std::pow(e.unknowns, 4. / 3.);
+          }
       }
     e.memory += of_points + of_nodes;
     if (seeding != nullptr && of_points > of_nodes &&
