@@ -196,3 +196,22 @@ grep -q -- '--picture goes with --dry-run' said
 fails "$program" "$root/prm/element/cyclic_shear.prm" --dry-run --picture 2>said
 grep -q -- '--picture draws a scene' said
 [ "$(ls results)" = embankment-model ]
+
+# Obstacles in space are in the legend, and half-spaces do not hide the body from below.
+"$program" "$root/prm/three/bounds_wall.prm" --dry-run --picture --quiet --output half_spaces
+PYTHONPATH=$root/python /usr/bin/python3 -B - <<'PYTHON'
+from pathlib import Path
+
+from geocone.plots.model import draw
+from geocone.style import kept
+
+with kept() as figures:
+    draw(Path("half_spaces"), Path("half_spaces/again.png"))
+above, below = figures[0].axes[:2]
+words = [text.get_text() for text in above.get_legend().get_texts()]
+assert "wall, base: obstacles" in words, words
+for axes, is_light in ((above, False), (below, True)):
+    shades = [c.get_facecolor()[0][3] for c in axes.collections
+              if len(c.get_paths()) == 2 and len(c.get_paths()[0].vertices) == 4]
+    assert len(shades) == 2 and all((shade < 0.2) == is_light for shade in shades), shades
+PYTHON

@@ -217,16 +217,34 @@ def is_behind(triangles, centre, view):
     return (normals @ view.towards) * np.sum(normals * (centre - triangles[:, 0]), axis=1) > 0.
 
 
+def is_plane(triangles):
+    """Whether all triangles (n, 3, 3) lie in one plane, as those of a half-space."""
+    arms = (triangles - triangles[0, 0]).reshape(-1, 3)
+    return np.linalg.matrix_rank(arms, tol=1e-9 * np.abs(arms).max()) < 3
+
+
 def draw_obstacles(axes, model, view):
-    """Fills the surfaces of obstacles, those behind the body first."""
+    """Fills the surfaces of obstacles, those behind the body first. A half-space in front of
+    the body is a light shade, which does not hide it. @return entries of the legend"""
+    names = []
     for obstacle in model.data["obstacles"]:
         triangles = np.array(obstacle["triangles"], dtype=float).reshape(-1, 3, 3)
+        if not len(triangles):
+            continue
         triangles = triangles[np.argsort(triangles.mean(axis=1) @ view.towards)]
         behind = is_behind(triangles, (model.low + model.high) / 2., view)
-        for some, zorder in ((triangles[behind], 0.5), (triangles[~behind], 3)):
+        in_front = "#8c8c8c18" if is_plane(triangles) else "#8c8c8cb0"
+        for some, zorder, color in ((triangles[behind], 0.5, "#8c8c8cb0"),
+                                    (triangles[~behind], 3, in_front)):
             axes.add_collection(PolyCollection(
-                view.seen(some.reshape(-1, 3)).reshape(-1, 3, 2), facecolors="#8c8c8cb0",
-                edgecolors="#606060", linewidths=0.3, zorder=zorder), autolim=False)
+                view.seen(some.reshape(-1, 3)).reshape(-1, 3, 2), facecolors=color,
+                edgecolors="#606060" if color.endswith("b0") else "none", linewidths=0.3,
+                zorder=zorder), autolim=False)
+        names.append(plain(obstacle["name"]))
+    if not names:
+        return {}
+    return {f"{', '.join(names)}: " + ("obstacles" if names[1:] else "obstacle"):
+            Patch(facecolor="#8c8c8cb0", edgecolor="#606060")}
 
 
 def faces_on_body(model, faces):
@@ -345,7 +363,7 @@ def draw(model, path):
     for axes, view, box in zip(axes_of[0], views, boxes):
         frame(axes, box)
         draw_body(axes, model, view, model.absent())
-        draw_obstacles(axes, model, view)
+        entries.update(draw_obstacles(axes, model, view))
         entries.update(draw_supports(axes, model, view))
         entries.update(draw_loads(axes, model, view))
         add_directions(axes, view, box)
