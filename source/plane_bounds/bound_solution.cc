@@ -13,10 +13,20 @@ namespace geocone::GEOCONE_DIM
 {
   namespace
   {
+    /** Returns the factor of the live loads that makes them of order one. It is one unless
+     *  they exceed the strength by far, where rates would be too small for the solver. */
+    double
+    scale_of_loads(const BoundProblem &plane)
+    {
+      constexpr double much = 1e3;
+      const double     norm = plane.live.norm();
+      return norm > much ? 1. / norm : 1.;
+    }
+
     /** Solves a plane problem. @tparam columns number of dofs of a point */
     template <int columns>
     BoundSolution
-    solve_with_columns(const BoundProblem &plane, const ConicOptions &options)
+    solve_with_columns(const BoundProblem &plane, ConicOptions options)
     {
       using Cones     = PointGroupOf<PlaneCone, columns>;
       using Cylinders = PointGroupOf<PlaneCylinder, columns>;
@@ -46,7 +56,9 @@ namespace geocone::GEOCONE_DIM
       problem.is_prescribed                    = plane.is_prescribed;
       problem.prescribed                       = plane.prescribed;
       problem.dead                             = plane.dead;
-      problem.live                             = plane.live;
+      const double scale                       = scale_of_loads(plane);
+      problem.live                             = scale * plane.live;
+      options.question /= scale;
       std::vector<const PointGroup *> group_of = {cones.get(), cylinders.get()};
       if (cones->n_points() > 0)
         problem.groups.push_back(std::move(cones));
@@ -54,6 +66,8 @@ namespace geocone::GEOCONE_DIM
         problem.groups.push_back(std::move(cylinders));
 
       BoundSolution solution = {geocone::solve(problem, options), {}};
+      solution.load *= scale;
+      solution.q *= scale;
       std::array<unsigned int, 2> place = {{0, 0}};
       for (const PointCone &cone : plane.cone)
         {
