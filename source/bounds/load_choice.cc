@@ -3,10 +3,13 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
+#include <geocone/base/number_in.h>
 #include <geocone/bounds/load_choice.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <vector>
 
 namespace geocone::GEOCONE_DIM
 {
@@ -100,11 +103,73 @@ namespace geocone::GEOCONE_DIM
                        : "give 'Tractions' that are not zero at t = 0");
   }
 
-  std::string
-  LoadChoice::other_than_observed(const Observation &observation) const
+  namespace
   {
+    /** Names of the conditions and obstacles that are pushed. */
+    std::vector<std::string>
+    pushed_supports(const Scene &scene)
+    {
+      std::vector<std::string> names;
+      for (const auto &condition : scene.dirichlet.list)
+        for (unsigned int d = 0; d < dim; ++d)
+          if (condition->components[d] &&
+              number_in(condition->formula(d)).value_or(1.) != 0.)
+            {
+              names.push_back(condition->name);
+              break;
+            }
+      for (const auto &obstacle : scene.obstacles.list)
+        if (obstacle->velocity(0.).centre.norm() > 0.)
+          names.push_back(obstacle->name);
+      return names;
+    }
+
+    std::string
+    listed(const std::vector<std::string> &names)
+    {
+      std::string text;
+      for (const std::string &name : names)
+        text += (text.empty() ? "'" : ", '") + name + "'";
+      return text;
+    }
+
+    /** The support whose reaction is the load of steps; empty if there is none. */
+    std::string
+    observed_support(const Scene &scene)
+    {
+      const auto &conditions = scene.observation.conditions;
+      return conditions.empty() ? "" : scene.supports()[conditions.front()];
+    }
+  } // namespace
+
+  void
+  LoadChoice::check_observed(const Scene &scene) const
+  {
+    const std::string name = observed_support(scene);
+    if (!is_reaction() || name.empty())
+      return;
+    const auto pushed = pushed_supports(scene);
+    require(std::find(pushed.begin(), pushed.end(), name) != pushed.end(),
+            "Observation/Conditions",
+            name,
+            listed(pushed) + ", which is pushed, as the first name where the "
+                             "reaction to a velocity is bounded",
+            "name what is pushed; without weight and tractions other reactions "
+            "follow by equilibrium");
+  }
+
+  std::string
+  LoadChoice::other_than_observed(const Scene &scene) const
+  {
+    const Observation &observation = scene.observation;
     if (!is_reaction() || !observation.has_load())
       return "";
+    if (const std::string name = observed_support(scene); !name.empty())
+      if (const auto pushed = pushed_supports(scene);
+          pushed != std::vector<std::string>{name})
+        return "the bounded load is the reaction of all that is pushed, " +
+               listed(pushed) + "; the load of steps is that of '" + name +
+               "', the first of 'Observation/Conditions'";
     const double       factor = observation.factor;
     const unsigned int d      = observation.component;
     if (direction[d] * factor > (1. - 1e-9) * std::abs(factor))

@@ -169,7 +169,7 @@ namespace geocone::GEOCONE_DIM
         "; the bounds are those of this mesh. Give a mesh of one body, or set "
         "Analysis/Maximum levels = 1");
     if (const std::string remark =
-          bounded_load.other_than_observed(scene.observation);
+          bounded_load.other_than_observed(scene);
         !remark.empty())
       warnings.push_back(remark);
     constexpr double later     = 1e6; // after any ramp
@@ -210,6 +210,7 @@ namespace geocone::GEOCONE_DIM
       bounded_load.prepare_reduction(scene, *triangles, kind_word());
     else
       bounded_load.prepare(scene, *triangles);
+    bounded_load.check_observed(scene);
     print_start(options,
                 triangles->cells.size(),
                 format("; about %.0f MB", 100. + 0.02 * most_cells),

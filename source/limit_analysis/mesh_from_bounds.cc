@@ -35,7 +35,7 @@ namespace geocone::GEOCONE_DIM
     {
       bracket.unit                = load.unit() == "-" ? "" : load.unit();
       bracket.is_associated       = !load.non_associated();
-      bracket.other_than_observed = load.other_than_observed(scene.observation);
+      bracket.other_than_observed = load.other_than_observed(scene);
     }
   } // namespace
 

@@ -105,10 +105,11 @@ namespace geocone::GEOCONE_DIM
       load.prepare_reduction(scene, *tetrahedra);
     else
       load.prepare(scene, *tetrahedra);
+    load.check_observed(scene);
     const dealii::BoundingBox<dim> body(tetrahedra->vertices);
     print_start(options, tetrahedra->cells.size(), "", body);
     std::vector<std::string> warnings = warn_of_magnitudes(scene, body);
-    if (const std::string remark = load.other_than_observed(scene.observation);
+    if (const std::string remark = load.other_than_observed(scene);
         !remark.empty())
       warnings.push_back(remark);
     return warnings;

@@ -6,7 +6,6 @@
 
 #include <geocone/base/choice.h>
 #include <geocone/bounds/load_factor.h>
-#include <geocone/scene/observation.h>
 #include <geocone/scene/scene.h>
 
 #include <deal.II/base/parameter_acceptor.h>
@@ -67,11 +66,17 @@ namespace geocone::GEOCONE_DIM
     }
 
     /** Returns a message if the load that steps observe is another one than the
-     *  bounded reaction, which acts in the direction of the prescribed velocity:
-     *  another component, or one of the opposite sign. Otherwise, and without an
-     *  observed load, the message is empty. */
+     *  bounded reaction of all that is pushed, in the direction of the prescribed
+     *  velocity: another support, component, or one of the opposite sign. Otherwise, and
+     *  without an observed load, the message is empty. */
     std::string
-    other_than_observed(const Observation &observation) const;
+    other_than_observed(const Scene &scene) const;
+
+    /** Checks that what is observed is what is pushed. @throws InputError if the bounded
+     *  reaction is that of another support than the first one of
+     *  'Observation/Conditions' */
+    void
+    check_observed(const Scene &scene) const;
 
     /** Returns true if any material has non-associated flow. Its dilatancy angle is then
      *  smaller than its friction angle. */
