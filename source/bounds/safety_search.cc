@@ -84,6 +84,21 @@ namespace geocone
     return proven;
   }
 
+  std::optional<double>
+  SafetySearch::proven(Solver &solver, const Side side, const double start)
+  {
+    factor        = checked(start);
+    Attempt found = solver.one(factor, side);
+    while (found.grows)
+      {
+        factor = checked(1.3 * factor);
+        found  = solver.one(factor, side);
+      }
+    unsigned int iterations = 0;
+    return found.is_usable() ? prove(solver, side, found.load, iterations)
+                             : std::nullopt;
+  }
+
   SafetySearch::Level
   SafetySearch::on_mesh(Solver &solver)
   {

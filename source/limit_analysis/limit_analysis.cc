@@ -121,6 +121,7 @@ namespace geocone::GEOCONE_DIM
       "the limits of 'Shakedown', below which plastic strains cease, by "
       "Melan's and Koiter's theorems.");
     declare_parameters(bounded_load);
+    intervals.declare(*this);
     limit_output.declare_certificates();
     for (const std::string &name : scene.materials.names())
       tensile_strengths.push_back(
@@ -168,8 +169,7 @@ namespace geocone::GEOCONE_DIM
         "the mesh from the file is not refined: " + file_domain->obstacle() +
         "; the bounds are those of this mesh. Give a mesh of one body, or set "
         "Analysis/Maximum levels = 1");
-    if (const std::string remark =
-          bounded_load.other_than_observed(scene);
+    if (const std::string remark = bounded_load.other_than_observed(scene);
         !remark.empty())
       warnings.push_back(remark);
     constexpr double later     = 1e6; // after any ramp
@@ -211,6 +211,7 @@ namespace geocone::GEOCONE_DIM
     else
       bounded_load.prepare(scene, *triangles);
     bounded_load.check_observed(scene);
+    intervals.prepare(bounded_load.on(scene, *triangles));
     print_start(options,
                 triangles->cells.size(),
                 format("; about %.0f MB", 100. + 0.02 * most_cells),
@@ -461,6 +462,8 @@ namespace geocone::GEOCONE_DIM
     Json json = BoundAnalysis::topics();
     if (!gradients.empty())
       json["bounds"]["gradients"] = topic_of(gradients);
+    if (of_intervals.is_asked())
+      json["bounds"]["interval"] = intervals.topic_of(of_intervals);
     if (const auto points = points_of_structures(); !points.empty())
       json["structures"] = topic_of_structures(scene.structures, points);
     return json;
@@ -484,6 +487,24 @@ namespace geocone::GEOCONE_DIM
     return gradients_of_safety(given,
                                {below, reduced.lower_proof, F_lower},
                                {above, reduced.upper_proof, F_upper});
+  }
+
+  IntervalBounds::Answer
+  LimitAnalysis::bounds_of_intervals() const
+  {
+    const BoundScene given = bounded_load.on(scene, *triangles);
+    const double     gap   = gap_tolerance / 2.;
+    return reduces_strength()
+             ? intervals.of_safety(
+                 given,
+                 inner_tolerance(),
+                 gap,
+                 {{reduced.lower.value_or(1.), reduced.upper.value_or(1.)}},
+                 reduction.last_search())
+             : intervals.of_load(given,
+                                 inner_tolerance(),
+                                 gap,
+                                 bounded_load.load_of_unit_factor());
   }
 
   std::vector<BarPoint>
@@ -523,7 +544,17 @@ namespace geocone::GEOCONE_DIM
     warn_of_tractions();
     // A run resumed after its last mesh has no fields.
     if (bounds.gap.size() == triangles->cells.size())
-      gradients = gradients_of_last();
+      {
+        gradients = gradients_of_last();
+        if (intervals.is_asked())
+          {
+            of_intervals = bounds_of_intervals();
+            log.print(intervals.text_of(
+              of_intervals,
+              bounded(),
+              bounded_load.is_reaction() ? " " + bounded_load.unit() : ""));
+          }
+      }
     if (const auto points = points_of_structures(); !points.empty())
       write_structures(
         limit_output.folder() + "/structures.csv", scene.structures, points);

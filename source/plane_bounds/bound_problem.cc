@@ -34,6 +34,21 @@ namespace geocone::GEOCONE_DIM
       enclosed.k_per_cohesion[material] *= k_factor * cos_phi;
   }
 
+  void
+  BoundScene::add_steeper(PointCone &cone, const double b)
+  {
+    const double cos_phi = std::sqrt(1. - cone.a * cone.a);
+    if (!cone.is_cut())
+      {
+        cone.cut_aperture = b;
+        cone.cut_off      = cone.k * std::sqrt(1. - b * b) / cos_phi;
+        return;
+      }
+    const double crossing =
+      cone.k / cos_phi * std::tan((std::asin(cone.a) + std::asin(b)) / 2.);
+    cone.cut_off = std::min(cone.cut_off, cone.k - (1. - cone.a) * crossing);
+  }
+
   Eigen::VectorXd &
   BoundScene::loads(BoundProblem &problem, const LoadFactor kind) const
   {
@@ -86,7 +101,8 @@ namespace geocone::GEOCONE_DIM
         {
           PointCone *const own = &cone[3 * c];
           if (std::any_of(own, own + 3, [](const PointCone &one) {
-                return one.is_cut() && one.a * one.cut_off < one.k;
+                return one.is_cut() &&
+                       one.a * one.cut_off < one.cut_aperture * one.k;
               }))
             all.push_back(c);
           else
@@ -170,9 +186,9 @@ namespace geocone::GEOCONE_DIM
           problem.owner.push_back(triangle);
           for (unsigned int i = 0; i < 3; ++i)
             {
+              const PointCone own = problem.cone[3 * triangle + i];
               problem.volume.push_back(problem.volume[3 * triangle + i]);
-              problem.cone.push_back(
-                {1., problem.cone[3 * triangle + i].cut_off});
+              problem.cone.push_back({own.cut_aperture, own.cut_off});
               problem.B.add(Eigen::Matrix3d::Identity(),
                             cut_dofs(problem, c, i));
             }

@@ -142,6 +142,16 @@ def titles(method):
     return [title for title, _ in page.numbers_of(other)]
 assert "Bounds of the factor of all loads at full strength" in titles("FEM"), titles("FEM")
 assert "Bounds" in titles("strength reduction") and "Bounds" not in titles("FEM")
+# Bounds for intervals of parameters have a table of their own.
+def interval_rows(**interval):
+    other = copy.copy(run)
+    other.summary = {"bounds": {"interval": interval}}
+    return [row[:2] for title, rows in page.numbers_of(other)
+            if title == "For all parameters of the intervals" for row in rows]
+assert interval_rows(lower=1.1, upper=None, intervals={
+    "clay/Cohesion": [8000., 12000.], "clay/Friction angle": 30.}) == [
+        ("lower", "1.1"), ("upper", "none"), ("clay/Cohesion", "8000 to 12000"),
+        ("clay/Friction angle", "30")], interval_rows(lower=1.)
 # A bracket in words is not narrower than that of the numbers.
 assert answer(size={"method": "strength reduction"}, bounds={"certified": True}, safety={
     "factor": 1.38003297, "lower": 1.37326, "upper": 1.38684}) == (

@@ -92,6 +92,11 @@ namespace geocone
     Level
     on_mesh(Solver &solver);
 
+    /** Proves a factor near the root of one bound alone. @param start initial guess
+     *  @return nothing if the bound is not certified there */
+    std::optional<double>
+    proven(Solver &solver, const Side side, const double start);
+
     void
     state(StateRow &row)
     {

@@ -8,6 +8,7 @@
 #include <geocone/limit_analysis/bounded_load.h>
 #include <geocone/limit_analysis/certified_bounds.h>
 #include <geocone/limit_analysis/gradients.h>
+#include <geocone/limit_analysis/interval_bounds.h>
 #include <geocone/limit_analysis/strength_reduction.h>
 #include <geocone/mesh/domain_of_triangles.h>
 #include <geocone/plane_bounds/bar_cells.h>
@@ -131,6 +132,11 @@ namespace geocone::GEOCONE_DIM
     std::vector<Gradient>
     gradients_of_last() const;
 
+    /** Bounds the load or factor of safety for all parameters of the intervals, on the
+     *  current mesh. */
+    IntervalBounds::Answer
+    bounds_of_intervals() const;
+
     /** Returns the forces of the lower bound and the rates of the upper bound along all
      *  structures, on the current mesh. */
     std::vector<BarPoint>
@@ -176,6 +182,7 @@ namespace geocone::GEOCONE_DIM
 
     BoundedLoad       bounded_load;
     StrengthReduction reduction;
+    IntervalBounds    intervals;
 
     Choice<AnalysisKind> analysis = {
       {{"steps", AnalysisKind::steps},
@@ -205,6 +212,7 @@ namespace geocone::GEOCONE_DIM
     CertifiedBounds          bounds;
     StrengthReduction::Level reduced; ///< strength reduction only
     std::vector<Gradient>    gradients;
+    IntervalBounds::Answer   of_intervals;
     /** @} */
   };
 } // namespace geocone::GEOCONE_DIM

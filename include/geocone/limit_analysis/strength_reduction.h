@@ -42,6 +42,13 @@ namespace geocone::GEOCONE_DIM
       row(search);
     }
 
+    /** Search for the roots, with the exponent of the last mesh. */
+    const SafetySearch &
+    last_search() const
+    {
+      return search;
+    }
+
   private:
     SafetySearch search;
   };

@@ -21,10 +21,11 @@
 namespace geocone::GEOCONE_DIM
 {
   /** Yield cone |s_t| <= a s_n + k of a point, in scaled units. With tensile strength
-   *  there is a second cone |s_t| <= s_n + cut_off (FlowCone::cut_off). */
+   *  there is a second cone |s_t| <= s_n + cut_off (FlowCone::cut_off), or in lower
+   *  bounds |s_t| <= cut_aperture s_n + cut_off, of a larger aperture than a. */
   struct PointCone
   {
-    double a = 0., k = 0., cut_off = infinite_tension;
+    double a = 0., k = 0., cut_off = infinite_tension, cut_aperture = 1.;
 
     bool
     is_cut() const
@@ -71,7 +72,7 @@ namespace geocone::GEOCONE_DIM
    * (bar_cells.h) follow those of interfaces.
    *
    * The last cells are the tension cut-offs of triangles. Their points have the stress of
-   * the triangle, in the cone |s_t| <= s_n + cut_off, and a strain rate w; the strain
+   * the triangle, in the second cone of PointCone, and a strain rate w; the strain
    * rate of the triangle's points is then B q - w. Equilibrium for w states that both
    * stresses are the same, and the total dissipation is the infimal convolution of the
    * dissipation functions of cone and cut-off.
@@ -202,6 +203,11 @@ namespace geocone::GEOCONE_DIM
 
     PlasticBars bars; ///< structures; their strengths are given, not reduced
 
+    /** For each material the sine of a larger friction angle, for the same cohesion, whose
+     *  cone must contain the stresses of lower bounds, too (IntervalBounds); 0 or no
+     *  entry: none. It is the steeper cone near the apex. */
+    std::vector<double> steeper = {};
+
     bool
     is_axisymmetric() const
     {
@@ -226,8 +232,17 @@ namespace geocone::GEOCONE_DIM
           cone.k += enclosed.k_per_cohesion[material] *
                     (side == BoundSide::lower ? c.below : c.above)[i];
         }
+      if (side == BoundSide::lower && !steeper.empty() &&
+          steeper[material] > cone.a)
+        add_steeper(cone, steeper[material]);
       return cone;
     }
+
+    /** Adds the cone with the sine b of a larger friction angle and the same cohesion as
+     *  the second one of a point. A point with tensile strength has two cones already:
+     *  its cut-off is reduced to where both cones cross, beyond which it is in both. */
+    static void
+    add_steeper(PointCone &cone, const double b);
 
     /** Returns the vector of live loads (multiplied by the load factor) or of
      *  dead loads (constant), depending on the type of the loads. */

@@ -123,6 +123,7 @@ def numbers_of(run, results=True):
              for key, topic in {**known, **others}.items() if isinstance(topic, dict)]
     if results:
         found.append(("What the bounds depend on: % per %", dependence_rows(run)))
+        found.append(("For all parameters of the intervals", interval_rows(run)))
     return [(title, rows) for title, rows in found if rows]
 
 
@@ -131,6 +132,18 @@ def dependence_rows(run):
     return [(name, f"{lower:.3f} (lower), {upper:.3f} (upper)",
              f"{name}: {lower!r}, {upper!r}", False)
             for name, lower, upper in bounds.dependence_of(run)]
+
+
+def interval_rows(run):
+    """Rows of numbers_of() for the bounds of a whole box of parameters."""
+    interval = run.summary.get("bounds", {}).get("interval", {})
+    rows = [(side, text_of(interval[side]), f"bounds/interval/{side} = {interval[side]!r}", False)
+            for side in ("lower", "upper") if side in interval]
+    for name, limits in interval.get("intervals", {}).items():
+        limits = limits if isinstance(limits, list) else [limits]
+        rows.append((name, " to ".join(text_of(limit) for limit in limits),
+                     f"{name}: {limits!r}", False))
+    return rows
 
 
 def is_wide(png):

@@ -1,0 +1,6 @@
+# The bounds for a whole box of parameters contain those of its corners and of points within,
+# of the load of a footing and of the factor of safety of a slope, and are as sharp
+# (interval.py).
+program=$1 root=$2 folder=$3
+rm -rf "$folder" && mkdir -p "$folder" && cd "$folder"
+/usr/bin/python3 "$root/tests/limit_load/interval.py" "$program" "$root"
