@@ -4,7 +4,6 @@ point may be below the box's lower one, and no lower one above its upper one."""
 
 import itertools
 import json
-import math
 import random
 import subprocess
 import sys
@@ -52,11 +51,21 @@ def check(scene, box, traction, loose):
         assert found["upper"] >= of_point["lower"], (scene, found, point, of_point)
     least = min(of_point["lower"] for of_point in bounds)
     most = max(of_point["upper"] for of_point in bounds)
-    print(scene, found, least, most)
     assert least * (1. - loose) < found["lower"] < least * 1.002, (scene, found, least)
     assert most * 0.998 < found["upper"] < most * (1. + loose), (scene, found, most)
 
 
+def check_weight(scene):
+    """Checks that the factor of the weight of one soil is inversely proportional to it: the
+    bounds of the interval are those of its ends."""
+    found = bounds_of(scene, ["Analysis/Parameter intervals = clay/Density: 1500 .. 2500",
+                              "Materials/clay/Density = 2000", "Analysis/Maximum levels = 1"])
+    interval = found["interval"]
+    assert abs(interval["lower"] / (found["lower"] * 2000. / 2500.) - 1.) < 5e-4, found
+    assert abs(interval["upper"] / (found["upper"] * 2000. / 1500.) - 1.) < 5e-4, found
+
+
+check_weight("prm/limit_load/vertical_cut.prm")
 FOOTING, SLOPE = (f"tests/limit_load/gradients_{name}.prm" for name in ("footing", "slope"))
 check(FOOTING, {"crust/Cohesion": (8000., 12000.), "crust/Friction angle": (18., 22.),
                 "surcharge/Traction factor": (0.8, 1.2)}, -8000., 0.02)
