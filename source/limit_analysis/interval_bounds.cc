@@ -182,6 +182,16 @@ namespace geocone::GEOCONE_DIM
       return parts;
     }
 
+    /** Takes the bound of a box that contains this one if it is less. */
+    void
+    take(const Box &outer)
+    {
+      if (!(outer.load < load))
+        return;
+      load   = outer.load;
+      corner = outer.corner;
+    }
+
     /** Parameters of the bound: loads are at their corner. */
     Ranges
     place() const
@@ -197,8 +207,8 @@ namespace geocone::GEOCONE_DIM
     }
 
     double load = std::numeric_limits<double>::infinity(); ///< upper bound
-    double plain_load =
-      load; ///< of the same mechanism, by the strength of the largest angles
+    double plain_load = load; ///< of the same mechanism for the largest angles,
+                              ///< at the corner that it was solved for
     bool        grows     = false;
     std::string rejection = "no mechanism bounds all loads of the box";
 
@@ -233,36 +243,38 @@ namespace geocone::GEOCONE_DIM
           plain_power += D_p[m];
         }
       // The load of a mechanism is largest where loads that drive it are least.
-      std::vector<bool>     worst;
-      std::vector<double>   parts;
-      std::array<double, 2> works = {{work, work}};
-      double                dead  = 0.;
+      std::vector<bool>   worst;
+      std::vector<double> parts;
       for (unsigned int j = 0; j < loads.size(); ++j)
         {
           parts.push_back(loads[j].F.dot(q));
           worst.push_back(parts[j] < 0. &&
                           multiple(j, true) > multiple(j, false));
-          const double least = (multiple(j, worst[j]) - 1.) * parts[j],
-                       most  = (multiple(j, !worst[j]) - 1.) * parts[j];
-          if (loads[j].is_live)
-            {
-              works[0] += least;
-              works[1] += most;
-            }
-          else
-            dead += least;
         }
+      // Load of the mechanism at a corner, with a live load of its own.
+      const auto load_at =
+        [&](double P, const std::vector<bool> &at, const bool is_opposite) {
+          double W = work;
+          for (unsigned int j = 0; j < loads.size(); ++j)
+            if (loads[j].is_live)
+              W += (multiple(j, at[j] != is_opposite) - 1.) * parts[j];
+            else
+              P -= (multiple(j, at[j]) - 1.) * parts[j];
+          return std::make_pair(P, W);
+        };
       const auto largest = [&](const double without) {
-        const double P = without - dead;
-        return works[0] > least_work * q.lpNorm<Eigen::Infinity>()
-                 ? P / works[P < 0.]
-                 : std::numeric_limits<double>::infinity();
+        const auto [P, W] = load_at(without, worst, false);
+        return !(W > least_work * q.lpNorm<Eigen::Infinity>())
+                 ? std::numeric_limits<double>::infinity()
+               : P < 0. ? P / load_at(without, worst, true).second
+                        : P / W;
       };
       const double found = largest(power);
       if (cost.empty() || found < load)
         {
           load       = found;
-          plain_load = largest(plain_power);
+          const auto [P, W] = load_at(plain_power, is_high, false);
+          plain_load        = P / W;
           corner     = worst;
           cost.assign(ranges.size(), 0.);
           unsigned int j = 0;
@@ -445,6 +457,7 @@ namespace geocone::GEOCONE_DIM
           {
             least.attempt.certified = false;
             least.attempt.rejection = side.bound.rejection;
+            least.at.clear();
             return least;
           }
         if (side.bound.load < least.attempt.load)
@@ -495,7 +508,10 @@ namespace geocone::GEOCONE_DIM
           }
         std::array<Box, 2> parts = top->halves(*divided);
         for (Box &part : parts)
-          part.solve(given, F, tolerance, sum);
+          {
+            part.solve(given, F, tolerance, sum);
+            part.take(*top);
+          }
         *top = parts[0];
         boxes.push_back(parts[1]);
       }

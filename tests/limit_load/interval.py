@@ -71,5 +71,7 @@ check(FOOTING, {"crust/Cohesion": (8000., 12000.), "crust/Friction angle": (18.,
                 "surcharge/Traction factor": (0.8, 1.2)}, -8000., 0.02)
 check(FOOTING, {"sand/Friction angle": (26., 30.), "sand/Density": (1800., 2200.),
                 "crust/Density": (1700., 2000.)}, -8000., 0.02)
+# Weight raises the load of the footing before it lowers it.
+check("tests/limit_load/interval_crest.prm", {"soil/Density": (10., 3000.)}, 0., 0.03)
 check(SLOPE, {"top/Cohesion": (6000., 10000.), "base/Friction angle": (13., 17.),
               "base/Density": (1800., 2200.)}, -10000., 0.02)
