@@ -4,11 +4,15 @@
 // Consolidation in steps with fixed and moving points: its checks, drained sides,
 // and pressures as a part of the incremental problem.
 #include <geocone/base/exceptions.h>
+#include <geocone/base/over_ranks.h>
 #include <geocone/implicit/implicit_fem.h>
 #include <geocone/implicit/implicit_mpm.h>
 #include <geocone/materials/retention.h>
+#include <geocone/points/point_elasticity.h>
 #include <geocone/problem/consolidation.h>
 
+#include <array>
+#include <cmath>
 #include <map>
 #include <set>
 #include <utility>
@@ -22,6 +26,48 @@ namespace geocone::GEOCONE_DIM
     refuse_consolidation(const std::string &allowed, const std::string &remedy)
     {
       throw InputError(Drainage::parameter, "true", allowed, remedy);
+    }
+
+    /** Refuses water so stiff that rounding of the volumetric strain decides the
+     *  level of the pressures of a closed body. Collective. */
+    void
+    check_level(const Scene             &scene,
+                const MaterialPoints    &points,
+                const PressureFunctions &functions,
+                const MPI_Comm           comm)
+    {
+      std::array<double, 3> sums = {}; // drained nodes, outflow, flow
+      for (const bool is_drained : functions.is_drained)
+        sums[0] += is_drained;
+      const unsigned int n = functions.n_vertices;
+      for (unsigned int i = 0; i < functions.flow.size() / n; ++i)
+        {
+          double row = 0.;
+          for (unsigned int j = 0; j < n; ++j)
+            row += functions.flow[n * i + j];
+          sums[1] += std::abs(row);
+          sums[2] += functions.flow[n * i + i % n];
+        }
+      sum_over_ranks(sums, comm);
+      if (sums[0] > 0. || sums[1] > 1e-10 * sums[2])
+        return;
+      for (unsigned int p = 0; p < points.n_points(); ++p)
+        {
+          const unsigned int m     = points.material[p];
+          const double       fluid = scene.materials.law(m).fluid_modulus(),
+                       most =
+                         1e10 *
+                         elasticity_at_start(scene.materials, points, p).two_G;
+          if (fluid > most)
+            throw InputError(
+              "Materials/" + scene.materials.name(m) +
+                "/Pore fluid bulk modulus",
+              fluid,
+              format("at most %g Pa where no side is drained", most),
+              "the level of the pressures would be rounding: "
+              "water has 2.2 GPa, over the porosity; or name "
+              "'Time stepping/Drained sides'");
+        }
     }
   } // namespace
 
@@ -53,6 +99,12 @@ namespace geocone::GEOCONE_DIM
       refuse_consolidation(
         "false where the steady pore pressures change in time",
         "keep the water levels of all stages");
+    if (space->has_b_bar() && scene->materials.traits().dilates)
+      throw InputError("Discretisation/B-bar",
+                       "true",
+                       std::string("false with ") + Drainage::parameter +
+                         " and a 'Dilatancy angle' > 0",
+                       "take triangles, P2 or P3, or no dilatancy");
     if (linear_solver.is_iterative())
       throw InputError("Linear solver/Name",
                        linear_solver.name.word(),
@@ -67,6 +119,8 @@ namespace geocone::GEOCONE_DIM
   {
     if constexpr (dim == 2)
       {
+        check_level(
+          *scene, points, functions, mesh->triangulation().get_communicator());
         flow = std::make_unique<Consolidation>(scene->materials,
                                                points,
                                                *constraints,

@@ -53,12 +53,11 @@ namespace geocone::GEOCONE_DIM
     , turned(points, unknowns)
     , functions(std::move(of_cells))
     , at_vertices(at_vertices)
-    , stored_n(layout)
     , smoothed_n(layout)
     , trial(layout)
     , of_point(points.n_points())
+    , of_point_n(points.n_points())
   {
-    compute_coupling();
     number_rows();
     const MPI_Comm comm = layout->get_mpi_communicator();
     solver              = Utilities::MPI::n_mpi_processes(comm) == 1
@@ -120,8 +119,8 @@ namespace geocone::GEOCONE_DIM
   void
   Consolidation::begin_step(const double step)
   {
-    stored_n = storage(
-      [this](const unsigned int p) { return points.excess_pressure(p); });
+    for (unsigned int p = 0; p < points.n_points(); ++p)
+      of_point_n[p] = points.excess_pressure(p);
     if (functions.smooths())
       {
         at_vertices->update_ghost_values();
@@ -130,7 +129,8 @@ namespace geocone::GEOCONE_DIM
       }
     if (step == h)
       return;
-    h                    = step;
+    h = step;
+    compute_coupling();
     const unsigned int n = functions.n_vertices;
     std::fill(A.value.begin(), A.value.end(), 0.);
     std::vector<double> A_cell(n * n);
@@ -144,11 +144,11 @@ namespace geocone::GEOCONE_DIM
              p < points.first_point[c + 1];
              ++p)
           {
-            const double storage = points.weight[p] / fluid_modulus(p);
+            const double stored = points.weight[p] * share(p) * storage(p);
             for (unsigned int i = 0; i < n; ++i)
               for (unsigned int j = 0; j < n; ++j)
                 A_cell[n * i + j] +=
-                  storage * functions.N[n * p + i] * functions.N[n * p + j];
+                  stored * functions.N[n * p + i] * functions.N[n * p + j];
           }
         for (unsigned int i = 0; i < n; ++i)
           for (unsigned int j = 0; j < n; ++j)
@@ -167,10 +167,10 @@ namespace geocone::GEOCONE_DIM
         "side is drained, water that does not compress has no pressure level");
   }
 
-  Vector
+  std::vector<double>
   Consolidation::divergence(const Vector &v) const
   {
-    Vector              sum(trial.get_partitioner());
+    std::vector<double> of_points(points.n_points());
     const unsigned int  n = points.n_nodes;
     std::vector<double> cell_v(dim * n);
     for (unsigned int c = 0; c < points.n_cells(); ++c)
@@ -184,26 +184,20 @@ namespace geocone::GEOCONE_DIM
              p < points.first_point[c + 1];
              ++p)
           {
-            double rate = 0.;
             for (unsigned int i = 0; i < n; ++i)
               {
                 const Tensor<1, dim> g = divergence_of(points, p, i);
                 for (unsigned int d = 0; d < dim; ++d)
-                  rate += g[d] * cell_v[dim * i + d];
+                  of_points[p] += g[d] * cell_v[dim * i + d];
               }
-            for (unsigned int i = 0; i < functions.n_vertices; ++i)
-              sum.local_element(dim * node_of(c, i)) +=
-                points.weight[p] * functions.N[functions.n_vertices * p + i] *
-                rate;
           }
       }
-    sum.compress(VectorOperation::add);
-    return sum;
+    return of_points;
   }
 
-  template <typename PressureOf>
+  template <typename ValueOf>
   Vector
-  Consolidation::storage(const PressureOf &p) const
+  Consolidation::integral(const ValueOf &f) const
   {
     Vector             sum(trial.get_partitioner());
     const unsigned int n = functions.n_vertices;
@@ -212,10 +206,10 @@ namespace geocone::GEOCONE_DIM
            q < points.first_point[c + 1];
            ++q)
         {
-          const double water = points.weight[q] * p(q) / fluid_modulus(q);
+          const double weighted = points.weight[q] * f(q);
           for (unsigned int i = 0; i < n; ++i)
             sum.local_element(dim * node_of(c, i)) +=
-              functions.N[n * q + i] * water;
+              functions.N[n * q + i] * weighted;
         }
     sum.compress(VectorOperation::add);
     return sum;
@@ -269,16 +263,19 @@ namespace geocone::GEOCONE_DIM
   void
   Consolidation::update(const Vector &v)
   {
-    inflow = divergence(v);
-    Vector b = stored_n;
+    rate     = divergence(v);
+    Vector b = integral([this](const unsigned int p) {
+      return share(p) * (storage(p) * of_point_n[p] - h * rate[p]);
+    });
     b += smoothed_n;
-    b.add(-h, inflow);
     trial = solve(b);
     for (unsigned int c = 0; c < points.n_cells(); ++c)
       for (unsigned int p = points.first_point[c];
            p < points.first_point[c + 1];
            ++p)
-        of_point[p] = value(trial, c, p);
+        of_point[p] =
+          share(p) * value(trial, c, p) +
+          fluid_modulus(p) * (storage(p) * of_point_n[p] - h * rate[p]);
   }
 
   void
@@ -293,8 +290,8 @@ namespace geocone::GEOCONE_DIM
              p < points.first_point[c + 1];
              ++p)
           {
-            const double weight =
-              points.weight[p] * functions.N[functions.n_vertices * p + j];
+            const double weight = points.weight[p] * share(p) *
+                                  functions.N[functions.n_vertices * p + j];
             for (unsigned int i = 0; i < n; ++i)
               {
                 const Tensor<1, dim> g = divergence_of(points, p, i);
@@ -318,7 +315,10 @@ namespace geocone::GEOCONE_DIM
   void
   Consolidation::add_tangent(Vector &dst, const Vector &dv) const
   {
-    const Vector        change = solve(divergence(dv)); // -dp/h
+    const std::vector<double> rates = divergence(dv);
+    const Vector change = solve(integral([&](const unsigned int p) { // -dP/h
+      return share(p) * rates[p];
+    }));
     Vector              part(trial.get_partitioner());
     const unsigned int  n_dofs = dim * points.n_nodes;
     for (unsigned int c = 0; c < points.n_cells(); ++c)
@@ -442,9 +442,11 @@ namespace geocone::GEOCONE_DIM
   WaterBalance
   Consolidation::commit()
   {
-    Vector change =
-      storage([this](const unsigned int p) { return of_point[p]; });
-    change -= stored_n;
+    const Vector change = integral([this](const unsigned int p) {
+      return storage(p) * (of_point[p] - of_point_n[p]);
+    });
+    const Vector inflow =
+      integral([this](const unsigned int p) { return h * rate[p]; });
     Vector seepage = products(functions.flow, trial);
     seepage *= h;
     if (functions.smooths())
@@ -459,13 +461,20 @@ namespace geocone::GEOCONE_DIM
         {
           const unsigned int dof    = dim * node;
           const double       stored = change.local_element(dof),
-                       volume       = h * inflow.local_element(dof),
+                       volume       = inflow.local_element(dof),
                        leaves       = seepage.local_element(dof);
           sums[0] += stored + volume;
           sums[1] += functions.is_drained[node] ? stored + volume : -leaves;
           sums[2] += std::abs(stored) + std::abs(volume);
           sums[3] += trial.local_element(dof) * leaves;
         }
+    if (has_local())
+      for (unsigned int c = 0; c < points.n_cells(); ++c)
+        for (unsigned int p = points.first_point[c];
+             p < points.first_point[c + 1];
+             ++p)
+          sums[3] += points.weight[p] * h * functions.leakage[p] *
+                     std::pow(of_point[p] - value(trial, c, p), 2);
     sum_over_ranks(sums, trial.get_mpi_communicator());
     if (at_vertices != nullptr)
       for (unsigned int i = 0; i < trial.locally_owned_size(); ++i)

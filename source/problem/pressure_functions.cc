@@ -234,16 +234,25 @@ namespace geocone::GEOCONE_DIM
     for (const Point<dim> &unit : quadrature.get_points())
       functions.push_back(vertex_functions(mesh.is_simplicial(), unit));
     const unsigned int n = all.n_vertices;
+    const double       slowest =
+      (mesh.is_simplicial() ? 8. : 4.) * numbers::PI * numbers::PI;
     for (unsigned int c = 0; c < points.n_cells(); ++c)
       for (unsigned int q = 0; q < quadrature.size(); ++q)
         {
-          const unsigned int p = points.first_point[c] + q;
+          const unsigned int   p = points.first_point[c] + q;
+          const Tensor<2, dim> to_unit =
+            mesh.inverse_jacobian(points.cells[c], quadrature.point(q));
+          const auto &K = mobility[points.material[p]];
+          // Without B-bar quadrilaterals would lock within cells.
+          if (mesh.is_simplicial() || space.has_b_bar())
+            all.leakage.push_back(slowest * trace(to_unit * Tensor<2, dim>(K) *
+                                                  transpose(to_unit)));
           all.N.insert(
             all.N.end(), functions[q].value.begin(), functions[q].value.end());
           add_flow(points.weight[p],
-                   mobility[points.material[p]],
+                   K,
                    functions[q].gradient,
-                   mesh.inverse_jacobian(points.cells[c], quadrature.point(q)),
+                   to_unit,
                    &all.flow[n * n * c]);
         }
     all.is_drained = std::move(is_drained);

@@ -21,11 +21,17 @@ namespace geocone::GEOCONE_DIM
    * axisymmetry. With the bulk modulus K_w/n of the pore fluid, hydraulic
    * conductivity k and unit weight gamma of water, backward Euler gives
    *   tr(e - e_n) + (n/K_w) (p - p_n) = h div((k/gamma) grad p).
-   * The pressures p are those of PressureFunctions. The matrices of
-   * PorePressures are sums over the points,
-   *   G = sum V (B' 1) N',   M = sum V (n/K_w) N' N,   A = M + S + h L,
-   *   f = sum V (n/K_w) N' p_n + S p_n,
+   * The pressures are those of PressureFunctions at the vertices, P, and with
+   * finite elements local ones besides: a point has p = N P + q, where
+   *   tr(e - e_n) + (n/K_w) (p - p_n) = -h l q
+   * with the leakage l of the cell. Water that cannot leave a cell in the step is
+   * kept by each point, as in undrained soil; without local pressures it is kept
+   * in the mean with the functions N. With a = h l/(n/K_w + h l), 1 without local
+   * pressures, the matrices of PorePressures are sums over the points,
+   *   G = sum V a (B' 1) N',   M = sum V a (n/K_w) N' N,   A = M + S + h L,
+   *   f = sum V a (n/K_w) N' p_n + S p_n,
    * with the pressures p_n of the points at t_n, and of the vertices in S p_n.
+   * The stiffness matrix has the modulus 1/(n/K_w + h l) of the water.
    * Pressures are stored as the first components of nodes in vectors with the
    * layout of the velocities.
    */
@@ -52,6 +58,12 @@ namespace geocone::GEOCONE_DIM
     {
       return of_point[point];
     }
+    double
+    fluid_modulus(const unsigned int point) const override
+    {
+      return has_local() ? 1. / (storage(point) + h * functions.leakage[point])
+                         : 0.;
+    }
     void
     add_tangent(Vector &dst, const Vector &dv) const override;
     SparseMatrix
@@ -73,15 +85,15 @@ namespace geocone::GEOCONE_DIM
     void
     number_rows();
 
-    /** Computes G' v with ghosts of v, in all owned pressures (m^2/s). */
-    Vector
+    /** Divergence at the points, with ghosts of v (1/s). */
+    std::vector<double>
     divergence(const Vector &v) const;
 
-    /** Computes sum V (n/K_w) N' p of pressures p of the points, in all owned
-     *  pressures (m^2). */
-    template <typename PressureOf>
+    /** Computes sum V N' f of a function f of the points, in all
+     *  owned pressures. */
+    template <typename ValueOf>
     Vector
-    storage(const PressureOf &p) const;
+    integral(const ValueOf &f) const;
 
     /** Computes the sum of matrices of the cells times pressures p with ghosts,
      *  in all owned pressures. */
@@ -112,11 +124,26 @@ namespace geocone::GEOCONE_DIM
     int
     row_of_dof(const unsigned int cell, const unsigned int i) const;
 
-    /** K_w/n of a point (Pa). */
+    /** n/K_w of a point (1/Pa). */
     double
-    fluid_modulus(const unsigned int point) const
+    storage(const unsigned int point) const
     {
-      return materials.law(points.material[point]).fluid_modulus();
+      return 1. / materials.law(points.material[point]).fluid_modulus();
+    }
+
+    /** Whether points have local pressures. */
+    bool
+    has_local() const
+    {
+      return !functions.leakage.empty();
+    }
+
+    /** The factor a of a point. */
+    double
+    share(const unsigned int point) const
+    {
+      return has_local() ? h * functions.leakage[point] * fluid_modulus(point)
+                         : 1.;
     }
 
     /** Local node of a vertex of a cell. */
@@ -132,11 +159,11 @@ namespace geocone::GEOCONE_DIM
     const TurnedDofs              turned;
     const PressureFunctions       functions;
     Vector *const                 at_vertices; ///< p_n at the vertices
-    Vector                        stored_n;    ///< sum V (n/K_w) N' p_n
     Vector                        smoothed_n;  ///< S p_n
-    Vector                        trial;       ///< p(v)
-    Vector                        inflow;      ///< G' v
+    Vector                        trial;       ///< P(v)
+    std::vector<double>           rate; ///< divergence of v at the points
     std::vector<double>           of_point;    ///< p(v) at the points
+    std::vector<double>           of_point_n;  ///< p_n at the points
     std::vector<double>           coupling;    ///< G by cell and column
     std::vector<int>              row; ///< in A, by local node; -1: none
     SparseMatrix                  A;

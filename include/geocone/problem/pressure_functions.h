@@ -34,6 +34,10 @@ namespace geocone::GEOCONE_DIM
      *  through the soil and out of it (m^4/(N s)). */
     std::vector<double> flow;
 
+    /** Flow per volume and local pressure of a point (1/(Pa s)), see
+     *  Consolidation; empty without local pressures. */
+    std::vector<double> leakage;
+
     /** Matrices S of the cells, which smooth the changes of the pressures
      *  (m^4/N); empty where velocities and pressures are inf-sup stable. */
     std::vector<double> smoothing;
@@ -49,6 +53,10 @@ namespace geocone::GEOCONE_DIM
 
   /** Pressures on a mesh with fixed quadrature points. With velocities of degree
    *  2 and 3 they are Taylor-Hood elements, which satisfy the inf-sup condition.
+   *  Local pressures leak at the rate of the slowest pressure between drained
+   *  edges in half of a cell, which velocities of degree 2 resolve: (2 pi)^2
+   *  times the trace of the mobility k/gamma in unit coordinates, exact in
+   *  rectangles, and twice as much on triangles, exact in equilateral ones.
    *  @param is_drained by local node
    *  @throws InputError for a material without pore fluid or permeability */
   PressureFunctions

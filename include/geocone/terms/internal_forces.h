@@ -344,13 +344,13 @@ namespace geocone::GEOCONE_DIM
       return !pressure.empty();
     }
 
-    /** Bulk modulus K_w/n of the pore fluid, divided by the porosity, at a
-     *  point that keeps its water (Pa); 0 in consolidating soil. */
+    /** Derivative of the excess pore pressure of a point by its volumetric
+     *  strain: K_w/n if it keeps its water (Pa). */
     double
     fluid_modulus(const unsigned int point) const
     {
       return flow != nullptr
-               ? 0.
+               ? flow->fluid_modulus(point)
                : materials[points.material[point]].fluid_modulus();
     }
 

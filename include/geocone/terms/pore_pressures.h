@@ -53,6 +53,12 @@ namespace geocone::GEOCONE_DIM
     virtual double
     at(const unsigned int point) const = 0;
 
+    /** Derivative -dp/dtr(e) of the pressure at a point by its volumetric strain,
+     *  at given pressures of the vertices (Pa). Internal forces add it to the
+     *  stiffness matrix. */
+    virtual double
+    fluid_modulus(const unsigned int point) const = 0;
+
     /** Adds the derivative h G A^-1 G' dv of the forces -G p(v) in the direction
      *  dv to dst. @param dv with its ghosts. Collective. */
     virtual void
