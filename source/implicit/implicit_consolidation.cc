@@ -200,10 +200,10 @@ namespace geocone::GEOCONE_DIM
                        "leave it out");
     scene->structures.refuse(std::string(Drainage::parameter) + " and MPM",
                              "set Discretisation/Method = FEM");
-    // The buoyancy of a table would be that of the changing volume.
-    scene->water.refuse(std::string(Drainage::parameter) + " and MPM",
-                        "give soil below water its buoyant density, without a "
-                        "table, or set Discretisation/Method = FEM");
+    // A steady flow is that through the body at the start.
+    scene->water.seepage.refuse(std::string(Drainage::parameter) + " and MPM",
+                                "give water at rest by 'Water/Table', or set "
+                                "Discretisation/Method = FEM");
     scene->dirichlet.refuse_stages(
       std::string(Drainage::parameter) + " and MPM",
       "let them act in all stages: a side is "

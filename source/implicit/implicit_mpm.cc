@@ -18,6 +18,36 @@ namespace geocone::GEOCONE_DIM
 {
   using namespace dealii;
 
+  namespace
+  {
+    /** Refuses consolidating particles that are not in water at rest, where there
+     *  is water at all. Collective. */
+    void
+    check_water_at_rest(const Scene          &scene,
+                        const MaterialPoints &points,
+                        const MPI_Comm        comm)
+    {
+      const double       weight = scene.water.weight();
+      const unsigned int is_dry =
+        std::any_of(points.position.begin(),
+                    points.position.end(),
+                    [&](const Point<dim> &x) {
+                      Tensor<1, dim> other = scene.water.force(x);
+                      other[1] -= weight;
+                      return !(scene.water.pressure(x) > 0.) ||
+                             other.norm() > 1e-6 * weight;
+                    });
+      if (Utilities::MPI::max(is_dry, comm) > 0)
+        throw InputError(
+          Drainage::parameter,
+          "true",
+          "false with particles and water, unless all soil is below a level "
+          "'Water/Table' at the start",
+          "raise the table above the soil, give soil its buoyant density "
+          "without a table, or set Discretisation/Method = FEM");
+    }
+  } // namespace
+
   std::string
   ImplicitMPM::prepare(const Scene           &scene_,
                        BackgroundMesh        &mesh_,
@@ -54,6 +84,9 @@ namespace geocone::GEOCONE_DIM
                  " with Advection = particle velocity lets "
                  "the total energy grow where particles and nodes move "
                  "differently: take the grid velocity";
+    if (drainage.acts && scene->water.acts())
+      check_water_at_rest(
+        *scene, points, mesh->triangulation().get_communicator());
     present_stage = scene->loading.list.front()->name;
     datum         = mesh->lower_corner();
     if (is_unbalanced(points))
@@ -406,6 +439,12 @@ namespace geocone::GEOCONE_DIM
                        if (parts[line] != 0.)
                          f += parts[line] * part * points.volume[p] *
                               scene->water.force(points.position[p], line);
+                     if (drainage.acts) // water that has left has no weight
+                       f[1] += part * scene->water.weight() *
+                               (points.mass[p] /
+                                  scene->materials.law(points.material[p])
+                                    .saturated_density() -
+                                points.volume[p]);
                      at.scatter<dim, false>(f.begin_raw(), of_water.begin());
                      if (scene->water.has_suction())
                        add_suction(points, p, at, part, parts, of_water);
