@@ -80,12 +80,13 @@ namespace geocone::GEOCONE_DIM
     moved_with_body(const std::vector<SidePart> &panels,
                     const BackgroundMesh        &mesh,
                     const Space                 &space,
+                    const NodesWithMass         &has_mass,
                     const Vector                &v,
                     const double                 h)
     {
       constexpr double undivided = std::numeric_limits<double>::max();
       MovingSurface    surface(panels, undivided);
-      surface.move(mesh, space, v, h);
+      surface.move(mesh, space, has_mass, v, h);
       // Of a panel in space: two triangles with its ends.
       const std::vector<SidePart> facets   = surface.facets();
       constexpr unsigned int      n_facets = dim - 1;
@@ -212,10 +213,11 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
-  MovingConditions::add_tractions(Vector      &force,
-                                  const double t,
-                                  const Stage *stage,
-                                  const bool   scaled) const
+  MovingConditions::add_tractions(Vector              &force,
+                                  const NodesWithMass &has_mass,
+                                  const double         t,
+                                  const Stage         *stage,
+                                  const bool           scaled) const
   {
     for (const auto &[condition, surface] : loads)
       {
@@ -223,17 +225,23 @@ namespace geocone::GEOCONE_DIM
         const bool               is_active =
           stage == nullptr || stage->scales(load.name) == scaled;
         const std::vector<SidePart> facets = surface.facets();
+        std::vector<double>         carried(facets.size(), 0.);
         const std::vector<double>   parts =
           for_each_point(mesh,
                          space,
                          facets,
                          [&, &surface = surface](const std::size_t    number,
                                                  const BoundaryPoint &point) {
+                           BoundaryPoint on_soil = point;
+                           if (!keep_nodes_with_mass(
+                                 space, has_mass, point.nodes, on_soil.values))
+                             return;
+                           carried[number] += point.weight;
                            if (is_active)
                              add_traction(load,
                                           surface.size_at_start(number),
                                           area_of(facets[number]),
-                                          point,
+                                          on_soil,
                                           t,
                                           force);
                          });
@@ -241,9 +249,27 @@ namespace geocone::GEOCONE_DIM
         for (const SidePart &facet : facets)
           middles.push_back(facet.middle());
         check_in_mesh(load, middles, parts);
+        check_on_soil(load, middles, carried);
       }
     if (!loads.empty())
       force.compress(VectorOperation::add);
+  }
+
+  void
+  MovingConditions::check_on_soil(const BoundaryCondition       &load,
+                                  const std::vector<Point<dim>> &middles,
+                                  std::vector<double>            carried) const
+  {
+    sum_over_ranks(carried, mesh.triangulation().get_communicator());
+    const auto least = std::min_element(carried.begin(), carried.end());
+    if (*least < 1. - 1e-6)
+      throw StepFailure(
+        format("the side of '%s' has left the particles: no function with mass "
+               "carries %.3g %% of its part around (%s)\n"
+               "  remedy:  smaller steps, or B-splines, which reach farther",
+               load.name.c_str(),
+               100. * (1. - *least),
+               text_of_place(middles[least - carried.begin()]).c_str()));
   }
 
   void
@@ -449,14 +475,18 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
-  MovingConditions::move(const Vector &v, const double h, const double t)
+  MovingConditions::move(const NodesWithMass &has_mass,
+                         const Vector        &v,
+                         const double         h,
+                         const double         t)
   {
     for (PrescribedSide &side : supports)
       {
         side.before = side.panels;
         if (!is_active[side.condition])
           {
-            side.panels = moved_with_body(side.panels, mesh, space, v, h);
+            side.panels =
+              moved_with_body(side.panels, mesh, space, has_mass, v, h);
             continue;
           }
         for (SidePart &panel : side.panels)
@@ -471,7 +501,7 @@ namespace geocone::GEOCONE_DIM
           }
       }
     for (LoadedSide &side : loads)
-      side.surface.move(mesh, space, v, h);
+      side.surface.move(mesh, space, has_mass, v, h);
   }
 
   std::vector<bool>
@@ -566,10 +596,10 @@ namespace geocone::GEOCONE_DIM
     return Utilities::MPI::sum(n, mesh.triangulation().get_communicator());
   }
 
-  std::vector<SoilLimit>
-  MovingConditions::soil_limits() const
+  SoilBoundary
+  MovingConditions::soil_boundary() const
   {
-    std::vector<SoilLimit> limits;
+    SoilBoundary boundary;
     for (const PrescribedSide &side : supports)
       for (const SidePart &panel : side.panels)
         {
@@ -578,12 +608,15 @@ namespace geocone::GEOCONE_DIM
             if (is_active[side.condition] &&
                 std::abs(area[d]) > (1. - 1e-9) * area.norm() &&
                 holds_normal(*scene.dirichlet.list[side.condition], panel))
-              limits.push_back({d,
-                                panel.corners[0][d],
-                                area[d] > 0.,
-                                BoundingBox<dim>(panel.corners)});
+              boundary.limits.push_back({d,
+                                         panel.corners[0][d],
+                                         area[d] > 0.,
+                                         BoundingBox<dim>(panel.corners)});
         }
-    return limits;
+    for (const LoadedSide &side : loads)
+      for (SidePart &facet : side.surface.facets())
+        boundary.loaded.push_back(std::move(facet));
+    return boundary;
   }
 
   void

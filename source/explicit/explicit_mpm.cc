@@ -194,6 +194,13 @@ namespace geocone::GEOCONE_DIM
         "splines: each point should grow as it is sheared, but the points of a "
         "cell grow alike; set Discretisation/B-bar = false, or the dilatancy "
         "to 0, or take implicit steps");
+    if (!scene->tractions.list.empty())
+      remarks.push_back(
+        "tractions in explicit steps: where particles cross cells near the "
+        "loaded side, stresses scatter by a fifth of the traction with "
+        "splines, "
+        "and by more with Q1, whose side settles too far; take "
+        "Discretisation/Method = MPM with splines, or press by an obstacle");
     const ParticleTransfer &rule = body.transfer_rule();
     if (rule.is_affine() && space.degree() == 1)
       throw InputError(ParticleTransfer::parameter,

@@ -46,6 +46,73 @@ namespace geocone::GEOCONE_DIM
           "raise the table above the soil, give soil its buoyant density "
           "without a table, or set Discretisation/Method = FEM");
     }
+
+    /** Largest number of points of a cell, per direction. Collective. */
+    unsigned int
+    points_per_direction(const MaterialPoints &points, const MPI_Comm comm)
+    {
+      unsigned int n = 0;
+      for (unsigned int c = 0; c < points.n_cells(); ++c)
+        n = std::max(n, points.first_point[c + 1] - points.first_point[c]);
+      return std::ceil(std::pow(Utilities::MPI::max(n, comm), 1. / dim) - 1e-6);
+    }
+
+    /**
+     * Checks that particles which move see the functions across the narrowest
+     * part of the body: n cells of splines of degree p have n + p functions.
+     * One that k n particles do not see has no stiffness. Collective.
+     * @return a warning, or nothing
+     * @throws InputError where two functions have none
+     */
+    std::string
+    check_width_of_body(const BackgroundMesh &mesh,
+                        const Space          &space,
+                        const unsigned int    k,
+                        const MaterialPoints &points)
+    {
+      const MPI_Comm comm = mesh.triangulation().get_communicator();
+      // Least places of cells, and largest ones with the opposite sign.
+      std::vector<double> ends(2 * dim, 1e300);
+      for (unsigned int c = 0; c < points.n_cells(); ++c)
+        {
+          const auto place = mesh.place_in_grid(points.cells[c]);
+          for (unsigned int d = 0; d < dim; ++d)
+            {
+              ends[2 * d]     = std::min(ends[2 * d], double(place[d]));
+              ends[2 * d + 1] = std::min(ends[2 * d + 1], -double(place[d]));
+            }
+        }
+      Utilities::MPI::min(ends, comm, ends);
+      std::string warning;
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          const double n      = 1. - ends[2 * d] - ends[2 * d + 1],
+                       unseen = n + space.degree() - k * n;
+          const std::string what =
+            format("across a body %g cell%s wide along %c %s has %g functions, "
+                   "more than %g moving particles can tell apart",
+                   n,
+                   n > 1. ? "s" : "",
+                   "xyz"[d],
+                   space.element().c_str(),
+                   n + space.degree(),
+                   k * n);
+          const std::string parameter = "Particles/Points per direction",
+                            remedy =
+                              "take more of them, a lower degree, or smaller "
+                              "cells";
+          if (unseen > 1.5 && k > 1)
+            throw InputError(parameter,
+                             k,
+                             format("at least %g: ",
+                                    std::ceil((n + space.degree() - 1.) / n)) +
+                               what + ", so that some have no stiffness",
+                             remedy);
+          if (unseen > 0.5 && k > 1)
+            warning = what + ": displacements may be off by 2 %; " + remedy;
+        }
+      return warning;
+    }
   } // namespace
 
   std::string
@@ -77,13 +144,24 @@ namespace geocone::GEOCONE_DIM
                                "Discretisation/Method = FEM");
 
     std::string warning = particles.prepare(*scene, *mesh, *space, points);
+    const auto  warn    = [&](const std::string &text) {
+      if (!text.empty())
+        warning += (warning.empty() ? "" : "; ") + text;
+    };
     if (!integration.is_backward_euler() &&
         advection == Advection::particle_velocity)
-      warning += std::string(warning.empty() ? "" : "; ") +
-                 "Integration = " + integration.word() +
-                 " with Advection = particle velocity lets "
-                 "the total energy grow where particles and nodes move "
-                 "differently: take the grid velocity";
+      warn(
+        "Integration = " + integration.word() +
+        " with Advection = particle velocity lets the total energy grow where "
+        "particles and nodes move differently: take the grid velocity");
+    if (advection != Advection::none)
+      {
+        const unsigned int k = points_per_direction(
+          points, mesh->triangulation().get_communicator());
+        if (space->is_spline())
+          warn(check_width_of_body(*mesh, *space, k, points));
+        warn(check_tractions(k));
+      }
     if (drainage.acts && scene->water.acts())
       check_water_at_rest(
         *scene, points, mesh->triangulation().get_communicator());
@@ -128,9 +206,7 @@ namespace geocone::GEOCONE_DIM
     newton.check(*problem);
     kinematics.velocity = velocity_L;
     kinematics.supports.resize(scene->supports().size());
-    if (const std::string bent = constraints->warn_of_nonlinear_values();
-        !bent.empty())
-      warning += (warning.empty() ? "" : "; ") + bent;
+    warn(constraints->warn_of_nonlinear_values());
     return warning;
   }
 
@@ -214,10 +290,10 @@ namespace geocone::GEOCONE_DIM
                         "'Mesh/Box'");
     {
       TimerOutput::Scope scope(timer, "transfer");
-      particles.prepare_b_bar(consistent_integration &&
-                                advection != Advection::none,
-                              moving->soil_limits(),
-                              points);
+      particles.prepare_integration(consistent_integration &&
+                                      advection != Advection::none,
+                                    moving->soil_boundary(),
+                                    points);
       if (nodes_moved)
         constraints =
           std::make_unique<Constraints>(*scene, *mesh, *space, present_stage);
@@ -465,7 +541,7 @@ namespace geocone::GEOCONE_DIM
       stage == nullptr || stage->scales("weight") == scaled;
     const Tensor<1, dim> g =
       has_weight ? scene->gravity.at(t) : Tensor<1, dim>();
-    moving->add_tractions(dst, t, stage, scaled);
+    moving->add_tractions(dst, nodes_with_mass(), t, stage, scaled);
     if (scene->water.acts() &&
         (scene->water.scales_with_weight() ? has_weight : !scaled))
       add_water(points, t, dst);
@@ -564,7 +640,7 @@ namespace geocone::GEOCONE_DIM
   {
     if (advection == Advection::none)
       return;
-    moving->move(v, step.h, step.solved_at);
+    moving->move(nodes_with_mass(), v, step.h, step.solved_at);
     put_points_back(points);
   }
 

@@ -8,6 +8,8 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
+
 namespace geocone::GEOCONE_DIM
 {
   using namespace dealii;
@@ -16,8 +18,8 @@ namespace geocone::GEOCONE_DIM
   {
     const UsedWhere used_implicit_mpm_parameters[] = {
       {"Material point method/Consistent integration",
-       "Discretisation/B-bar",
-       {"true"}},
+       "Discretisation/Method",
+       {"MPM"}},
       {"Material point method/Advection", "Discretisation/Method", {"MPM"}},
       {"Material point method/Consistent mass part",
        "Discretisation/Method",
@@ -61,8 +63,9 @@ namespace geocone::GEOCONE_DIM
       Patterns::Double(0., 1.));
     add_parameter("Consistent integration",
                   consistent_integration,
-                  "For B-bar with B-splines and moving particles, in full "
-                  "cells: scales the weights of the particles to the volume of "
+                  "For B-splines and moving particles, with B-bar or "
+                  "tractions, in full cells and those cut by a loaded side: "
+                  "scales the weights of the particles to the volume of "
                   "the cell and corrects the mean gradients to those of the "
                   "cell. false: weights are the volumes of the particles.");
     add_parameter("Ghost stiffness",
@@ -142,6 +145,43 @@ namespace geocone::GEOCONE_DIM
                        "in places, and so would be masses: set Basis = "
                        "automatic, or '" +
                          section + "Consistent mass part' = 1");
+  }
+
+  std::string
+  ImplicitMPM::check_tractions(const unsigned int k) const
+  {
+    if (scene->tractions.list.empty())
+      return "";
+    const bool has_water = scene->materials.traits().undrained;
+    if (has_water && !drainage.acts && !space->has_b_bar())
+      throw InputError("Discretisation/B-bar",
+                       "false",
+                       "true where undrained particles move under tractions",
+                       "set it to true with Element = B-spline 3, or let the "
+                       "soil drain by 'Time stepping/Consolidation'");
+    const std::string subject =
+      "tractions on " + space->element() + " whose particles move: ";
+    if (!space->is_spline() || !consistent_integration)
+      return subject +
+             "where they cross cells, stresses near the loaded side are off by "
+             "up to the traction; take 'Discretisation/Element' = B-spline 3 "
+             "with 'Material point method/Consistent integration' = true";
+    const auto &conditions = scene->dirichlet.list;
+    const bool  moves =
+      std::any_of(conditions.begin(), conditions.end(), [](const auto &c) {
+        return c->moves_with_body();
+      });
+    if (space->degree() < 3 && (moves || (has_water && !drainage.acts)))
+      return subject +
+             "stresses near moving sides, and pressures of undrained soil "
+             "everywhere, are off by a third of the traction, by more than "
+             "that "
+             "with 2 particles per direction; take B-spline 3";
+    if (has_water && k < 3 && moves)
+      return subject +
+             "pore pressures near moving sides are off by up to a fifth of the "
+             "traction; take 'Particles/Points per direction' = 3";
+    return "";
   }
 
   void

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/points/consistent_integration.h>
+#include <geocone/surfaces/side_points.h>
 
 #include <deal.II/base/quadrature_lib.h>
 
@@ -27,13 +28,18 @@ namespace geocone::GEOCONE_DIM
     /** Soil fraction of a cell up to which it need not be filled. */
     constexpr double least_part = 0.1;
 
+    /** Part of a cell's cross-section that loaded sides must cover to limit the
+     *  soil in it. */
+    constexpr double least_cover = 0.9;
+
     /** Lower and upper corner of a box. */
     using Corners = std::pair<Point<dim>, Point<dim>>;
 
     /** Part of a cell's box on the soil's side of the limits that intersect it
      *  or lie at most one cell away. */
     Corners
-    soil_part(const BoundingBox<dim> &box, const std::vector<SoilLimit> &limits)
+    part_within(const BoundingBox<dim>       &box,
+                const std::vector<SoilLimit> &limits)
     {
       auto [lower, upper] = box.get_boundary_points();
       for (const SoilLimit &limit : limits)
@@ -64,15 +70,232 @@ namespace geocone::GEOCONE_DIM
       return {lower, upper};
     }
 
-    /** Fraction of the cell's volume in this part. */
+    /** Area of a box normal to an axis; in two dimensions a length. */
     double
-    share(const Corners &part, const BoundingBox<dim> &box)
+    cross_section(const Corners &box, const unsigned int axis)
     {
       double product = 1.;
       for (unsigned int d = 0; d < dim; ++d)
-        product *=
-          std::max(0., part.second[d] - part.first[d]) / box.side_length(d);
+        if (d != axis)
+          product *= std::max(0., box.second[d] - box.first[d]);
       return product;
+    }
+
+    /** Facet of a loaded side, with the axis to which it is nearly normal. */
+    struct LoadedFacet
+    {
+      SidePart         part;
+      unsigned int     axis = 0;
+      bool             soil_is_below;
+      BoundingBox<dim> extent;
+
+      explicit LoadedFacet(const SidePart &part)
+        : part(part)
+        , extent(part.corners)
+      {
+        const Tensor<1, dim> area = area_of(part);
+        for (unsigned int d = 1; d < dim; ++d)
+          if (std::abs(area[d]) > std::abs(area[axis]))
+            axis = d;
+        soil_is_below = area[axis] > 0.;
+      }
+
+      /** Whether it acts on a cell: over its cross-section, at most one cell
+       *  away along the axis. */
+      bool
+      is_near(const BoundingBox<dim> &cell) const
+      {
+        bool near = true;
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            const double margin =
+              (d == axis ? 1. : -negligible_part) * cell.side_length(d);
+            near = near &&
+                   extent.lower_bound(d) < cell.upper_bound(d) + margin &&
+                   extent.upper_bound(d) > cell.lower_bound(d) - margin;
+          }
+        return near;
+      }
+
+      double
+      projected_area() const
+      {
+        return std::abs(area_of(part)[axis]);
+      }
+    };
+
+    /** Known boundaries of the soil. */
+    struct Boundary
+    {
+      std::vector<SoilLimit>   limits;
+      std::vector<LoadedFacet> loaded;
+    };
+
+    /** Part of a cell that can be soil: a box, or its part up to a loaded side
+     *  that is nearly normal to an axis. */
+    struct SoilPart
+    {
+      Corners                  box;
+      std::vector<LoadedFacet> top = {}; ///< inside the box
+
+      /** Volume, or area in two dimensions. */
+      double
+      volume() const
+      {
+        if (top.empty())
+          return cross_section(box, 0) *
+                 std::max(0., box.second[0] - box.first[0]);
+        double sum = 0.;
+        for (const LoadedFacet &facet : top)
+          sum += facet.projected_area() * height(facet, facet.part.middle());
+        return sum;
+      }
+
+      /** Height of a position on a facet above the end of the box on the
+       *  soil's side. */
+      double
+      height(const LoadedFacet &facet, const Point<dim> &x) const
+      {
+        return facet.soil_is_below ? x[facet.axis] - box.first[facet.axis]
+                                   : box.second[facet.axis] - x[facet.axis];
+      }
+
+      /** Quadrature points and weights, n in each direction of a box. */
+      std::vector<std::pair<Point<dim>, double>>
+      quadrature(const unsigned int n) const
+      {
+        std::vector<std::pair<Point<dim>, double>> points;
+        if (top.empty())
+          {
+            const QGauss<dim> rule(n);
+            for (unsigned int q = 0; q < rule.size(); ++q)
+              {
+                Point<dim> x;
+                for (unsigned int d = 0; d < dim; ++d)
+                  x[d] = box.first[d] +
+                         (box.second[d] - box.first[d]) * rule.point(q)[d];
+                points.push_back({x, rule.weight(q) * volume()});
+              }
+            return points;
+          }
+        const Quadrature<dim - 1> across = rule_of_facets();
+        const QGauss<1>           along(n + 1);
+        for (const LoadedFacet &facet : top)
+          for (unsigned int q = 0; q < across.size(); ++q)
+            {
+              Point<dim>   x       = facet.part.at(across.point(q));
+              const double top_end = x[facet.axis], h = height(facet, x);
+              for (unsigned int k = 0; k < along.size(); ++k)
+                {
+                  x[facet.axis] = top_end + (facet.soil_is_below ? -h : h) *
+                                              along.point(k)[0];
+                  points.push_back({x,
+                                    facet.projected_area() * h *
+                                      across.weight(q) * along.weight(k)});
+                }
+            }
+        return points;
+      }
+    };
+
+    /** Parts of facets in the column of a box along their axis, limited to the
+     *  box. */
+    std::vector<LoadedFacet>
+    over_box(const Corners                  &box,
+             const unsigned int              axis,
+             const std::vector<LoadedFacet> &facets)
+    {
+      std::vector<SideOfPlane> column;
+      for (unsigned int d = 0; d < dim; ++d)
+        if (d != axis)
+          {
+            column.push_back({box.first, Point<dim>::unit_vector(d)});
+            column.push_back({box.second, -Point<dim>::unit_vector(d)});
+          }
+      const double         from = box.first[axis], to = box.second[axis];
+      const Tensor<1, dim> up = Point<dim>::unit_vector(axis);
+      const std::vector<std::vector<SideOfPlane>> layers = {
+        {{box.first, -up}},
+        {{box.first, up}, {box.second, -up}},
+        {{box.second, up}}};
+      std::vector<LoadedFacet> result;
+      const auto               add = [&](SidePart piece) {
+        for (Point<dim> &corner : piece.corners)
+          corner[axis] = std::clamp(corner[axis], from, to);
+        if (area_of(piece).norm() > 0.)
+          result.emplace_back(piece);
+      };
+      for (const LoadedFacet &facet : facets)
+        for (const SidePart &piece : pieces_between(column, facet.part))
+          {
+            const BoundingBox<dim> extent(piece.corners);
+            if (!(extent.side_length(axis) > negligible_part * (to - from)))
+              add(piece);
+            else // below, inside and above the box
+              for (const std::vector<SideOfPlane> &layer : layers)
+                for (const SidePart &rest : pieces_between(layer, piece))
+                  add(rest);
+          }
+      return result;
+    }
+
+    /** Limits the soil part of a cell to the loaded sides near it, if they
+     *  cover it. */
+    void
+    cut_at_loaded_sides(const BoundingBox<dim>         &cell,
+                        const std::vector<LoadedFacet> &loaded,
+                        SoilPart                       &part)
+    {
+      std::array<std::vector<LoadedFacet>, dim> near; // by axis
+      for (const LoadedFacet &facet : loaded)
+        if (facet.is_near(cell))
+          near[facet.axis].push_back(facet);
+      SoilPart                 cut     = part;
+      unsigned int             n_sides = 0;
+      std::vector<LoadedFacet> top;
+      std::array<double, dim>  covered = {};
+      for (unsigned int axis = 0; axis < dim; ++axis)
+        {
+          if (near[axis].empty())
+            continue;
+          const bool below = near[axis][0].soil_is_below;
+          top              = over_box(part.box, axis, near[axis]);
+          double level     = 0.;
+          for (const LoadedFacet &facet : top)
+            {
+              if (facet.soil_is_below != below)
+                return; // a thin body
+              covered[axis] += facet.projected_area();
+              level += facet.projected_area() * facet.part.middle()[axis];
+            }
+          if (!(covered[axis] > 0.))
+            continue;
+          ++n_sides;
+          (below ? cut.box.second : cut.box.first)[axis] =
+            level / covered[axis];
+        }
+      for (unsigned int axis = 0; axis < dim; ++axis)
+        if (!near[axis].empty() &&
+            covered[axis] < least_cover * cross_section(cut.box, axis))
+          return;
+      if (n_sides == 1)
+        {
+          const unsigned int axis = top[0].axis;
+          if (std::abs(covered[axis] - cross_section(part.box, axis)) <
+              1e-6 * cross_section(part.box, axis))
+            cut = {part.box, top};
+        }
+      part = cut;
+    }
+
+    /** Part of a cell on the soil's side of all boundaries. */
+    SoilPart
+    soil_part(const BoundingBox<dim> &cell, const Boundary &boundary)
+    {
+      SoilPart part{part_within(cell, boundary.limits)};
+      if (!boundary.loaded.empty())
+        cut_at_loaded_sides(cell, boundary.loaded, part);
+      return part;
     }
 
     /** Integrals for the corrections, over a part of a cell. */
@@ -103,11 +326,10 @@ namespace geocone::GEOCONE_DIM
     };
 
     CellIntegrals
-    integrate(const BackgroundMesh  &mesh,
-              const Space           &space,
-              const Space::Cell     &cell,
-              const Corners         &part,
-              const Quadrature<dim> &quadrature)
+    integrate(const BackgroundMesh &mesh,
+              const Space          &space,
+              const Space::Cell    &cell,
+              const SoilPart       &part)
     {
       const unsigned int          n   = space.nodes_per_cell();
       const BoundingBox<dim>      box = cell->bounding_box();
@@ -116,18 +338,13 @@ namespace geocone::GEOCONE_DIM
       CellIntegrals               sum;
       sum.gradient.resize(n);
       sum.hoop.resize(mesh.is_axisymmetric() ? n : 0);
-      for (unsigned int q = 0; q < quadrature.size(); ++q)
+      for (const auto &[x, size] : part.quadrature(
+             space.degree() / 2 + 1 + (mesh.is_axisymmetric() ? 1 : 0)))
         {
-          Point<dim> x, unit;
-          double     weight = quadrature.weight(q);
+          Point<dim> unit;
           for (unsigned int d = 0; d < dim; ++d)
-            {
-              const double length = part.second[d] - part.first[d];
-              x[d]    = part.first[d] + length * quadrature.point(q)[d];
-              unit[d] = (x[d] - box.lower_bound(d)) / box.side_length(d);
-              weight *= length;
-            }
-          weight *= mesh.measure(x);
+            unit[d] = (x[d] - box.lower_bound(d)) / box.side_length(d);
+          const double weight = size * mesh.measure(x);
           space.evaluate(cell, unit, values.data(), unit_gradient.data());
           const Tensor<2, dim> inverse = mesh.inverse_jacobian(cell, unit);
           sum.volume += weight;
@@ -143,30 +360,28 @@ namespace geocone::GEOCONE_DIM
      *  fraction of it filled by the volumes of its points. */
     struct Room
     {
-      Corners part;
-      double  share;  ///< of the cell
-      double  volume; ///< of the part
-      double  filled; ///< volume of the points over this
+      SoilPart part;
+      double   share;  ///< of the cell
+      double   volume; ///< of the part
+      double   filled; ///< volume of the points over this
     };
 
     std::vector<Room>
-    rooms_of_cells(const BackgroundMesh         &mesh,
-                   const std::vector<SoilLimit> &limits,
-                   const MaterialPoints         &points)
+    rooms_of_cells(const BackgroundMesh &mesh,
+                   const Boundary       &boundary,
+                   const MaterialPoints &points)
     {
       std::vector<Room> rooms;
       for (unsigned int c = 0; c < points.n_cells(); ++c)
         {
           const BoundingBox<dim> box  = points.cells[c]->bounding_box();
-          const Corners          part = soil_part(box, limits);
-          const double           soil = share(part, box);
-          // The measure is linear.
-          const double volume =
-            soil * box.volume() *
-            mesh.measure(part.first + (part.second - part.first) / 2.);
+          const SoilPart         part   = soil_part(box, boundary);
+          double                 volume = 0.;
+          for (const auto &[x, size] : part.quadrature(1))
+            volume += size * mesh.measure(x); // which is linear
           rooms.push_back(
             {part,
-             soil,
+             part.volume() / box.volume(),
              volume,
              std::accumulate(&points.volume[points.first_point[c]],
                              &points.volume[points.first_point[c + 1] - 1] + 1,
@@ -199,9 +414,9 @@ namespace geocone::GEOCONE_DIM
 
     /** Whether the cells around a vertex that can contain soil are filled. */
     std::vector<bool>
-    surrounded_vertices(const BackgroundMesh         &mesh,
-                        const std::vector<SoilLimit> &limits,
-                        const std::vector<double>    &filled)
+    surrounded_vertices(const BackgroundMesh      &mesh,
+                        const Boundary            &boundary,
+                        const std::vector<double> &filled)
     {
       const auto         &tria = mesh.triangulation();
       std::vector<bool>   result(tria.n_vertices(), true);
@@ -211,8 +426,9 @@ namespace geocone::GEOCONE_DIM
         if (!cell->is_artificial())
           {
             const BoundingBox<dim> box  = cell->bounding_box();
-            const double           soil = share(soil_part(box, limits), box),
-                         part           = filled[cell->active_cell_index()];
+            const double           soil =
+                           soil_part(box, boundary).volume() / box.volume(),
+                         part = filled[cell->active_cell_index()];
             if (!(soil > least_part))
               continue;
             for (const unsigned int v : cell->vertex_indices())
@@ -231,23 +447,27 @@ namespace geocone::GEOCONE_DIM
       return result;
     }
 
-    /** The adjacent cell, if a limit leaves a sliver without points in it. */
+    /** The adjacent cell, if a boundary leaves a sliver without points in
+     *  it. */
     std::optional<Space::Cell>
-    sliver_beside(const Space::Cell            &cell,
-                  const std::vector<SoilLimit> &limits,
-                  const std::vector<double>    &filled)
+    sliver_beside(const Space::Cell         &cell,
+                  const Boundary            &boundary,
+                  const std::vector<double> &filled)
     {
-      for (const SoilLimit &limit : limits)
+      std::array<bool, 2 *dim> is_limited = {};
+      for (const SoilLimit &limit : boundary.limits)
+        is_limited[2 * limit.axis + limit.soil_is_below] = true;
+      for (const LoadedFacet &facet : boundary.loaded)
+        is_limited[2 * facet.axis + facet.soil_is_below] = true;
+      for (unsigned int face = 0; face < 2 * dim; ++face)
         {
-          const unsigned int face =
-            2 * limit.axis + (limit.soil_is_below ? 1 : 0);
-          if (cell->at_boundary(face))
+          if (!is_limited[face] || cell->at_boundary(face))
             continue;
           const Space::Cell other = cell->neighbor(face);
           if (other->is_artificial() || filled[other->active_cell_index()] > 0.)
             continue;
           const BoundingBox<dim> box  = other->bounding_box();
-          const double           part = share(soil_part(box, limits), box);
+          const double part = soil_part(box, boundary).volume() / box.volume();
           if (part > negligible_part && part < 1. - negligible_part)
             return other;
         }
@@ -291,18 +511,18 @@ namespace geocone::GEOCONE_DIM
   } // namespace
 
   void
-  make_consistent(const BackgroundMesh         &mesh,
-                  const Space                  &space,
-                  const std::vector<SoilLimit> &limits,
-                  MaterialPoints               &points)
+  make_consistent(const BackgroundMesh &mesh,
+                  const Space          &space,
+                  const SoilBoundary   &sides,
+                  MaterialPoints       &points)
   {
+    const Boundary boundary{sides.limits,
+                            {sides.loaded.begin(), sides.loaded.end()}};
     points.weight.assign(points.volume.begin(), points.volume.end());
-    const std::vector<Room> rooms = rooms_of_cells(mesh, limits, points);
+    const std::vector<Room>   rooms  = rooms_of_cells(mesh, boundary, points);
     const std::vector<double> filled = filled_parts(mesh, rooms, points);
     const std::vector<bool>   is_surrounded =
-      surrounded_vertices(mesh, limits, filled);
-    const QGauss<dim>       quadrature(space.degree() / 2 + 1 +
-                                 (mesh.is_axisymmetric() ? 1 : 0));
+      surrounded_vertices(mesh, boundary, filled);
     std::vector<types::global_dof_index> nodes, nodes_beside;
     for (unsigned int c = 0; c < points.n_cells(); ++c)
       {
@@ -312,7 +532,10 @@ namespace geocone::GEOCONE_DIM
                            last  = points.first_point[c + 1];
         if (room.share < negligible_part)
           {
-            std::fill(&points.weight[first], &points.weight[last - 1] + 1, 0.);
+            if (SoilPart{part_within(cell->bounding_box(), sides.limits)}
+                  .volume() < negligible_part * cell->measure())
+              std::fill(
+                &points.weight[first], &points.weight[last - 1] + 1, 0.);
             continue;
           }
         const auto vertices = cell->vertex_indices();
@@ -323,17 +546,15 @@ namespace geocone::GEOCONE_DIM
         if (room.share > 1. - negligible_part && !is_inside &&
             !(std::abs(room.filled - 1.) < 0.03))
           continue;
-        CellIntegrals exact =
-          integrate(mesh, space, cell, room.part, quadrature);
-        if (const auto beside = sliver_beside(cell, limits, filled))
+        CellIntegrals exact = integrate(mesh, space, cell, room.part);
+        if (const auto beside = sliver_beside(cell, boundary, filled))
           {
             space.cell_nodes(cell, nodes);
             space.cell_nodes(*beside, nodes_beside);
             exact.add(integrate(mesh,
                                 space,
                                 *beside,
-                                soil_part((*beside)->bounding_box(), limits),
-                                quadrature),
+                                soil_part((*beside)->bounding_box(), boundary)),
                       nodes_beside,
                       nodes);
           }

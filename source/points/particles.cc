@@ -224,15 +224,15 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
-  Particles::prepare_b_bar(const bool                    consistent,
-                           const std::vector<SoilLimit> &limits,
-                           MaterialPoints               &points) const
+  Particles::prepare_integration(const bool          consistent,
+                                 const SoilBoundary &boundary,
+                                 MaterialPoints     &points) const
   {
-    if (!space->has_b_bar())
-      return;
-    if (consistent && space->is_spline() && contacts->list.empty())
-      make_consistent(*mesh, *space, limits, points);
-    project_gradients(space->volumetric_degree(), points);
+    if (consistent && space->is_spline() && contacts->list.empty() &&
+        (space->has_b_bar() || !boundary.loaded.empty()))
+      make_consistent(*mesh, *space, boundary, points);
+    if (space->has_b_bar())
+      project_gradients(space->volumetric_degree(), points);
   }
 
   void

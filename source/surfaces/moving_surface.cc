@@ -62,6 +62,7 @@ namespace geocone::GEOCONE_DIM
   void
   MovingSurface::move(const BackgroundMesh &mesh,
                       const Space          &space,
+                      const NodesWithMass  &has_mass,
                       const Vector         &v,
                       const double          h)
   {
@@ -97,6 +98,8 @@ namespace geocone::GEOCONE_DIM
               continue;
             space.cell_nodes(cell, nodes);
             space.evaluate(cell, *unit, N.data(), nullptr);
+            if (!keep_nodes_with_mass(space, has_mass, nodes, N))
+              continue;
             double *const own = &sums[n_sums * k];
             own[dim] += 1.;
             for (unsigned int i = 0; i < nodes.size(); ++i)

@@ -17,13 +17,11 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    /** A position on a face of a cell, and the inward direction. */
-    using Plane = std::pair<Point<dim>, Tensor<1, dim>>;
-
-    std::vector<Plane>
+    /** Half-spaces of the faces of a cell. */
+    std::vector<SideOfPlane>
     planes_of(const BackgroundMesh::Cell &cell)
     {
-      std::vector<Plane> planes;
+      std::vector<SideOfPlane> planes;
       const Point<dim>   middle = cell->center();
       for (const unsigned int f : cell->face_indices())
         {
@@ -39,49 +37,14 @@ namespace geocone::GEOCONE_DIM
 
     /** Range of the line from a to b inside all planes. */
     std::pair<double, double>
-    part_between(const std::vector<Plane> &planes,
-                 const Point<dim>         &a,
-                 const Point<dim>         &b)
+    part_between(const std::vector<SideOfPlane> &planes,
+                 const Point<dim>               &a,
+                 const Point<dim>               &b)
     {
       std::vector<std::pair<double, double>> conditions;
       for (const auto &[on, into] : planes)
         conditions.push_back({(a - on) * into, (b - a) * into});
       return part_of_line(conditions);
-    }
-
-    /** Part of a facet between planes, as facets. */
-    std::vector<SidePart>
-    pieces_between(const std::vector<Plane> &planes, const SidePart &facet)
-    {
-      SidePart rest = facet;
-      if (dim == 2)
-        {
-          const Point<dim> &a = facet.corners[0], &b = facet.corners[1];
-          const auto [from, to] = part_between(planes, a, b);
-          if (!(to > from))
-            return {};
-          rest.corners = {a + from * (b - a), a + to * (b - a)};
-        }
-      else
-        for (const auto &[on, into] : planes)
-          rest.corners = clipped(rest.corners, on, into);
-      return rest.simplices();
-    }
-
-    /** Quadrature on a facet of size 1. */
-    Quadrature<dim - 1>
-    rule_of_facets()
-    {
-      if constexpr (dim == 2)
-        return QGauss<dim - 1>(5);
-      else
-        {
-          const QWitherdenVincentSimplex<dim - 1> of_triangle(4);
-          std::vector<double>                     weights;
-          for (const double weight : of_triangle.get_weights())
-            weights.push_back(2. * weight);
-          return Quadrature<dim - 1>(of_triangle.get_points(), weights);
-        }
     }
   } // namespace
 
@@ -97,6 +60,59 @@ namespace geocone::GEOCONE_DIM
       else if (c < 0.)
         to = from - 1.;
     return {from, to};
+  }
+
+  bool
+  keep_nodes_with_mass(const Space                                &space,
+                       const NodesWithMass                        &has_mass,
+                       const std::vector<types::global_dof_index> &nodes,
+                       std::vector<double>                        &values)
+  {
+    double sum = 0.;
+    for (unsigned int i = 0; i < nodes.size(); ++i)
+      {
+        if (!has_mass(space.local_node(nodes[i])))
+          values[i] = 0.;
+        sum += values[i];
+      }
+    if (!(sum > 1e-12))
+      return false;
+    for (double &value : values)
+      value /= sum;
+    return true;
+  }
+
+  std::vector<SidePart>
+  pieces_between(const std::vector<SideOfPlane> &planes, const SidePart &facet)
+  {
+    SidePart rest = facet;
+    if (dim == 2)
+      {
+        const Point<dim> &a = facet.corners[0], &b = facet.corners[1];
+        const auto [from, to] = part_between(planes, a, b);
+        if (!(to > from))
+          return {};
+        rest.corners = {a + from * (b - a), a + to * (b - a)};
+      }
+    else
+      for (const auto &[on, into] : planes)
+        rest.corners = clipped(rest.corners, on, into);
+    return rest.simplices();
+  }
+
+  Quadrature<dim - 1>
+  rule_of_facets()
+  {
+    if constexpr (dim == 2)
+      return QGauss<dim - 1>(5);
+    else
+      {
+        const QWitherdenVincentSimplex<dim - 1> of_triangle(4);
+        std::vector<double>                     weights;
+        for (const double weight : of_triangle.get_weights())
+          weights.push_back(2. * weight);
+        return Quadrature<dim - 1>(of_triangle.get_points(), weights);
+      }
   }
 
   double
@@ -139,7 +155,7 @@ namespace geocone::GEOCONE_DIM
     for (const auto &cell : mesh.own_cells())
       {
         const auto         box = cell->bounding_box();
-        std::vector<Plane> planes;
+        std::vector<SideOfPlane> planes;
         for (std::size_t t = 0; t < facets.size(); ++t)
           {
             bool meets = true;

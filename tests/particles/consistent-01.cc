@@ -3,8 +3,10 @@
 
 // Consistent integration over particles anywhere: weights fill the cells, constant
 // stress is in balance wherever no function reaches the border, gradients of linear
-// velocities remain exact, below a limit that cuts cells constant stress gives the
-// forces of its traction, and Gauss points are left as they are.
+// velocities remain exact, below a limit or a loaded side that cuts cells constant
+// stress gives the forces of its traction, and Gauss points are left as they are.
+
+#include <geocone/surfaces/side_points.h>
 
 #include "../discretisation/setup.h"
 #include "../test.h"
@@ -147,7 +149,7 @@ namespace particles_consistent_01
       print("volumes as weights: constant stress is out of balance",
             mpi::max(largest_force(body, {0.25, 0.25}, {0.95, 0.55}, none),
                      comm) > 1e-3);
-      body.particles.prepare_b_bar(true, {}, body.points);
+      body.particles.prepare_integration(true, {}, body.points);
       double fill = 0.;
       for (unsigned int c = 0; c < body.points.n_cells(); ++c)
         if (const Point<dim> x = body.points.cells[c]->center();
@@ -167,7 +169,7 @@ namespace particles_consistent_01
       print("linear velocities have their gradient",
             body.gradient_error() < 1e-12);
       const double before = body.points.weight[0];
-      body.particles.prepare_b_bar(true, {}, body.points);
+      body.particles.prepare_integration(true, {}, body.points);
       print("and again the same",
             std::abs(body.points.weight[0] - before) < 1e-17);
     }
@@ -179,7 +181,7 @@ namespace particles_consistent_01
         y,
         true,
         dealii::BoundingBox<dim>({Point<dim>(-1., y), Point<dim>(2., y)})};
-      body.particles.prepare_b_bar(true, {limit}, body.points);
+      body.particles.prepare_integration(true, {{limit}, {}}, body.points);
       if (speaks())
         std::printf("below a limit at 0.77\n");
       print("constant stress gives the forces of its traction",
@@ -189,10 +191,37 @@ namespace particles_consistent_01
             body.gradient_error() < 1e-12);
     }
     {
+      Body                        body("random");
+      const std::vector<SidePart> loaded = {
+        {{Point<dim>(1.2, 0.64), Point<dim>(0.55, 0.73)}},
+        {{Point<dim>(0.55, 0.73), Point<dim>(0., 0.51)}}};
+      body.particles.prepare_integration(true, {{}, loaded}, body.points);
+      Vector pressure(body.space.partitioner());
+      for_each_point(body.mesh,
+                     body.space,
+                     loaded,
+                     [&](const std::size_t facet, const BoundaryPoint &point) {
+                       const Tensor<1, dim> f =
+                         point.weight * area_of(loaded[facet]);
+                       for (unsigned int i = 0; i < point.nodes.size(); ++i)
+                         for (unsigned int d = 0; d < dim; ++d)
+                           pressure.local_element(
+                             dim * body.space.local_node(point.nodes[i]) + d) +=
+                             point.values[i] * f[d];
+                     });
+      pressure.compress(dealii::VectorOperation::add);
+      if (speaks())
+        std::printf("below a loaded side with a kink\n");
+      print("constant stress gives the forces of its traction",
+            largest_force(body, {0.25, 0.25}, {0.95, 1.}, pressure) < 1e-15);
+      print("linear velocities have their gradient",
+            body.gradient_error() < 1e-12);
+    }
+    {
       Body                      body("Gauss");
       const std::vector<double> weight = body.points.weight,
                                 g      = body.points.gradients;
-      body.particles.prepare_b_bar(true, {}, body.points);
+      body.particles.prepare_integration(true, {}, body.points);
       double change = 0.;
       for (unsigned int p = 0; p < weight.size(); ++p)
         change =

@@ -50,15 +50,17 @@ namespace geocone::GEOCONE_DIM
     check_held_particles(const MaterialPoints &points) const;
 
     /**
-     * Adds the nodal forces of all tractions at time t to @p force. Collective.
+     * Adds the nodal forces of all tractions at time t to @p force, on nodes
+     * with mass. Collective.
      * @param stage,scaled as in Loads::evaluate()
-     * @throws StepFailure if a boundary segment has left the mesh
+     * @throws StepFailure if a boundary segment has left the mesh or the points
      */
     void
-    add_tractions(Vector      &force,
-                  const double t,
-                  const Stage *stage  = nullptr,
-                  const bool   scaled = false) const;
+    add_tractions(Vector              &force,
+                  const NodesWithMass &has_mass,
+                  const double         t,
+                  const Stage         *stage  = nullptr,
+                  const bool           scaled = false) const;
 
     /** Parameters of the velocity transfer from nodes to particles in a step. The
      *  step is solved for v = v^L + part (v_end - v^L); the particle velocity at
@@ -87,16 +89,18 @@ namespace geocone::GEOCONE_DIM
     /**
      * Moves the boundary segments during a time step h. Segments with prescribed
      * velocity move with this velocity at time t, all other segments with the nodal
-     * velocities v. Collective.
+     * velocities v of nodes with mass. Collective.
      */
     void
-    move(const Vector &v, const double h, const double t);
+    move(const NodesWithMass &has_mass,
+         const Vector        &v,
+         const double         h,
+         const double         t);
 
-    /** Boundary segments that limit the soil domain because their normal
-     *  velocity is prescribed. Only segments normal to a coordinate axis are
-     *  included. */
-    std::vector<SoilLimit>
-    soil_limits() const;
+    /** Boundary segments that limit the soil domain: those normal to a
+     *  coordinate axis whose normal velocity is prescribed, and loaded ones. */
+    SoilBoundary
+    soil_boundary() const;
 
     /** Lower and upper corners of the box around the boundary segments of a
      *  condition.
@@ -206,6 +210,14 @@ namespace geocone::GEOCONE_DIM
                  const BoundaryPoint          &point,
                  const double                  t,
                  Vector                       &force) const;
+
+    /** Checks that functions with mass carry the facets of a traction. Collective.
+     *  @param carried fraction of each facet with such functions on this rank
+     *  @throws StepFailure if a facet has none */
+    void
+    check_on_soil(const BoundaryCondition               &load,
+                  const std::vector<dealii::Point<dim>> &middles,
+                  std::vector<double>                    carried) const;
 
     /**
      * Checks that the boundary segments of a condition are inside the mesh. Outside

@@ -176,6 +176,21 @@ namespace geocone::GEOCONE_DIM
     std::vector<GhostStencil>
     ghost_stencils(const MaterialPoints &points);
 
+    /** Warns of tractions where particles move and the stresses that balance them
+     *  are not exact. @param k particles per direction of a cell
+     *  @throws InputError for undrained soil without B-bar */
+    std::string
+    check_tractions(const unsigned int k) const;
+
+    /** Nodes with mass in the present step. */
+    NodesWithMass
+    nodes_with_mass() const
+    {
+      return [this](const unsigned int node) {
+        return constraints->has_mass(dim * node);
+      };
+    }
+
     /** Starts to move the grid lines together with a boundary segment.
      *  @throws InputError if the grid cannot follow a segment */
     void

@@ -7,6 +7,7 @@
 #include <geocone/mesh/background_mesh.h>
 #include <geocone/points/material_points.h>
 #include <geocone/space/space.h>
+#include <geocone/surfaces/side_part.h>
 
 #include <deal.II/base/bounding_box.h>
 
@@ -22,13 +23,20 @@ namespace geocone::GEOCONE_DIM
     dealii::BoundingBox<dim> extent;        ///< its thickness is irrelevant
   };
 
+  /** Boundaries of the soil that are known while its points move. */
+  struct SoilBoundary
+  {
+    std::vector<SoilLimit> limits;
+    std::vector<SidePart>  loaded; ///< facets of loaded sides
+  };
+
   /**
    * Applies variationally consistent integration of first order to the weights
    * and gradients of material points. In each cell, integration over the points
    * is then exact for a constant stress (Chen, Hillman and Rueter,
    * International Journal for Numerical Methods in Engineering 95, 2013). In a
    * cell full of soil, with the fraction |c| of its volume on the soil's side
-   * of the limits,
+   * of the limits and the loaded sides,
    *
    *   w_p   = V_p |c| / sum_q V_q,
    *   g_p,i = grad N_i(x_p) + 1/|c| (int_c grad N_i - sum_q w_q grad N_i(x_q)),
@@ -40,16 +48,19 @@ namespace geocone::GEOCONE_DIM
    *
    * Cells are full if all their neighbours are filled to two fifths (or lie
    * beyond a limit); at a surface, if they are filled to 3 %; and if a limit
-   * intersects them. If the soil part of an intersected cell has no points, the
-   * adjacent cell represents it. In other cells w_p = V_p and the gradients do
-   * not change; points beyond a limit have no weight. @pre the cells are boxes
-   * of an axis-aligned grid. Collective.
+   * or a loaded side intersects them. If the soil part of an intersected cell
+   * has no points, the adjacent cell represents it. In other cells w_p = V_p and
+   * the gradients do not change; points beyond a limit have no weight. The part
+   * below a loaded side is exact where all facets in a cell are normal to the
+   * same axis within 45 degrees; at the edges of two loaded sides these are
+   * replaced by their mean positions. @pre the cells are boxes of an
+   * axis-aligned grid. Collective.
    */
   void
-  make_consistent(const BackgroundMesh         &mesh,
-                  const Space                  &space,
-                  const std::vector<SoilLimit> &limits,
-                  MaterialPoints               &points);
+  make_consistent(const BackgroundMesh &mesh,
+                  const Space          &space,
+                  const SoilBoundary   &boundary,
+                  MaterialPoints       &points);
 } // namespace geocone::GEOCONE_DIM
 
 #endif

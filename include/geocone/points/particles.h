@@ -68,16 +68,17 @@ namespace geocone::GEOCONE_DIM
     sort(MaterialPoints &points);
 
     /**
-     * Computes the gradients of the B-bar method before each step. They are
-     * volume-weighted projections within cells. Collective.
-     * @param consistent whether to call make_consistent() first; for splines,
-     * without contact of bodies
-     * @param limits boundary sides that limit the soil, for make_consistent()
+     * Prepares weights and gradients before each step: those of consistent
+     * integration, and of the B-bar method, which are volume-weighted
+     * projections within cells. Collective.
+     * @param consistent whether to call make_consistent(): for splines with B-bar
+     * or loaded sides, without contact of bodies
+     * @param boundary sides that limit the soil, for make_consistent()
      */
     void
-    prepare_b_bar(const bool                    consistent,
-                  const std::vector<SoilLimit> &limits,
-                  MaterialPoints               &points) const;
+    prepare_integration(const bool          consistent,
+                        const SoilBoundary &boundary,
+                        MaterialPoints     &points) const;
 
     /** Sends particles to the ranks that own their cells. Called after
      *  BackgroundMesh::repartition() and Space::follow_ranks(). Collective. */

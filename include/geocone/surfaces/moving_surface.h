@@ -40,10 +40,12 @@ namespace geocone::GEOCONE_DIM
     }
 
     /** Moves the corners of the facets with the grid velocity over a step h
-     *  (s). Positions are limited to the box of the mesh. Collective. */
+     *  (s), that of the functions with mass. Positions are limited to the box of
+     *  the mesh. Collective. */
     void
     move(const BackgroundMesh &mesh,
          const Space          &space,
+         const NodesWithMass  &has_mass,
          const Vector         &v,
          const double          h);
 

@@ -7,6 +7,8 @@
 #include <geocone/space/space.h>
 #include <geocone/surfaces/side_part.h>
 
+#include <deal.II/base/quadrature.h>
+
 #include <functional>
 #include <utility>
 #include <vector>
@@ -22,6 +24,19 @@ namespace geocone::GEOCONE_DIM
     std::vector<dealii::types::global_dof_index> nodes;
     std::vector<double>                          values; ///< N, by node
   };
+
+  /** Whether the shape function of a local node has mass: others see no
+   *  particle, do not move, and carry no load. */
+  using NodesWithMass = std::function<bool(const unsigned int)>;
+
+  /** Sets the values of functions without mass to zero and scales the others to
+   *  the sum 1. @return whether any has mass */
+  bool
+  keep_nodes_with_mass(
+    const Space                                        &space,
+    const NodesWithMass                                &has_mass,
+    const std::vector<dealii::types::global_dof_index> &nodes,
+    std::vector<double>                                &values);
 
   /**
    * Calls f(index, point) for each quadrature point of facets (lines or
@@ -39,6 +54,19 @@ namespace geocone::GEOCONE_DIM
     const Space                                                         &space,
     const std::vector<SidePart>                                         &facets,
     const std::function<void(const std::size_t, const BoundaryPoint &)> &f);
+
+  /** Half of space: (x - first) . second >= 0. */
+  using SideOfPlane = std::pair<dealii::Point<dim>, dealii::Tensor<1, dim>>;
+
+  /** Returns the part of a facet in the intersection of half-spaces, as
+   *  facets. */
+  std::vector<SidePart>
+  pieces_between(const std::vector<SideOfPlane> &planes, const SidePart &facet);
+
+  /** Returns a quadrature rule on a facet of size 1, of degree 9 on a line and 7
+   *  on a triangle. */
+  dealii::Quadrature<dim - 1>
+  rule_of_facets();
 
   /** Returns quadrature points on a line, a triangle or a parallelogram. */
   std::vector<BoundaryPoint>
