@@ -14,6 +14,7 @@ namespace geocone::GEOCONE_DIM
   MohrCoulomb::prepare()
   {
     Frictional::prepare();
+    anisotropy.prepare(parameter(), given);
     set_cone(1.);
     memory.prepare(*this, cone.b < cone.a);
   }

@@ -5,6 +5,7 @@
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
 #include <geocone/base/text_of_place.h>
+#include <geocone/laws/mohr_coulomb.h>
 #include <geocone/limit_analysis/bounded_load.h>
 #include <geocone/materials/retention.h>
 #include <geocone/mesh/empty_regions.h>
@@ -136,6 +137,23 @@ namespace geocone::GEOCONE_DIM
                        triangles.vertices[v][1]));
           }
     }
+
+    /** Strengths of a material by direction. @throws InputError beside structures */
+    StrengthEllipse
+    ellipse_of(const Scene &scene, const unsigned int material)
+    {
+      const auto *const law =
+        dynamic_cast<const MohrCoulomb *>(&scene.materials[material]);
+      if (law == nullptr || !law->undrained_anisotropy().acts())
+        return {};
+      if (!scene.structures.list.empty())
+        throw InputError("Structures/Names",
+                         scene.structures.list.front()->name,
+                         "none in soil whose strength depends on the direction",
+                         "leave the ratios of strength of '" +
+                           scene.materials.name(material) + "' out");
+      return law->undrained_anisotropy().ellipse();
+    }
   } // namespace
 
   void
@@ -261,6 +279,7 @@ namespace geocone::GEOCONE_DIM
   {
     scene.materials.check_closed_form("limit load");
     flow_cones.clear();
+    ellipses.clear();
     growth.clear();
     formulas.clear();
     for (unsigned int m = 0; m < scene.materials.size(); ++m)
@@ -305,6 +324,7 @@ namespace geocone::GEOCONE_DIM
                            "the strength by suction between structures and "
                            "soil is unknown: leave the suction out");
         flow_cones.push_back(*cone);
+        ellipses.push_back(ellipse_of(scene, m));
         growth.push_back(scene.materials[m].growth());
         formulas.emplace_back();
         if (!formula.empty())
@@ -519,7 +539,8 @@ namespace geocone::GEOCONE_DIM
       {
         bound.cones.push_back({flow_cones[m].a,
                                flow_cones[m].k / units.stress,
-                               flow_cones[m].cut_off / units.stress});
+                               flow_cones[m].cut_off / units.stress,
+                               ellipses[m]});
         bound.growth.push_back(
           {growth[m].slope / units.stress, growth[m].level});
       }

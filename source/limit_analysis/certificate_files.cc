@@ -7,6 +7,7 @@
 #include <geocone/cone/second_order_cone.h>
 #include <geocone/limit_analysis/certificate_files.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -30,11 +31,16 @@ namespace geocone::GEOCONE_DIM
       return pair(unit * v[first], unit * v[first + 1]);
     }
 
-    /** Materials with their given strengths, cohesion c + gradient (level - y). */
+    /** Materials with their given strengths, cohesion c + gradient (level - y), and their
+     *  ratios by direction if there are any. */
     Json
     materials_of(const BoundScene &given)
     {
-      Json materials = Json::array();
+      Json       materials    = Json::array();
+      const bool by_direction = std::any_of(
+        given.cones.begin(), given.cones.end(), [](const PointCone &one) {
+          return !one.ellipse.is_circle();
+        });
       for (unsigned int m = 0; m < given.cones.size(); ++m)
         {
           const PointCone &cone = given.cones[m];
@@ -49,6 +55,14 @@ namespace geocone::GEOCONE_DIM
              {"tensile_strength",
               finite_or_null(cone.cut_off * given.units.stress / sqrt2)},
              {"is_reduced", given.scene.materials[m].is_reduced()}});
+          if (by_direction)
+            {
+              const StrengthEllipse &ellipse    = cone.ellipse;
+              materials.back()["passive_ratio"] = 2. * ellipse.compression - 1.;
+              materials.back()["simple_shear_ratio"] = ellipse.shear;
+              materials.back()["anisotropy_angle"] =
+                std::atan2(ellipse.sine, ellipse.cosine) * 90. / pi;
+            }
         }
       return materials;
     }

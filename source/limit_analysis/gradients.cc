@@ -25,7 +25,7 @@ namespace geocone::GEOCONE_DIM
     rates_of_cone(const PointCone &cone, const Vector3d &e)
     {
       if (!cone.is_cut())
-        return {{dissipation({cone.a, 1.}, e), 0.}};
+        return {{dissipation({cone.a, 1., cone.cut_off, cone.ellipse}, e), 0.}};
       return {
         {dissipation({cone.a, 1., 0.}, e), dissipation({cone.a, 0., 1.}, e)}};
     }

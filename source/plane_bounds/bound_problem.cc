@@ -69,7 +69,7 @@ namespace geocone::GEOCONE_DIM
   {
     return dead.squaredNorm() == 0. &&
            std::all_of(cone.begin(), cone.end(), [](const PointCone &one) {
-             return one.k > 0.;
+             return one.k > 0. && one.ellipse.offset == 0.;
            });
   }
 

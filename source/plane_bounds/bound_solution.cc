@@ -23,13 +23,22 @@ namespace geocone::GEOCONE_DIM
       return norm > much ? 1. / norm : 1.;
     }
 
-    /** Solves a plane problem. @tparam columns number of dofs of a point */
+    /** Solves a plane problem. Ellipses become discs in the variables (s_n, y) with
+     *  s_t = k d + A y: rates are A' B q, and the centres are dead loads.
+     *  @tparam columns number of dofs of a point */
     template <int columns>
     BoundSolution
     solve_with_columns(const BoundProblem &plane, ConicOptions options)
     {
       using Cones     = PointGroupOf<PlaneCone, columns>;
       using Cylinders = PointGroupOf<PlaneCylinder, columns>;
+      ConicProblem problem;
+      problem.is_prescribed = plane.is_prescribed;
+      problem.prescribed    = plane.prescribed;
+      problem.dead          = plane.dead;
+      const double scale    = scale_of_loads(plane);
+      problem.live          = scale * plane.live;
+      options.question /= scale;
       std::vector<PlaneCone> laws;
       for (const PointCone &cone : plane.cone)
         if (!cone.is_cylinder())
@@ -43,6 +52,19 @@ namespace geocone::GEOCONE_DIM
           const unsigned int     *dofs = plane.B.dofs_of(p);
           const double            V    = plane.volume[p];
           typename Cones::Strains B    = plane.B.matrix<columns>(p);
+          if (const StrengthEllipse &ellipse = cone.ellipse;
+              !ellipse.is_circle())
+            {
+              const Eigen::Matrix<double, 1, columns> centre =
+                V * cone.k * ellipse.centre().transpose() *
+                B.template bottomRows<2>();
+              for (int j = 0; j < columns; ++j)
+                {
+                  problem.dead[dofs[j]] -= centre[j];
+                  B.template bottomRows<2>().col(j) =
+                    ellipse.rates(B.template bottomRows<2>().col(j));
+                }
+            }
           if (cone.is_cylinder())
             cylinders->add(B, dofs, V, 0, cone.k);
           else
@@ -52,13 +74,6 @@ namespace geocone::GEOCONE_DIM
             }
         }
 
-      ConicProblem problem;
-      problem.is_prescribed                    = plane.is_prescribed;
-      problem.prescribed                       = plane.prescribed;
-      problem.dead                             = plane.dead;
-      const double scale                       = scale_of_loads(plane);
-      problem.live                             = scale * plane.live;
-      options.question /= scale;
       std::vector<const PointGroup *> group_of = {cones.get(), cylinders.get()};
       if (cones->n_points() > 0)
         problem.groups.push_back(std::move(cones));
@@ -74,8 +89,11 @@ namespace geocone::GEOCONE_DIM
           const bool is_cylinder = cone.is_cylinder();
           solution.s.push_back(
             group_of[is_cylinder]->stress(place[is_cylinder]++));
+          Eigen::Vector3d &s = solution.s.back();
           if (!is_cylinder)
-            solution.s.back()[0] /= cone.a;
+            s[0] /= cone.a;
+          else if (!cone.ellipse.is_circle())
+            s.tail<2>() = cone.ellipse.stress(s.tail<2>(), cone.k);
         }
       return solution;
     }

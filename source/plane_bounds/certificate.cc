@@ -33,6 +33,8 @@ namespace geocone::GEOCONE_DIM
     double
     excess(const PointCone &cone, const Vector3d &s)
     {
+      if (!cone.ellipse.is_circle())
+        return cone.ellipse.on_disc(s.tail<2>(), cone.k).norm() - cone.k;
       return s.tail<2>().norm() - cone.a * s[0] - cone.k;
     }
 
@@ -309,6 +311,8 @@ namespace geocone::GEOCONE_DIM
         return -cone.cut_off * rate[0] +
                (cone.k - cone.a * cone.cut_off) * shear / (1. - cone.a);
       }
+    if (!cone.ellipse.is_circle())
+      return cone.k * cone.ellipse.dissipation(rate.tail<2>());
     return cone.is_cylinder() ? cone.k * rate.tail<2>().norm()
                               : -cone.k / cone.a * rate[0];
   }
@@ -370,7 +374,8 @@ namespace geocone::GEOCONE_DIM
           if (const double f = excess(cone, result.s[p]); f > 0.)
             {
               result.violation = std::max(result.violation, f);
-              theta            = std::min(theta, cone.k / (cone.k + f));
+              const double k   = cone.k * cone.ellipse.reserve();
+              theta            = std::min(theta, k / (k + f));
             }
         }
       result.violation /= largest;

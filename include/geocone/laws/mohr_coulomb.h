@@ -6,6 +6,7 @@
 
 #include <geocone/laws/frictional.h>
 #include <geocone/laws/with_stiffness_formula.h>
+#include <geocone/materials/undrained_anisotropy.h>
 
 namespace geocone::GEOCONE_DIM
 {
@@ -37,6 +38,7 @@ namespace geocone::GEOCONE_DIM
       : Frictional(section)
     {
       given.declare_tension(*this);
+      anisotropy.declare(*this);
     }
 
     void
@@ -82,6 +84,13 @@ namespace geocone::GEOCONE_DIM
     plane_strain_strength() const override
     {
       return given;
+    }
+
+    /** Undrained strengths by direction, of bounds alone. */
+    const UndrainedAnisotropy &
+    undrained_anisotropy() const
+    {
+      return anisotropy;
     }
 
     double
@@ -150,6 +159,8 @@ namespace geocone::GEOCONE_DIM
 
     using Frictional::Frictional;
 
+    UndrainedAnisotropy anisotropy;
+
   private:
     FlowCone cone;
     double   k_per_cohesion = 0.; ///< dk/dc after reduction (-)
@@ -180,9 +191,12 @@ namespace geocone::GEOCONE_DIM
   {
   public:
     explicit Tresca(const std::string &section)
-      : MohrCoulomb(section, "Undrained shear strength c (Pa), > 0.")
+      : MohrCoulomb(section,
+                    "Undrained shear strength c [Pa], > 0; that in active "
+                    "compression beside strength ratios.")
     {
       given.declare_tension(*this);
+      anisotropy.declare(*this);
     }
   };
 } // namespace geocone::GEOCONE_DIM

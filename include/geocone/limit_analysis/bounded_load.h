@@ -118,7 +118,8 @@ namespace geocone::GEOCONE_DIM
 
     std::vector<SpatialStrength> strengths; ///< of axisymmetric bodies (Pa)
 
-    std::vector<FlowCone> flow_cones;
+    std::vector<FlowCone>        flow_cones;
+    std::vector<StrengthEllipse> ellipses; ///< of the strengths by direction
     /** Increase of the strength k with depth, for each material (Pa/m). */
     std::vector<Material::StrengthGradient> growth;
     /** Cohesion of materials that have a formula of it (Pa). */

@@ -7,6 +7,7 @@
 #include <geocone/bounds/load_factor.h>
 #include <geocone/bounds/spatial_strength.h>
 #include <geocone/cone/second_order_cone.h>
+#include <geocone/cone/strength_ellipse.h>
 #include <geocone/functions/enclosed_formula.h>
 #include <geocone/mesh/triangles.h>
 #include <geocone/plane_bounds/interfaces.h>
@@ -22,10 +23,13 @@ namespace geocone::GEOCONE_DIM
 {
   /** Yield cone |s_t| <= a s_n + k of a point, in scaled units. With tensile strength
    *  there is a second cone |s_t| <= s_n + cut_off (FlowCone::cut_off), or in lower
-   *  bounds |s_t| <= cut_aperture s_n + cut_off, of a larger aperture than a. */
+   *  bounds |s_t| <= cut_aperture s_n + cut_off, of a larger aperture than a. A cylinder
+   *  without cut-off may have an ellipse as its section. */
   struct PointCone
   {
     double a = 0., k = 0., cut_off = infinite_tension, cut_aperture = 1.;
+
+    StrengthEllipse ellipse = {};
 
     bool
     is_cut() const
@@ -146,9 +150,9 @@ namespace geocone::GEOCONE_DIM
       return 3 * owner[cut_point / 3 - n_triangles] + cut_point % 3;
     }
 
-    /** Returns true if any equilibrium stresses can be scaled down to
-     *  admissible stresses for a smaller load. There is then no dead load, and
-     *  cohesion is positive everywhere. */
+    /** Returns true if the solver can scale down any equilibrium stresses to
+     *  admissible stresses for a smaller load. There is then no dead load,
+     *  cohesion is positive everywhere, and no ellipse has its centre off zero. */
     bool
     can_be_scaled() const;
     unsigned int

@@ -30,6 +30,8 @@ CONSTANTS = {
 SETTINGS = ("Type", "Region polygon", "Region number", "Region below", "Points",
             "Friction memory", "Output tensors", "Stress outside", "Error tolerance",
             "Smallest substep", "Lowest pressure")
+# Constants that are 1 where they have no effect.
+RATIOS = "Passive strength ratio", "Simple shear strength ratio"
 
 
 def number(text):
@@ -72,7 +74,8 @@ def soils_of(parameters, names, absent=()):
         keys.remove("Cohesion level")
     rest = [", ".join(f"{key} {text}" for key, text in of.items()
                       if key not in CONSTANTS and key not in SETTINGS and
-                      number(text) not in (None, 0.)) for of in values]
+                      number(text) not in (None, 1. if key in RATIOS else 0.))
+            for of in values]
     units = {key: "kPa" if CONSTANTS[key][1] == "Pa" and kilograms != 1. else CONSTANTS[key][1]
              for key in keys}
     head = ["soil", "law", *(f"{CONSTANTS[key][0]} ({units[key]})" for key in keys),
