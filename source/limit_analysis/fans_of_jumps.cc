@@ -267,7 +267,9 @@ namespace geocone::GEOCONE_DIM
               {
                 const PointCone cone = plane_cone(bound, c, i);
                 a = std::min(a, cone.a);
-                k = std::min(k, cone.k);
+                k                    = std::min(k,
+                             cone.k * std::min(cone.ellipse.compression,
+                                               cone.ellipse.shear));
                 materials.insert(triangles.material[c]);
               }
         const double after   = vertex.after.pressure(),
