@@ -40,6 +40,7 @@ namespace geocone::GEOCONE_DIM
       struct OfMaterial
       {
         double cohesion = 0., growing = 0., tan_phi = 0., tension = 0.;
+        Eigen::Vector2d ratios = {0., 0.}; ///< of strengths by direction
         double weight = 0.;
       };
       struct OfObstacle
@@ -79,6 +80,9 @@ namespace geocone::GEOCONE_DIM
             to.tan_phi += V * y * by_log_tan_phi(cone, s[p][0]) *
                           std::sqrt(square) / (cone.a * by);
           to.tension += per_unit * cut_off;
+          if (!cone.ellipse.is_circle())
+            to.ratios +=
+              V * cone.k * cone.ellipse.dissipation_by_ratios(e[p].tail<2>());
         }
     }
 
@@ -347,6 +351,18 @@ namespace geocone::GEOCONE_DIM
                "Pa",
                strength.tension,
                [&](const Powers &p) { return p.materials[m].tension; });
+      if (is_plane && !given.cones[m].ellipse.is_circle())
+        {
+          const StrengthEllipse &ellipse = given.cones[m].ellipse;
+          to.add({{"materials", name, "passive_strength_ratio"}},
+                 "-",
+                 2. * ellipse.compression - 1.,
+                 [&](const Powers &p) { return p.materials[m].ratios[0]; });
+          to.add({{"materials", name, "simple_shear_strength_ratio"}},
+                 "-",
+                 ellipse.shear,
+                 [&](const Powers &p) { return p.materials[m].ratios[1]; });
+        }
       if (const double weight = mean_unit_weight(given, m); weight > 0.)
         to.add(
           {{"materials", name, "unit_weight"}},
@@ -447,7 +463,8 @@ namespace geocone::GEOCONE_DIM
     for (const Gradient &one : all)
       for (unsigned int m = 0; m < materials.size(); ++m)
         if (one.place[0] == "materials" && one.place[1] == materials.name(m) &&
-            one.place[2] != "unit_weight" && materials[m].is_reduced())
+            one.place[2] != "unit_weight" && one.unit != "-" &&
+            materials[m].is_reduced())
           for (unsigned int i = 0; i < 2; ++i)
             divided[i] += one.elasticity[i];
     for (Gradient &one : all)

@@ -78,7 +78,7 @@ SOFT = {"Passive strength ratio": 0.5, "Simple shear strength ratio": 0.7,
 assert run("slope", SOFT, 2, scene="prm/safety/slope_clay.prm", material="clay")["certified"]
 prove("slope")
 
-# Gradients of a factor of the weight by both strengths are those of differences on one mesh.
+# Gradients of a factor of the weight by strengths and ratios are differences on one mesh.
 def cut(**settings):
     """The bounds of a vertical cut."""
     return run("cut", {**SOFT, "Cohesion": 10000., **settings}, 1,
@@ -86,11 +86,13 @@ def cut(**settings):
                material="clay")
 
 
-for name, values in ("Cohesion", (9800., 10200.)), ("Cohesion gradient", (980., 1020.)):
-    gradient = cut()["gradients"]["materials"]["clay"][name.lower().replace(" ", "_")]
-    less, more = (cut(**{name: value}) for value in values)
+gradients = cut()["gradients"]["materials"]["clay"]
+for name in "Cohesion", "Cohesion gradient", "Passive strength ratio", \
+            "Simple shear strength ratio":
+    gradient = gradients[name.lower().replace(" ", "_")]
+    less, more = (cut(**{name: part * gradient["value"]}) for part in (0.98, 1.02))
     for side in "lower", "upper":
-        slope = (more[side] - less[side]) / (values[1] - values[0])
+        slope = (more[side] - less[side]) / (0.04 * gradient["value"])
         assert abs(gradient[side] / slope - 1.) < 0.01, (name, side, gradient, slope)
 
 # Files with other strengths prove nothing.
@@ -103,4 +105,12 @@ for key, side, factor in (("passive_ratio", "lower", 0.9), ("simple_shear_ratio"
     path.write_text(json.dumps(data))
     prove("turned", good=False)
     path.write_text(kept)
+# Nor does a file in which another material, which comes first, has no such strengths.
+data["materials"] = [{key: value for key, value in json.loads(kept)["materials"][0].items()
+                      if "anisotropy" not in key and "_ratio" not in key},
+                     json.loads(kept)["materials"][0]]
+data["material"] = [1] * len(data["material"])
+path.write_text(json.dumps(data))
+prove("turned", good=False)
+path.write_text(kept)
 prove("turned")

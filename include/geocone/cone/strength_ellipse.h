@@ -70,6 +70,18 @@ namespace geocone
               shear * (cosine * e[1] - sine * e[0])};
     }
 
+    /** Returns the derivatives of dissipation() by the ratios s_uP/s_uA and s_uD/s_uA:
+     *  compression = (1 + s_uP/s_uA)/2, offset = 1 - compression. */
+    Vector
+    dissipation_by_ratios(const Vector &e) const
+    {
+      const Vector r    = rates(e);
+      const double norm = r.norm(), along = r[0] / compression;
+      if (!(norm > 0.))
+        return Vector::Zero();
+      return {(r[0] / norm - 1.) / 2. * along, r[1] / norm * r[1] / shear};
+    }
+
     /** Returns the dissipation of shear rates for k = 1. */
     double
     dissipation(const Vector &e) const

@@ -52,7 +52,8 @@ namespace geocone::GEOCONE_DIM
    * certified bound, since its mechanism is admissible whatever they are.
    *
    * Places are those of the topic: materials (cohesion, cohesion_gradient, friction_angle
-   * if it is not zero, tensile_strength, unit_weight), tractions (traction), obstacles
+   * if it is not zero, tensile_strength, passive_strength_ratio and
+   * simple_shear_strength_ratio if there are any, unit_weight), tractions (traction), obstacles
    * (friction_coefficient, adhesion, tensile_strength), and others (load: the forces of
    * water and of free obstacles).
    *
