@@ -15,6 +15,7 @@
 #include <geocone/seepage/flow_on_mesh.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -102,6 +103,24 @@ namespace geocone::GEOCONE_DIM
     }
   } // namespace
 
+  namespace
+  {
+    /** Parameters that laws around an axis ignore, without which bounds hold: name,
+     *  value without effect, and remedy. */
+    const std::array<std::array<std::string, 3>, 3> known_to_plane_laws = {
+      {{{"Tensile strength",
+         "none",
+         "tension is limited by the cone alone there: set it to none, or take "
+         "a "
+         "plane or three-dimensional scene"}},
+       {{"Passive strength ratio",
+         "1",
+         "strengths by direction are those of plane strain: take a mean"}},
+       {{"Simple shear strength ratio",
+         "1",
+         "strengths by direction are those of plane strain: take a mean"}}}};
+  } // namespace
+
   LimitAnalysis::LimitAnalysis(const MPI_Comm       comm,
                                const ParameterFile &file,
                                Log                 &log)
@@ -124,8 +143,13 @@ namespace geocone::GEOCONE_DIM
     intervals.declare(*this);
     limit_output.declare_certificates();
     for (const std::string &name : scene.materials.names())
-      tensile_strengths.push_back(
-        file.peek("Materials/" + name + "/Tensile strength", "none"));
+      for (const auto &[parameter, without, remedy] : known_to_plane_laws)
+        {
+          const std::string path = "Materials/" + name + "/" + parameter;
+          if (const std::string value = file.peek(path, without);
+              value != without)
+            of_plane_laws.push_back({{path, value, without, remedy}});
+        }
   }
 
   void
@@ -150,14 +174,9 @@ namespace geocone::GEOCONE_DIM
   {
     if (!scene.geometry.is_axisymmetric())
       return;
-    for (unsigned int m = 0; m < tensile_strengths.size(); ++m)
-      if (tensile_strengths[m] != "none")
-        throw InputError("Materials/" + scene.materials.name(m) +
-                           "/Tensile strength",
-                         tensile_strengths[m],
-                         "none with " + where() + " around an axis",
-                         "tension is limited by the cone alone there: set it "
-                         "to none, or take a plane or three-dimensional scene");
+    for (const auto &[path, value, allowed, remedy] : of_plane_laws)
+      throw InputError(
+        path, value, allowed + " with " + where() + " around an axis", remedy);
   }
 
   std::vector<std::string>

@@ -192,9 +192,9 @@ namespace geocone::GEOCONE_DIM
        {"shakedown", AnalysisKind::shakedown},
        {"seepage", AnalysisKind::seepage}}};
 
-    /** Tensile strength of each material as text, which laws around an axis do not
-     *  declare. */
-    std::vector<std::string> tensile_strengths;
+    /** Parameters of materials that are set although laws around an axis do not know
+     *  them: path, value, value without effect, and remedy. */
+    std::vector<std::array<std::string, 4>> of_plane_laws;
 
     std::optional<CellSizes> sizes; ///< cell sizes and fans of the next mesh
 
