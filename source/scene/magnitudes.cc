@@ -42,6 +42,14 @@ namespace geocone::GEOCONE_DIM
                   (varies ? std::string(": c varies")
                           : format(": c = %g Pa", strength->c)) +
                   format(", phi = %g", strength->phi);
+          for (const auto &[ratio, symbol] :
+               {std::pair<const char *, const char *>("Passive", "s_uP/c"),
+                {"Simple shear", "s_uD/c"}})
+            if (const std::string value =
+                  ParameterFile::value("Materials/" + scene.materials.name(m) +
+                                       "/" + ratio + " strength ratio");
+                !value.empty() && value != "1")
+              text += format(", %s = ", symbol) + value;
           if (const double weight = weight_of_column(scene, m, body);
               weight > 0. && !varies)
             text += format(", c/(gamma H) = %.3g", strength->c / weight);
