@@ -1,6 +1,7 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <geocone/base/over_ranks.h>
 #include <geocone/points/consistent_integration.h>
 #include <geocone/surfaces/side_points.h>
 
@@ -412,6 +413,40 @@ namespace geocone::GEOCONE_DIM
       return result;
     }
 
+    /** Facets without soil beyond them. Others have been buried: a cell away
+     *  from them along their normal points fill half of a cell. Collective. */
+    std::vector<LoadedFacet>
+    free_facets(const BackgroundMesh        &mesh,
+                const std::vector<SidePart> &facets,
+                const MaterialPoints        &points)
+    {
+      std::vector<LoadedFacet> loaded(facets.begin(), facets.end()), free;
+      std::vector<double>      filled(loaded.size(), 0.);
+      for (unsigned int c = 0; c < points.n_cells() && !loaded.empty(); ++c)
+        {
+          const BoundingBox<dim> box = points.cells[c]->bounding_box();
+          const double           part =
+            std::accumulate(&points.volume[points.first_point[c]],
+                            &points.volume[points.first_point[c + 1] - 1] + 1,
+                            0.) /
+            (box.volume() * mesh.measure(box.center()));
+          for (std::size_t i = 0; i < loaded.size(); ++i)
+            {
+              const LoadedFacet &facet  = loaded[i];
+              Point<dim>         beyond = facet.part.middle();
+              beyond[facet.axis] +=
+                (facet.soil_is_below ? 1. : -1.) * box.side_length(facet.axis);
+              if (box.point_inside(beyond))
+                filled[i] = std::max(filled[i], part);
+            }
+        }
+      sum_over_ranks(filled, mesh.triangulation().get_communicator());
+      for (std::size_t i = 0; i < loaded.size(); ++i)
+        if (filled[i] < 0.5)
+          free.push_back(loaded[i]);
+      return free;
+    }
+
     /** Whether the cells around a vertex that can contain soil are filled. */
     std::vector<bool>
     surrounded_vertices(const BackgroundMesh      &mesh,
@@ -517,7 +552,7 @@ namespace geocone::GEOCONE_DIM
                   MaterialPoints       &points)
   {
     const Boundary boundary{sides.limits,
-                            {sides.loaded.begin(), sides.loaded.end()}};
+                            free_facets(mesh, sides.loaded, points)};
     points.weight.assign(points.volume.begin(), points.volume.end());
     const std::vector<Room>   rooms  = rooms_of_cells(mesh, boundary, points);
     const std::vector<double> filled = filled_parts(mesh, rooms, points);
@@ -532,10 +567,7 @@ namespace geocone::GEOCONE_DIM
                            last  = points.first_point[c + 1];
         if (room.share < negligible_part)
           {
-            if (SoilPart{part_within(cell->bounding_box(), sides.limits)}
-                  .volume() < negligible_part * cell->measure())
-              std::fill(
-                &points.weight[first], &points.weight[last - 1] + 1, 0.);
+            std::fill(&points.weight[first], &points.weight[last - 1] + 1, 0.);
             continue;
           }
         const auto vertices = cell->vertex_indices();

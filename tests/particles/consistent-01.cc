@@ -193,8 +193,8 @@ namespace particles_consistent_01
     {
       Body                        body("random");
       const std::vector<SidePart> loaded = {
-        {{Point<dim>(1.2, 0.64), Point<dim>(0.55, 0.73)}},
-        {{Point<dim>(0.55, 0.73), Point<dim>(0., 0.51)}}};
+        {{Point<dim>(1.2, 0.76), Point<dim>(0.55, 0.79)}},
+        {{Point<dim>(0.55, 0.79), Point<dim>(0., 0.72)}}};
       body.particles.prepare_integration(true, {{}, loaded}, body.points);
       Vector pressure(body.space.partitioner());
       for_each_point(body.mesh,

@@ -50,7 +50,7 @@ namespace geocone::GEOCONE_DIM
    * beyond a limit); at a surface, if they are filled to 3 %; and if a limit
    * or a loaded side intersects them. If the soil part of an intersected cell
    * has no points, the adjacent cell represents it. In other cells w_p = V_p and
-   * the gradients do not change; points beyond a limit have no weight. The part
+   * the gradients do not change; points beyond a limit or a loaded side have no weight. Loaded sides with soil beyond them, such as fill of a later stage, limit nothing. The part
    * below a loaded side is exact where all facets in a cell are normal to the
    * same axis within 45 degrees; at the edges of two loaded sides these are
    * replaced by their mean positions. @pre the cells are boxes of an
