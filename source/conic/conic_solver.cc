@@ -69,6 +69,14 @@ namespace geocone
       void
       start();
 
+      /** Rate below which all are zero, as where bodies move rigidly. Lengths are of order
+       *  one. */
+      double
+      least_rate() const
+      {
+        return 1e-6 * q.lpNorm<Eigen::Infinity>();
+      }
+
       /** Residuals at the present iterate. */
       void
       evaluate();
@@ -181,7 +189,7 @@ namespace geocone
       ConicProblem      &problem;
       const ConicOptions options;
       BlockMatrix        matrix;
-      double             degree = 0.;
+      double             degree = 0., volume = 0.;
 
       VectorXd q, kept_q, x_2, r_d;
       double   lambda = 0., kept_lambda = 0., r_g = 0.;
@@ -205,7 +213,7 @@ namespace geocone
     void
     ConicSolver::start()
     {
-      double volume = 0., n = 0.;
+      double n = 0.;
       for (const auto &group : problem.groups)
         {
           for (const double V : group->volume)
@@ -248,7 +256,8 @@ namespace geocone
           volume += V;
         }
       for (const auto &group : problem.groups)
-        group->start(std::sqrt(square / volume), problem.least_start);
+        group->start(std::max(std::sqrt(square / volume), least_rate()),
+                     problem.least_start);
       keep();
     }
 
@@ -271,7 +280,8 @@ namespace geocone
       r_d  = only_free(all - lambda * problem.live - problem.dead);
       r_g  = problem.has_factor() ? 1. - problem.live.dot(q) : 0.;
       mu   = product / degree;
-      flow = std::sqrt(miss / size);
+      const double least = least_rate();
+      flow = std::sqrt(miss / std::max(size, volume * least * least));
       // Power of the reactions to prescribed velocities.
       load               = problem.has_factor()
                              ? lambda

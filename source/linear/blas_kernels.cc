@@ -37,6 +37,21 @@ namespace geocone
 #endif
       return nullptr;
     }
+
+    void
+    take_blas_core(const char *name)
+    {
+      const auto quit = function_of_library<void()>("gotoblas_dynamic_quit");
+      const auto init = function_of_library<void()>("gotoblas_dynamic_init");
+      if (name == nullptr || quit == nullptr || init == nullptr ||
+          std::getenv("OPENBLAS_CORETYPE") != nullptr)
+        return;
+      setenv("OPENBLAS_CORETYPE", name, 1);
+      quit();
+      init();
+      unsetenv("OPENBLAS_CORETYPE"); // programs that this one starts choose for
+                                     // themselves
+    }
   } // namespace
 
   std::string
@@ -51,17 +66,16 @@ namespace geocone
   {
     static const std::set<std::string> without_avx2 = {
       "Barcelona", "Core2", "Nehalem", "Prescott", "Sandybridge"};
-    const char *best = best_blas_core();
-    const auto  quit = function_of_library<void()>("gotoblas_dynamic_quit");
-    const auto  init = function_of_library<void()>("gotoblas_dynamic_init");
-    if (without_avx2.count(blas_core()) == 0 || best == nullptr ||
-        quit == nullptr || init == nullptr ||
-        std::getenv("OPENBLAS_CORETYPE") != nullptr)
-      return;
-    setenv("OPENBLAS_CORETYPE", best, 1);
-    quit();
-    init();
-    unsetenv(
-      "OPENBLAS_CORETYPE"); // programs that this one starts choose for themselves
+    if (without_avx2.count(blas_core()) > 0)
+      take_blas_core(best_blas_core());
+  }
+
+  void
+  select_widest_blas_kernels()
+  {
+    static const std::set<std::string> of_avx2 = {
+      "Excavator", "Haswell", "Zen"};
+    if (of_avx2.count(blas_core()) > 0 && best_blas_core() != blas_core())
+      take_blas_core(best_blas_core());
   }
 } // namespace geocone

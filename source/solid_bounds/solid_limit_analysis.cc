@@ -4,6 +4,7 @@
 #include <geocone/base/exceptions.h>
 #include <geocone/base/resources.h>
 #include <geocone/base/unused_parameters.h>
+#include <geocone/linear/blas_kernels.h>
 #include <geocone/materials/retention.h>
 #include <geocone/mesh/bisection.h>
 #include <geocone/mesh/fitted_mesh.h>
@@ -17,6 +18,8 @@
 
 #include <deal.II/base/bounding_box.h>
 
+#include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace geocone::GEOCONE_DIM
@@ -30,6 +33,25 @@ namespace geocone::GEOCONE_DIM
       {"Analysis/Stresses",
        "Analysis/Kind",
        {"limit load", "strength reduction"}}};
+
+    /** Cost of both bounds on a mesh. */
+    struct CostOfMesh
+    {
+      double megabytes, seconds; ///< of one core
+    };
+
+    /** Returns the cost for clay as measured where meshes are refined
+     *  (doc/cookbook/bounds_3d.md). */
+    CostOfMesh
+    cost_of_mesh(const double       n_cells,
+                 const unsigned int degree_of_velocities,
+                 const unsigned int degree_of_stresses)
+    {
+      const bool   v = degree_of_velocities == 1, s = degree_of_stresses == 1;
+      const double N = n_cells / 1000.;
+      return {150. + ((v ? 40. : 175.) + (s ? 80. : 230.)) * N,
+              ((v ? 0.35 : 1.85) + (s ? 0.6 : 2.4)) * std::pow(N, 1.5)};
+    }
   } // namespace
 
   SolidLimitAnalysis::SolidLimitAnalysis(const MPI_Comm       comm,
@@ -78,6 +100,7 @@ namespace geocone::GEOCONE_DIM
   SolidLimitAnalysis::prepare(const RunOptions &options)
   {
     check_parameters();
+    select_widest_blas_kernels();
     prepare_scene(options);
     mesh_parameters.prepare(scene.geometry, method);
     tetrahedra.emplace(fitted_mesh(mesh_parameters, scene, comm));
@@ -107,8 +130,27 @@ namespace geocone::GEOCONE_DIM
       load.prepare(scene, *tetrahedra);
     load.check_observed(scene);
     const dealii::BoundingBox<dim> body(tetrahedra->vertices);
-    print_start(options, tetrahedra->cells.size(), "", body);
+    const double                   n_first = tetrahedra->cells.size();
+    const double                   n_last =
+      std::min(most_cells * 1., n_first * std::pow(growth, most_levels - 1.));
+    const CostOfMesh cost =
+      cost_of_mesh(n_last, degree(velocities), degree(stresses));
+    print_start(options,
+                tetrahedra->cells.size(),
+                format("; it takes about %.0f MB and %.3g s of one core",
+                       cost.megabytes,
+                       cost.seconds) +
+                  (reduces_strength() ? " for each of about 4 factors" : ""),
+                body);
     std::vector<std::string> warnings = warn_of_magnitudes(scene, body);
+    if (const double available = available_memory(); cost.megabytes > available)
+      warnings.push_back(format(
+        "the last mesh of 'Analysis/Maximum cells' = %u needs about %.0f MB of "
+        "memory, but %.0f MB are free: let %.0f cells be the most",
+        most_cells,
+        cost.megabytes,
+        available,
+        n_last * available / cost.megabytes));
     if (const std::string remark = load.other_than_observed(scene);
         !remark.empty())
       warnings.push_back(remark);

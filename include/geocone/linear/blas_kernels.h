@@ -19,6 +19,15 @@ namespace geocone
   void
   select_blas_kernels();
 
+  /**
+   * Selects the OpenBLAS kernels of AVX-512 where the processor has it but OpenBLAS has
+   * selected AVX2, as for AMD. Factors with large dense blocks are then faster, results
+   * differ by rounding. Has no effect where select_blas_kernels() has none. No other thread
+   * may be in BLAS.
+   */
+  void
+  select_widest_blas_kernels();
+
   /** Name of the OpenBLAS kernels in use, e.g. "Haswell"; "unknown" for other
    *  BLAS libraries. */
   std::string
