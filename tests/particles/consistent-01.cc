@@ -212,8 +212,9 @@ namespace particles_consistent_01
       pressure.compress(dealii::VectorOperation::add);
       if (speaks())
         std::printf("below a loaded side with a kink\n");
+      // for_each_point() shifts facets by 1e-9 of their length.
       print("constant stress gives the forces of its traction",
-            largest_force(body, {0.25, 0.25}, {0.95, 1.}, pressure) < 1e-15);
+            largest_force(body, {0.25, 0.25}, {0.95, 1.}, pressure) < 1e-9);
       print("linear velocities have their gradient",
             body.gradient_error() < 1e-12);
     }
