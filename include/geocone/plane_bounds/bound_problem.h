@@ -27,9 +27,9 @@ namespace geocone::GEOCONE_DIM
    *  without cut-off may have an ellipse as its section. */
   struct PointCone
   {
-    double a = 0., k = 0., cut_off = infinite_tension, cut_aperture = 1.;
-
-    StrengthEllipse ellipse = {};
+    double          a = 0., k = 0., cut_off = infinite_tension;
+    StrengthEllipse ellipse      = {};
+    double          cut_aperture = 1.;
 
     bool
     is_cut() const
