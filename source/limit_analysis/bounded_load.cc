@@ -494,9 +494,9 @@ namespace geocone::GEOCONE_DIM
           continue;
         const auto &corners = triangles.cells[c];
         enclosed.cohesion[c] =
-          formulas[m]->on_simplex({triangles.vertices[corners[0]],
-                                   triangles.vertices[corners[1]],
-                                   triangles.vertices[corners[2]]});
+          formulas[m]->on_simplex({{triangles.vertices[corners[0]],
+                                    triangles.vertices[corners[1]],
+                                    triangles.vertices[corners[2]]}});
         for (unsigned int i = 0; i < 3; ++i)
           if (!(enclosed.cohesion[c].below[i] > 0.) ||
               !std::isfinite(enclosed.cohesion[c].above[i]))
