@@ -71,6 +71,8 @@ namespace geocone
         direct_is_ready = false;
         is_large        = nodes.n_components == 3 &&
                    std::size_t(matrix.n_global) > largest_direct;
+        if (is_large)
+          n_to_skip = 0;
         rows.reinit(matrix);
         preconditioner->analyse(matrix, std::move(nodes));
         solution.reinit(rows.layout());
