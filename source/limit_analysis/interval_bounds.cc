@@ -652,14 +652,19 @@ namespace geocone::GEOCONE_DIM
   std::string
   IntervalBounds::text_of(const Answer      &answer,
                           const std::string &bounded,
-                          const std::string &unit) const
+                          const std::string &unit,
+                          const bool         is_associated) const
   {
     const auto shown = [](const std::optional<double> &value) {
       return value ? format("%.6g", *value) : std::string("?");
     };
     std::string text =
-      "for all parameters of the intervals: " + shown(answer.lower) +
-      " <= " + bounded + " <= " + shown(answer.upper) + unit;
+      is_associated
+        ? "for all parameters of the intervals: " + shown(answer.lower) +
+            " <= " + bounded + " <= " + shown(answer.upper) + unit
+        : "for all parameters of the intervals and any dilatancy: " + bounded +
+            " <= " + shown(answer.upper) + unit +
+            "; were flow associated: " + shown(answer.lower) + " <= " + bounded;
     for (const auto &[side, at] :
          {std::pair("lower", answer.at_lower), {"upper", answer.at_upper}})
       for (unsigned int i = 0; i < at.size(); ++i)
@@ -672,8 +677,9 @@ namespace geocone::GEOCONE_DIM
                    : format(" .. %g", intervals[i].unit * at[i][1]));
     for (const auto &[side, i] : {std::pair("upper", 0), {"lower", 1}})
       if (!(i == 0 ? answer.upper : answer.lower))
-        text += std::string("\n  the ") + side +
-                " bound is not certified: " + answer.reason[i];
+        text += std::string("\n  the ") + side + " bound is not certified: " +
+                (answer.reason[i].empty() ? "it is zero or has no limit"
+                                          : answer.reason[i]);
     return text;
   }
 } // namespace geocone::GEOCONE_DIM

@@ -3,6 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/files.h>
+#include <geocone/base/number_in.h>
 #include <geocone/limit_analysis/bound_fields.h>
 #include <geocone/limit_analysis/certificate_files.h>
 #include <geocone/limit_analysis/fans_of_jumps.h>
@@ -147,7 +148,8 @@ namespace geocone::GEOCONE_DIM
         {
           const std::string path = "Materials/" + name + "/" + parameter;
           if (const std::string value = file.peek(path, without);
-              value != without)
+              value != without &&
+              (!number_in(value) || number_in(value) != number_in(without)))
             of_plane_laws.push_back({{path, value, without, remedy}});
         }
   }
@@ -563,16 +565,15 @@ namespace geocone::GEOCONE_DIM
     warn_of_tractions();
     // A run resumed after its last mesh has no fields.
     if (bounds.gap.size() == triangles->cells.size())
+      gradients = gradients_of_last();
+    if (intervals.is_asked())
       {
-        gradients = gradients_of_last();
-        if (intervals.is_asked())
-          {
-            of_intervals = bounds_of_intervals();
-            log.print(intervals.text_of(
-              of_intervals,
-              bounded(),
-              bounded_load.is_reaction() ? " " + bounded_load.unit() : ""));
-          }
+        of_intervals = bounds_of_intervals();
+        log.print(intervals.text_of(
+          of_intervals,
+          bounded(),
+          bounded_load.is_reaction() ? " " + bounded_load.unit() : "",
+          !bounded_load.non_associated()));
       }
     if (const auto points = points_of_structures(); !points.empty())
       write_structures(

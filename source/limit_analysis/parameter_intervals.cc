@@ -4,6 +4,7 @@
 #include <geocone/base/exceptions.h>
 #include <geocone/base/number_in.h>
 #include <geocone/base/parameter_file.h>
+#include <geocone/laws/mohr_coulomb.h>
 #include <geocone/limit_analysis/parameter_intervals.h>
 
 #include <deal.II/base/utilities.h>
@@ -145,6 +146,14 @@ namespace geocone::GEOCONE_DIM
         {
           require_that(
             one.range[1] < 90., "limits < 90 degrees", "give degrees");
+          const auto *const plane =
+            dynamic_cast<const MohrCoulomb *>(&scene.materials[one.index]);
+          require_that(one.range[1] == 0. || plane == nullptr ||
+                         !plane->undrained_anisotropy().acts(),
+                       "0 .. 0 where the strength depends on the direction",
+                       "strengths by direction are undrained ones: leave the "
+                       "ratios of strength of '" +
+                         section + "' or the interval out");
           require_that(
             one.range[0] > 0. || one.range[1] == 0. || cone.is_cut(),
             "LEAST > 0 degrees without 'Tensile strength': soil with phi = 0 "

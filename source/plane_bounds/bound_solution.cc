@@ -14,13 +14,13 @@ namespace geocone::GEOCONE_DIM
   namespace
   {
     /** Returns the factor of the live loads that makes them of order one. It is one unless
-     *  they exceed the strength by far, where rates would be too small for the solver. */
+     *  they are far above or below the strength, where rates would be too small or too
+     *  large for the solver. */
     double
     scale_of_loads(const BoundProblem &plane)
     {
-      constexpr double much = 1e3;
-      const double     norm = plane.live.norm();
-      return norm > much ? 1. / norm : 1.;
+      const double norm = plane.live.norm();
+      return norm > 1e3 || (norm > 0. && norm < 1e-5) ? 1. / norm : 1.;
     }
 
     /** Solves a plane problem. Ellipses become discs in the variables (s_n, y) with

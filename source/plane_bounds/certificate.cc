@@ -234,7 +234,7 @@ namespace geocone::GEOCONE_DIM
         VectorXd   normal(held.size());
         for (unsigned int i = 0; i < held.size(); ++i)
           normal[i] = e[held[i]][0];
-        largest = 0.;
+        largest = 1e-6 * of.lpNorm<Eigen::Infinity>();
         for (const Vector3d &one : e)
           largest = std::max(largest, one.norm());
         return normal;
@@ -501,7 +501,8 @@ namespace geocone::GEOCONE_DIM
     // Cut-offs dissipate by the whole rates, dissipation().
     result.q.tail(problem.n_dofs() - problem.first_cut_dof).setZero();
 
-    double     largest = std::numeric_limits<double>::min();
+    // Bodies may move rigidly: their rates are rounding errors.
+    double     largest = 1e-6 * result.q.lpNorm<Eigen::Infinity>();
     const auto rates   = problem.B.rates(result.q);
     for (unsigned int p = 0; p < problem.n_points(); ++p)
       {

@@ -34,6 +34,8 @@ namespace geocone::GEOCONE_DIM
        "Analysis/Kind",
        {"limit load", "strength reduction"}}};
 
+    constexpr double of_program = 150.; ///< memory without a mesh (MB)
+
     /** Cost of both bounds on a mesh. */
     struct CostOfMesh
     {
@@ -49,7 +51,7 @@ namespace geocone::GEOCONE_DIM
     {
       const bool   v = degree_of_velocities == 1, s = degree_of_stresses == 1;
       const double N = n_cells / 1000.;
-      return {150. + ((v ? 40. : 175.) + (s ? 80. : 230.)) * N,
+      return {of_program + ((v ? 40. : 175.) + (s ? 80. : 230.)) * N,
               ((v ? 0.35 : 1.85) + (s ? 0.6 : 2.4)) * std::pow(N, 1.5)};
     }
   } // namespace
@@ -150,7 +152,8 @@ namespace geocone::GEOCONE_DIM
         most_cells,
         cost.megabytes,
         available,
-        n_last * available / cost.megabytes));
+        n_last * std::max(available - of_program, 0.) /
+          (cost.megabytes - of_program)));
     if (const std::string remark = load.other_than_observed(scene);
         !remark.empty())
       warnings.push_back(remark);

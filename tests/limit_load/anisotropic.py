@@ -65,6 +65,12 @@ for case in (10000., 4000., 6500.), (10000., 6000., 8000.), (5000., 10000., 9000
     assert abs((found["lower"] + found["upper"]) / 2. / exact - 1.) < 0.01, (case, found, exact)
     prove("footing")
 
+# Stresses that had to be scaled into an ellipse whose passive strength is the larger one.
+run("flexible", {"Passive strength ratio": 50, "Simple shear strength ratio": 0.005}, 1,
+    "Mesh/Cell size = 1", "Analysis/Solver tolerance = 1e-3",
+    scene="prm/limit_load/strip_flexible.prm")
+prove("flexible")
+
 # Axes that are turned: active along the horizontal. Optima of one mesh are found to 1e-6.
 straight = run("straight", strengths(*case), 1, "Analysis/Solver tolerance = 1e-6")
 turned = run("turned", strengths(4000., 10000., 3500., 90.), 1, "Analysis/Solver tolerance = 1e-6")

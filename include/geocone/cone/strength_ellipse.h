@@ -36,7 +36,7 @@ namespace geocone
     double
     reserve() const
     {
-      return 1. - offset / compression;
+      return 1. - std::abs(offset) / compression;
     }
 
     /** Returns the centre d. */

@@ -91,11 +91,13 @@ namespace geocone::GEOCONE_DIM
     Json
     topic_of(const Answer &answer) const;
 
-    /** Returns an answer as text. @param bounded name of the quantity */
+    /** Returns an answer as text. @param bounded name of the quantity
+     *  @param is_associated whether the flow of the given soil is associated */
     std::string
     text_of(const Answer      &answer,
             const std::string &bounded,
-            const std::string &unit) const;
+            const std::string &unit,
+            const bool         is_associated) const;
 
   private:
     using Ranges = std::vector<std::array<double, 2>>; ///< by interval
