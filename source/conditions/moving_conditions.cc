@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <set>
 
 namespace geocone::GEOCONE_DIM
 {
@@ -188,28 +189,28 @@ namespace geocone::GEOCONE_DIM
                          "and its box");
   }
 
-  void
-  MovingConditions::add_traction(const BoundaryCondition &load,
-                                 const double             size,
-                                 const Tensor<1, dim>    &area,
-                                 const BoundaryPoint     &point,
-                                 const double             t,
-                                 Vector                  &force) const
+  Tensor<1, dim>
+  MovingConditions::traction_at(const BoundaryCondition &load,
+                                const double             size,
+                                const Tensor<1, dim>    &area,
+                                const Point<dim>        &x,
+                                const double             t) const
   {
     // Dead loads are per initial size.
     Tensor<1, dim> f;
     for (unsigned int d = 0; d < dim; ++d)
       if (const auto &traction = load.components[d])
-        f[d] = traction->value(point.position, t) * size;
+        f[d] = traction->value(x, t) * size;
     // Pressure acts on the current boundary.
     if (load.normal || load.tangential)
-      f += area.norm() *
-           load.vector_on_side(point.position, area / area.norm(), t);
-    f *= mesh.measure(point.position); // around an axis, current radius
-    for (unsigned int i = 0; i < point.nodes.size(); ++i)
-      for (unsigned int d = 0; d < dim; ++d)
-        force.local_element(dim * space.local_node(point.nodes[i]) + d) +=
-          point.weight * point.values[i] * f[d];
+      f += area.norm() * load.vector_on_side(x, area / area.norm(), t);
+    return f * mesh.measure(x); // around an axis, current radius
+  }
+
+  NodesWithMass
+  MovingConditions::known_mass(const NodesWithMass &has_mass) const
+  {
+    return scene.loading.changes_body() ? NodesWithMass() : has_mass;
   }
 
   void
@@ -219,6 +220,8 @@ namespace geocone::GEOCONE_DIM
                                   const Stage         *stage,
                                   const bool           scaled) const
   {
+    const NodesWithMass carries = known_mass(has_mass);
+    std::vector<double> N;
     for (const auto &[condition, surface] : loads)
       {
         const BoundaryCondition &load = *scene.tractions.list[condition];
@@ -226,30 +229,33 @@ namespace geocone::GEOCONE_DIM
           stage == nullptr || stage->scales(load.name) == scaled;
         const std::vector<SidePart> facets = surface.facets();
         std::vector<double>         carried(facets.size(), 0.);
-        const std::vector<double>   parts =
-          for_each_point(mesh,
-                         space,
-                         facets,
-                         [&, &surface = surface](const std::size_t    number,
+        const auto add = [&, &surface = surface](const std::size_t    number,
                                                  const BoundaryPoint &point) {
-                           BoundaryPoint on_soil = point;
-                           if (!keep_nodes_with_mass(
-                                 space, has_mass, point.nodes, on_soil.values))
-                             return;
-                           carried[number] += point.weight;
-                           if (is_active)
-                             add_traction(load,
-                                          surface.size_at_start(number),
-                                          area_of(facets[number]),
-                                          on_soil,
-                                          t,
-                                          force);
-                         });
+          Tensor<1, dim> f;
+          if (is_active)
+            f = traction_at(load,
+                            surface.size_at_start(number),
+                            area_of(facets[number]),
+                            point.position,
+                            t);
+          N = point.values;
+          if (f.norm() > 0. && carries &&
+              !keep_nodes_with_mass(space, carries, point.nodes, N))
+            return;
+          carried[number] += point.weight;
+          for (unsigned int i = 0; i < point.nodes.size(); ++i)
+            for (unsigned int d = 0; d < dim; ++d)
+              force.local_element(dim * space.local_node(point.nodes[i]) + d) +=
+                point.weight * N[i] * f[d];
+        };
+        const std::vector<double> parts =
+          for_each_point(mesh, space, facets, add);
         std::vector<Point<dim>> middles;
         for (const SidePart &facet : facets)
           middles.push_back(facet.middle());
         check_in_mesh(load, middles, parts);
-        check_on_soil(load, middles, carried);
+        if (carries)
+          check_on_soil(load, middles, carried);
       }
     if (!loads.empty())
       force.compress(VectorOperation::add);
@@ -480,13 +486,14 @@ namespace geocone::GEOCONE_DIM
                          const double         h,
                          const double         t)
   {
+    const NodesWithMass moves = known_mass(has_mass);
     for (PrescribedSide &side : supports)
       {
         side.before = side.panels;
         if (!is_active[side.condition])
           {
             side.panels =
-              moved_with_body(side.panels, mesh, space, has_mass, v, h);
+              moved_with_body(side.panels, mesh, space, moves, v, h);
             continue;
           }
         for (SidePart &panel : side.panels)
@@ -501,7 +508,7 @@ namespace geocone::GEOCONE_DIM
           }
       }
     for (LoadedSide &side : loads)
-      side.surface.move(mesh, space, has_mass, v, h);
+      side.surface.move(mesh, space, moves, v, h);
   }
 
   std::vector<bool>
@@ -613,9 +620,16 @@ namespace geocone::GEOCONE_DIM
                                          area[d] > 0.,
                                          BoundingBox<dim>(panel.corners)});
         }
+    std::set<std::vector<double>> seen; // corners of facets
     for (const LoadedSide &side : loads)
       for (SidePart &facet : side.surface.facets())
-        boundary.loaded.push_back(std::move(facet));
+        {
+          std::vector<double> places;
+          for (const Point<dim> &corner : facet.corners)
+            places.insert(places.end(), corner.begin_raw(), corner.end_raw());
+          if (seen.insert(places).second)
+            boundary.loaded.push_back(std::move(facet));
+        }
     return boundary;
   }
 

@@ -62,7 +62,13 @@ namespace geocone::GEOCONE_DIM
   void
   BoundaryForces::begin_step(const double t)
   {
-    time = t;
+    if (has_tractions)
+      {
+        tractions.zero_out_ghost_values();
+        tractions = 0.;
+        moving->add_tractions(tractions, {}, t);
+        tractions.update_ghost_values();
+      }
     if (absorbing->exists())
       {
         incoming.zero_out_ghost_values();
@@ -72,19 +78,9 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
-  BoundaryForces::add_tractions(const double least_mass, GridTransfer &nodes)
+  BoundaryForces::add_tractions(GridTransfer &nodes) const
   {
-    if (!has_tractions)
-      return;
-    has_mass.resize(nodes.n_nodes());
-    for (unsigned int i = 0; i < nodes.n_nodes(); ++i)
-      has_mass[i] = nodes.mass[i] > least_mass;
-    tractions.zero_out_ghost_values();
-    tractions = 0.;
-    moving->add_tractions(
-      tractions, [&](const unsigned int node) { return has_mass[node]; }, time);
-    tractions.update_ghost_values();
-    for (unsigned int i = 0; i < nodes.n_nodes(); ++i)
+    for (unsigned int i = 0; i < nodes.n_nodes() && has_tractions; ++i)
       for (unsigned int d = 0; d < dim; ++d)
         nodes.write[node_size * i + change_of_node + d] +=
           tractions.local_element(dim * i + d);
@@ -138,7 +134,6 @@ namespace geocone::GEOCONE_DIM
       for (unsigned int d = 0; d < dim; ++d)
         v.local_element(dim * i + d) = nodes.read[node_size * i + d];
     v.update_ghost_values();
-    moving->move(
-      [&](const unsigned int node) { return has_mass[node]; }, v, dt, 0.);
+    moving->move({}, v, dt, 0.);
   }
 } // namespace geocone::GEOCONE_DIM

@@ -14,7 +14,7 @@ namespace geocone::GEOCONE_DIM
                            const BoundaryConditions &conditions,
                            const double              flip_part,
                            const double              least_mass,
-                           BoundaryForces           *boundary,
+                           const BoundaryForces     *boundary,
                            PoreWater                *water,
                            ExplicitObstacles        *obstacles,
                            Exchange                 &sum)
@@ -167,7 +167,7 @@ namespace geocone::GEOCONE_DIM
           f[change_of_node + d] += m * g[d];
       }
     if (boundary != nullptr)
-      boundary->add_tractions(least_mass, transfer);
+      boundary->add_tractions(transfer);
     if (water != nullptr)
       water->add_buoyancy(dt, step.gravity);
     if (step.measures_force)

@@ -177,10 +177,14 @@ namespace geocone::GEOCONE_DIM
              "everywhere, are off by a third of the traction, by more than "
              "that "
              "with 2 particles per direction; take B-spline 3";
-    if (has_water && k < 3 && moves)
+    if (k < 3)
       return subject +
-             "pore pressures near moving sides are off by up to a fifth of the "
-             "traction; take 'Particles/Points per direction' = 3";
+             (has_water && moves
+                ? "pore pressures near moving sides are off by up to a fifth"
+                : "stresses in single points are off by up to two fifths") +
+             " of the traction with 2 per direction, at inclined sides by "
+             "more than it; take "
+             "'Particles/Points per direction' = 3";
     return "";
   }
 

@@ -29,9 +29,13 @@ namespace geocone::GEOCONE_DIM
     /** Soil fraction of a cell up to which it need not be filled. */
     constexpr double least_part = 0.1;
 
-    /** Part of a cell's cross-section that loaded sides must cover to limit the
-     *  soil in it. */
-    constexpr double least_cover = 0.9;
+    /** Relative size of gaps between loaded facets over a cell that counts as
+     *  zero. */
+    constexpr double negligible_gap = 1e-6;
+
+    /** Slope up to which the mean level of a loaded side is taken at the edge of
+     *  another one: an error of this part of the traction. */
+    constexpr double small_slope = 0.02;
 
     /** Lower and upper corner of a box. */
     using Corners = std::pair<Point<dim>, Point<dim>>;
@@ -82,7 +86,7 @@ namespace geocone::GEOCONE_DIM
       return product;
     }
 
-    /** Facet of a loaded side, with the axis to which it is nearly normal. */
+    /** Facet of a loaded side, with an axis along which it limits the soil. */
     struct LoadedFacet
     {
       SidePart         part;
@@ -90,27 +94,28 @@ namespace geocone::GEOCONE_DIM
       bool             soil_is_below;
       BoundingBox<dim> extent;
 
-      explicit LoadedFacet(const SidePart &part)
+      LoadedFacet(const SidePart &part, const unsigned int axis)
         : part(part)
+        , axis(axis)
+        , soil_is_below(area_of(part)[axis] > 0.)
         , extent(part.corners)
-      {
-        const Tensor<1, dim> area = area_of(part);
-        for (unsigned int d = 1; d < dim; ++d)
-          if (std::abs(area[d]) > std::abs(area[axis]))
-            axis = d;
-        soil_is_below = area[axis] > 0.;
-      }
+      {}
 
-      /** Whether it acts on a cell: over its cross-section, at most one cell
-       *  away along the axis. */
+      /** Facet along the axis to which it is nearly normal. */
+      explicit LoadedFacet(const SidePart &part)
+        : LoadedFacet(part, main_axis(area_of(part)))
+      {}
+
+      /** Whether it acts on a cell along a direction: over the cross-section,
+       *  at most one cell away. */
       bool
-      is_near(const BoundingBox<dim> &cell) const
+      is_near(const BoundingBox<dim> &cell, const unsigned int along) const
       {
         bool near = true;
         for (unsigned int d = 0; d < dim; ++d)
           {
             const double margin =
-              (d == axis ? 1. : -negligible_part) * cell.side_length(d);
+              (d == along ? 1. : -negligible_part) * cell.side_length(d);
             near = near &&
                    extent.lower_bound(d) < cell.upper_bound(d) + margin &&
                    extent.upper_bound(d) > cell.lower_bound(d) - margin;
@@ -123,6 +128,26 @@ namespace geocone::GEOCONE_DIM
       {
         return std::abs(area_of(part)[axis]);
       }
+
+      bool
+      is_nearly_normal_to_axis() const
+      {
+        Tensor<1, dim> across = area_of(part);
+        const double   size   = across.norm();
+        across[axis]          = 0.;
+        return across.norm() < small_slope * size;
+      }
+
+    private:
+      static unsigned int
+      main_axis(const Tensor<1, dim> &area)
+      {
+        unsigned int axis = 0;
+        for (unsigned int d = 1; d < dim; ++d)
+          if (std::abs(area[d]) > std::abs(area[axis]))
+            axis = d;
+        return axis;
+      }
     };
 
     /** Known boundaries of the soil. */
@@ -132,8 +157,8 @@ namespace geocone::GEOCONE_DIM
       std::vector<LoadedFacet> loaded;
     };
 
-    /** Part of a cell that can be soil: a box, or its part up to a loaded side
-     *  that is nearly normal to an axis. */
+    /** Part of a cell that can be soil: a box, or its part up to loaded facets
+     *  along one axis. */
     struct SoilPart
     {
       Corners                  box;
@@ -223,8 +248,8 @@ namespace geocone::GEOCONE_DIM
       const auto               add = [&](SidePart piece) {
         for (Point<dim> &corner : piece.corners)
           corner[axis] = std::clamp(corner[axis], from, to);
-        if (area_of(piece).norm() > 0.)
-          result.emplace_back(piece);
+        if (std::abs(area_of(piece)[axis]) > 0.)
+          result.emplace_back(piece, axis);
       };
       for (const LoadedFacet &facet : facets)
         for (const SidePart &piece : pieces_between(column, facet.part))
@@ -240,53 +265,143 @@ namespace geocone::GEOCONE_DIM
       return result;
     }
 
-    /** Limits the soil part of a cell to the loaded sides near it, if they
-     *  cover it. */
+    double
+    projected_area(const std::vector<LoadedFacet> &facets)
+    {
+      double sum = 0.;
+      for (const LoadedFacet &facet : facets)
+        sum += facet.projected_area();
+      return sum;
+    }
+
+    /** Whether facets cover the cross-section of a box up to a part of it. */
+    bool
+    covers(const std::vector<LoadedFacet> &facets,
+           const Corners                  &box,
+           const unsigned int              axis,
+           const double                    gap)
+    {
+      const double size = cross_section(box, axis);
+      return std::abs(projected_area(facets) - size) < gap * size;
+    }
+
+    /** Part of a box up to the loaded facets that lie over it along an axis, if
+     *  they cover its cross-section and have the soil on the same side. With the
+     *  axis chosen for all of them, columns of the box neither overlap nor leave
+     *  gaps, whatever their slopes. */
+    std::optional<SoilPart>
+    cut_along(const unsigned int              axis,
+              const BoundingBox<dim>         &cell,
+              const Corners                  &box,
+              const std::vector<LoadedFacet> &loaded)
+    {
+      std::vector<LoadedFacet> near;
+      for (const LoadedFacet &facet : loaded)
+        if (facet.is_near(cell, axis))
+          near.emplace_back(facet.part, axis);
+      SoilPart                                cut{box};
+      const double                            size = cell.side_length(axis);
+      std::array<std::vector<LoadedFacet>, 2> tops; // by side of the soil
+      std::array<bool, 2>                     limits = {};
+      for (const LoadedFacet &facet : over_box(box, axis, near))
+        {
+          const bool below = facet.soil_is_below;
+          tops[below].push_back(facet);
+          if (cut.height(facet, facet.part.middle()) <
+              box.second[axis] - box.first[axis] - negligible_part * size)
+            limits[below] = true;
+        }
+      if (limits[0] && limits[1])
+        return std::nullopt; // a thin body
+      // Of a side beyond the box nothing remains but its soil in all of it.
+      if (!tops[0].empty() && !tops[1].empty())
+        tops[limits[1] ? 0 : 1].clear();
+      cut.top = tops[0].empty() ? tops[1] : tops[0];
+      if (!covers(cut.top, box, axis, negligible_gap))
+        return std::nullopt;
+      return cut;
+    }
+
+    /** Part of a box at a convex corner of loaded sides nearly normal to the
+     *  axes: the box up to their mean levels. */
+    std::optional<SoilPart>
+    cut_at_corner(const BoundingBox<dim>         &cell,
+                  const Corners                  &box,
+                  const std::vector<LoadedFacet> &loaded)
+    {
+      std::array<std::vector<LoadedFacet>, dim> near; // by axis
+      for (const LoadedFacet &facet : loaded)
+        if (facet.is_near(cell, facet.axis))
+          {
+            if (!facet.is_nearly_normal_to_axis())
+              return std::nullopt;
+            near[facet.axis].push_back(facet);
+          }
+      SoilPart cut{box};
+      for (unsigned int axis = 0; axis < dim; ++axis)
+        {
+          const std::vector<LoadedFacet> tops = over_box(box, axis, near[axis]);
+          if (tops.empty())
+            continue;
+          const bool below = tops[0].soil_is_below;
+          double     level = 0.;
+          for (const LoadedFacet &facet : tops)
+            level += facet.projected_area() / projected_area(tops) *
+                     facet.part.middle()[axis];
+          for (const LoadedFacet &facet : tops)
+            if (facet.soil_is_below != below ||
+                std::abs(facet.part.middle()[axis] - level) >
+                  small_slope * cell.side_length(axis))
+              return std::nullopt; // a thin body, or a step
+          (below ? cut.box.second : cut.box.first)[axis] = level;
+        }
+      // Facets that end at a re-entrant corner do not cover the box.
+      for (unsigned int axis = 0; axis < dim; ++axis)
+        if (!near[axis].empty() &&
+            !covers(
+              over_box(cut.box, axis, near[axis]), cut.box, axis, small_slope))
+          return std::nullopt;
+      return cut;
+    }
+
+    /** Limits the soil part of a cell to the loaded sides near it, where it is
+     *  known exactly from them. */
     void
     cut_at_loaded_sides(const BoundingBox<dim>         &cell,
                         const std::vector<LoadedFacet> &loaded,
                         SoilPart                       &part)
     {
-      std::array<std::vector<LoadedFacet>, dim> near; // by axis
+      std::vector<LoadedFacet> near;
+      Tensor<1, dim>           area; // without signs
       for (const LoadedFacet &facet : loaded)
-        if (facet.is_near(cell))
-          near[facet.axis].push_back(facet);
-      SoilPart                 cut     = part;
-      unsigned int             n_sides = 0;
-      std::vector<LoadedFacet> top;
-      std::array<double, dim>  covered = {};
-      for (unsigned int axis = 0; axis < dim; ++axis)
         {
-          if (near[axis].empty())
+          bool is_near = false;
+          for (unsigned int d = 0; d < dim; ++d)
+            is_near = is_near || facet.is_near(cell, d);
+          if (!is_near)
             continue;
-          const bool below = near[axis][0].soil_is_below;
-          top              = over_box(part.box, axis, near[axis]);
-          double level     = 0.;
-          for (const LoadedFacet &facet : top)
-            {
-              if (facet.soil_is_below != below)
-                return; // a thin body
-              covered[axis] += facet.projected_area();
-              level += facet.projected_area() * facet.part.middle()[axis];
-            }
-          if (!(covered[axis] > 0.))
-            continue;
-          ++n_sides;
-          (below ? cut.box.second : cut.box.first)[axis] =
-            level / covered[axis];
+          near.push_back(facet);
+          const Tensor<1, dim> of_facet = area_of(facet.part);
+          for (unsigned int d = 0; d < dim; ++d)
+            area[d] += std::abs(of_facet[d]);
         }
-      for (unsigned int axis = 0; axis < dim; ++axis)
-        if (!near[axis].empty() &&
-            covered[axis] < least_cover * cross_section(cut.box, axis))
-          return;
-      if (n_sides == 1)
-        {
-          const unsigned int axis = top[0].axis;
-          if (std::abs(covered[axis] - cross_section(part.box, axis)) <
-              1e-6 * cross_section(part.box, axis))
-            cut = {part.box, top};
-        }
-      part = cut;
+      if (near.empty())
+        return;
+      std::array<unsigned int, dim> axes;
+      std::iota(axes.begin(), axes.end(), 0);
+      std::stable_sort(axes.begin(),
+                       axes.end(),
+                       [&](const unsigned int a, const unsigned int b) {
+                         return area[a] > area[b];
+                       });
+      for (const unsigned int axis : axes)
+        if (const auto cut = cut_along(axis, cell, part.box, near))
+          {
+            part = *cut;
+            return;
+          }
+      if (const auto cut = cut_at_corner(cell, part.box, near))
+        part = *cut;
     }
 
     /** Part of a cell on the soil's side of all boundaries. */
@@ -413,15 +528,18 @@ namespace geocone::GEOCONE_DIM
       return result;
     }
 
-    /** Facets without soil beyond them. Others have been buried: a cell away
-     *  from them along their normal points fill half of a cell. Collective. */
+    /** Facets with soil behind and none beyond them. Of the others, some have
+     *  no soil in the present stage: no point lies in their cell and in the one
+     *  behind it. Some have been buried: a cell away from them along their
+     *  normal points fill half of a cell. Collective. */
     std::vector<LoadedFacet>
     free_facets(const BackgroundMesh        &mesh,
                 const std::vector<SidePart> &facets,
                 const MaterialPoints        &points)
     {
       std::vector<LoadedFacet> loaded(facets.begin(), facets.end()), free;
-      std::vector<double>      filled(loaded.size(), 0.);
+      // Beyond each facet, and number of cells with points behind it.
+      std::vector<double> filled(loaded.size(), 0.), behind = filled;
       for (unsigned int c = 0; c < points.n_cells() && !loaded.empty(); ++c)
         {
           const BoundingBox<dim> box = points.cells[c]->bounding_box();
@@ -433,16 +551,22 @@ namespace geocone::GEOCONE_DIM
           for (std::size_t i = 0; i < loaded.size(); ++i)
             {
               const LoadedFacet &facet  = loaded[i];
-              Point<dim>         beyond = facet.part.middle();
-              beyond[facet.axis] +=
-                (facet.soil_is_below ? 1. : -1.) * box.side_length(facet.axis);
-              if (box.point_inside(beyond))
+              const Point<dim>   middle = facet.part.middle();
+              // Along an axis, diagonal facets through vertices would see the
+              // cells that they cut.
+              const Tensor<1, dim> area = area_of(facet.part),
+                                   out  = box.side_length(facet.axis) /
+                                         area.norm() * area;
+              if (box.point_inside(middle + out))
                 filled[i] = std::max(filled[i], part);
+              if (box.point_inside(middle) || box.point_inside(middle - out))
+                behind[i] += 1.;
             }
         }
       sum_over_ranks(filled, mesh.triangulation().get_communicator());
+      sum_over_ranks(behind, mesh.triangulation().get_communicator());
       for (std::size_t i = 0; i < loaded.size(); ++i)
-        if (filled[i] < 0.5)
+        if (filled[i] < 0.5 && behind[i] > 0.)
           free.push_back(loaded[i]);
       return free;
     }

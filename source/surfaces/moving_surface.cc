@@ -98,7 +98,7 @@ namespace geocone::GEOCONE_DIM
               continue;
             space.cell_nodes(cell, nodes);
             space.evaluate(cell, *unit, N.data(), nullptr);
-            if (!keep_nodes_with_mass(space, has_mass, nodes, N))
+            if (has_mass && !keep_nodes_with_mass(space, has_mass, nodes, N))
               continue;
             double *const own = &sums[n_sums * k];
             own[dim] += 1.;

@@ -52,6 +52,9 @@ namespace geocone::GEOCONE_DIM
     /**
      * Adds the nodal forces of all tractions at time t to @p force, on nodes
      * with mass. Collective.
+     * @param has_mass empty: on all nodes. Also where stages change the body:
+     * loads on soil that is absent, on nodes without mass, must not pass to
+     * other nodes
      * @param stage,scaled as in Loads::evaluate()
      * @throws StepFailure if a boundary segment has left the mesh or the points
      */
@@ -90,6 +93,7 @@ namespace geocone::GEOCONE_DIM
      * Moves the boundary segments during a time step h. Segments with prescribed
      * velocity move with this velocity at time t, all other segments with the nodal
      * velocities v of nodes with mass. Collective.
+     * @param has_mass as in add_tractions()
      */
     void
     move(const NodesWithMass &has_mass,
@@ -98,7 +102,8 @@ namespace geocone::GEOCONE_DIM
          const double         t);
 
     /** Boundary segments that limit the soil domain: those normal to a
-     *  coordinate axis whose normal velocity is prescribed, and loaded ones. */
+     *  coordinate axis whose normal velocity is prescribed, and loaded ones,
+     *  each once whatever the number of its tractions. */
     SoilBoundary
     soil_boundary() const;
 
@@ -200,19 +205,23 @@ namespace geocone::GEOCONE_DIM
                      Multipliers    &rows) const;
     /** @} */
 
-    /** Adds the traction at a quadrature point of a facet to the nodal forces.
+    /** Returns the traction at a quadrature point of a facet times its size.
      *  @param size initial size of the facet, on which dead loads act
      *  @param area current outward normal times current size */
-    void
-    add_traction(const BoundaryCondition      &load,
-                 const double                  size,
-                 const dealii::Tensor<1, dim> &area,
-                 const BoundaryPoint          &point,
-                 const double                  t,
-                 Vector                       &force) const;
+    dealii::Tensor<1, dim>
+    traction_at(const BoundaryCondition      &load,
+                const double                  size,
+                const dealii::Tensor<1, dim> &area,
+                const dealii::Point<dim>     &x,
+                const double                  t) const;
+
+    /** Returns @p has_mass, or nothing in scenes whose stages change the body. */
+    NodesWithMass
+    known_mass(const NodesWithMass &has_mass) const;
 
     /** Checks that functions with mass carry the facets of a traction. Collective.
-     *  @param carried fraction of each facet with such functions on this rank
+     *  @param carried fraction of each facet on this rank with such functions or
+     *  without load
      *  @throws StepFailure if a facet has none */
     void
     check_on_soil(const BoundaryCondition               &load,

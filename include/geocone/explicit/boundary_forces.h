@@ -37,17 +37,16 @@ namespace geocone::GEOCONE_DIM
     void
     follow_ranks();
 
-    /** Evaluates the forces of absorbing boundaries at time t, the midpoint of a
-     *  step, at which tractions are evaluated, too. Collective. */
+    /** Evaluates the boundary forces at time t, the midpoint of a step.
+     *  Collective.
+     *  @throws StepFailure if a loaded segment has left the mesh */
     void
     begin_step(const double t);
 
     /** Adds the surface tractions to the nodal forces scattered from the
-     *  points. Collective.
-     *  @param least_mass nodes with this mass or less carry nothing (kg/m)
-     *  @throws StepFailure if a loaded segment has left the mesh or the points */
+     *  points. */
     void
-    add_tractions(const double least_mass, GridTransfer &nodes);
+    add_tractions(GridTransfer &nodes) const;
 
     /** Work and impulse of tractions and dashpots during a step, on this
      *  rank. */
@@ -91,8 +90,6 @@ namespace geocone::GEOCONE_DIM
     std::unique_ptr<MovingConditions>  moving;
     std::unique_ptr<AbsorbingBoundary> absorbing;
     Vector                             tractions, coefficient, incoming;
-    std::vector<bool>                  has_mass;  ///< by node, in this step
-    double                             time = 0.; ///< midpoint of the step (s)
   };
 } // namespace geocone::GEOCONE_DIM
 

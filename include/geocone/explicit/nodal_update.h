@@ -40,7 +40,7 @@ namespace geocone::GEOCONE_DIM
                 const BoundaryConditions &conditions,
                 const double              flip_part,
                 const double              least_mass,
-                BoundaryForces           *boundary,
+                const BoundaryForces     *boundary,
                 PoreWater                *water,
                 ExplicitObstacles        *obstacles,
                 Exchange                 &sum);
@@ -169,7 +169,7 @@ namespace geocone::GEOCONE_DIM
     GridTransfer             &transfer;
     const BoundaryConditions &conditions;
     const double              flip_part, least_mass;
-    BoundaryForces           *boundary;
+    const BoundaryForces     *boundary;
     PoreWater                *water;
     ExplicitObstacles        *obstacles;
     Exchange                 &sum;

@@ -51,9 +51,10 @@ namespace geocone::GEOCONE_DIM
    * or a loaded side intersects them. If the soil part of an intersected cell
    * has no points, the adjacent cell represents it. In other cells w_p = V_p and
    * the gradients do not change; points beyond a limit or a loaded side have no weight. Loaded sides with soil beyond them, such as fill of a later stage, limit nothing. The part
-   * below a loaded side is exact where all facets in a cell are normal to the
-   * same axis within 45 degrees; at the edges of two loaded sides these are
-   * replaced by their mean positions. @pre the cells are boxes of an
+   * below a loaded side is exact where its facets cover the cross-section of a
+   * cell along an axis, with the soil on one side; at a convex edge of loaded
+   * sides along the axes, the part up to their mean levels is taken; others
+   * limit nothing. @pre the cells are boxes of an
    * axis-aligned grid. Collective.
    */
   void

@@ -40,8 +40,8 @@ namespace geocone::GEOCONE_DIM
     }
 
     /** Moves the corners of the facets with the grid velocity over a step h
-     *  (s), that of the functions with mass. Positions are limited to the box of
-     *  the mesh. Collective. */
+     *  (s), that of the functions with mass; without @p has_mass, of all.
+     *  Positions are limited to the box of the mesh. Collective. */
     void
     move(const BackgroundMesh &mesh,
          const Space          &space,
