@@ -63,7 +63,7 @@ namespace geocone::GEOCONE_DIM
      * part of the body: n cells of splines of degree p have n + p functions.
      * One that k n particles do not see has no stiffness. Collective.
      * @return a warning, or nothing
-     * @throws InputError where two functions have none, except at Gauss points
+     * @throws InputError where particles in sub-cells give two functions none
      */
     std::string
     check_width_of_body(const BackgroundMesh &mesh,
@@ -84,9 +84,10 @@ namespace geocone::GEOCONE_DIM
             }
         }
       Utilities::MPI::min(ends, comm, ends);
-      // They integrate the forces of all functions exactly, until they move.
-      const bool at_gauss_points =
-        ParameterFile::value("Particles/Layout") == "Gauss";
+      // Gauss points integrate the forces of all functions exactly, until they
+      // move; those of files are as they are.
+      const bool in_sub_cells =
+        ParameterFile::value("Particles/Layout") == "sub-cells";
       std::string warning;
       for (unsigned int d = 0; d < dim; ++d)
         {
@@ -105,7 +106,7 @@ namespace geocone::GEOCONE_DIM
                             remedy =
                               "take more of them, a lower degree, or smaller "
                               "cells";
-          if (unseen > 1.5 && (k > 1 || n < 2.) && !at_gauss_points)
+          if (unseen > 1.5 && (k > 1 || n < 2.) && in_sub_cells)
             throw InputError(parameter,
                              k,
                              format("at least %g: ",
@@ -115,7 +116,7 @@ namespace geocone::GEOCONE_DIM
           if (unseen > 0.5 && k > 1)
             warning = what +
                       (unseen > 1.5 ? ": displacements are wrong as soon as "
-                                      "particles have left the Gauss points; "
+                                      "particles have left their places; "
                                     : ": displacements may be off by 2 %; ") +
                       remedy;
         }
