@@ -95,9 +95,13 @@ namespace geocone::GEOCONE_DIM
   {
     std::string remark;
     Seeding   *seeding    = method.is_mpm() ? &implicit_mpm.seeding() : nullptr;
-    const auto check_size = [&]() {
-      const RunEstimate estimate =
-        estimate_run(scene, method, mesh, seeding, run_output.fields_asked());
+    const auto  check_size = [&]() {
+      const RunEstimate estimate = estimate_run(scene,
+                                                method,
+                                                mesh,
+                                                seeding,
+                                                run_output.fields_asked(),
+                                                &newton.linear_solver());
       log.print(options.name + ": " + estimate.text());
       estimate.check(options.force);
     };

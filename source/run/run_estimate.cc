@@ -105,30 +105,15 @@ namespace geocone::GEOCONE_DIM
                                                     : 7.;
       return {p, spline, nodes_per_cell, functions, points};
     }
-
-    /** Returns true if p-multigrid solves the linear systems: by its name or, in
-     *  three dimensions, by 'automatic' (LinearSolverParameters). */
-    bool
-    has_p_multigrid(const double      unknowns,
-                    const CellCounts &of_cell,
-                    const Method     &method,
-                    const bool        has_obstacles)
-    {
-      const std::string name = ParameterFile::value("Linear solver/Name");
-      return !method.is_mpm() && of_cell.degree > 1 &&
-             (name == "p-multigrid" ||
-              (name == "automatic" && dim == 3 && !has_obstacles &&
-               unknowns > std::stod(ParameterFile::value(
-                            "Linear solver/Largest direct system"))));
-    }
   } // namespace
 
   RunEstimate
-  estimate_run(const Scene       &scene,
-               const Method      &method,
-               BackgroundMesh    &mesh,
-               Seeding           *seeding,
-               const FieldsAsked &fields)
+  estimate_run(const Scene                  &scene,
+               const Method                 &method,
+               BackgroundMesh               &mesh,
+               Seeding                      *seeding,
+               const FieldsAsked            &fields,
+               const LinearSolverParameters *linear_solver)
   {
     RunEstimate e;
     if (seeding != nullptr)
@@ -168,8 +153,10 @@ namespace geocone::GEOCONE_DIM
         const double row = dim * (of_cell.is_spline ? std::pow(2. * p + 1., dim)
                                                     : 3.5 * of_cell.functions);
         e.memory         = 160e6;
-        if (has_p_multigrid(
-              e.unknowns, of_cell, method, !scene.obstacles.list.empty()))
+        if (linear_solver != nullptr && of_cell.degree > 1 &&
+            !method.is_mpm() &&
+            linear_solver->selects_p_multigrid(
+              dim == 3 && scene.obstacles.list.empty() ? e.unknowns : 0))
           {
             of_points = e.points * (600. + 30. * of_cell.functions);
             of_nodes  = e.unknowns * (1000. + 14. * row);

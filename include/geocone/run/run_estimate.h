@@ -4,6 +4,7 @@
 #ifndef geocone_run_run_estimate_h
 #define geocone_run_run_estimate_h
 
+#include <geocone/linear/linear_solver.h>
 #include <geocone/mesh/background_mesh.h>
 #include <geocone/output/output_base.h>
 #include <geocone/points/seeding.h>
@@ -50,13 +51,15 @@ namespace geocone::GEOCONE_DIM
    * consumption and the size of its files. The scene and the method must be
    * prepared; this function prepares the seeding.
    * @param seeding of the particles, or nullptr for FEM
+   * @param linear_solver of implicit steps, or nullptr for explicit ones
    */
   RunEstimate
-  estimate_run(const Scene       &scene,
-               const Method      &method,
-               BackgroundMesh    &mesh,
-               Seeding           *seeding,
-               const FieldsAsked &fields);
+  estimate_run(const Scene                  &scene,
+               const Method                 &method,
+               BackgroundMesh               &mesh,
+               Seeding                      *seeding,
+               const FieldsAsked            &fields,
+               const LinearSolverParameters *linear_solver = nullptr);
 } // namespace geocone::GEOCONE_DIM
 
 #endif
