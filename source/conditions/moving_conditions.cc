@@ -261,21 +261,31 @@ namespace geocone::GEOCONE_DIM
       force.compress(VectorOperation::add);
   }
 
+  std::optional<MovingConditions::MissingPart>
+  MovingConditions::missing_part(const std::vector<Point<dim>> &middles,
+                                 std::vector<double>            found) const
+  {
+    sum_over_ranks(found, mesh.triangulation().get_communicator());
+    const auto least = std::min_element(found.begin(), found.end());
+    if (!(*least < 1. - 1e-6))
+      return std::nullopt;
+    return MissingPart{100. * (1. - *least),
+                       text_of_place(middles[least - found.begin()])};
+  }
+
   void
   MovingConditions::check_on_soil(const BoundaryCondition       &load,
                                   const std::vector<Point<dim>> &middles,
                                   std::vector<double>            carried) const
   {
-    sum_over_ranks(carried, mesh.triangulation().get_communicator());
-    const auto least = std::min_element(carried.begin(), carried.end());
-    if (*least < 1. - 1e-6)
+    if (const auto missing = missing_part(middles, std::move(carried)))
       throw StepFailure(
         format("the side of '%s' has left the particles: no function with mass "
                "carries %.3g %% of its part around (%s)\n"
                "  remedy:  smaller steps, or B-splines, which reach farther",
                load.name.c_str(),
-               100. * (1. - *least),
-               text_of_place(middles[least - carried.begin()]).c_str()));
+               missing->percent,
+               missing->place.c_str()));
   }
 
   void
@@ -283,16 +293,14 @@ namespace geocone::GEOCONE_DIM
                                   const std::vector<Point<dim>> &middles,
                                   std::vector<double>            in_mesh) const
   {
-    sum_over_ranks(in_mesh, mesh.triangulation().get_communicator());
-    const auto least = std::min_element(in_mesh.begin(), in_mesh.end());
-    if (*least < 1. - 1e-6)
+    if (const auto missing = missing_part(middles, std::move(in_mesh)))
       throw StepFailure(
         format("the side of '%s' has left the background mesh: %.3g %% of its "
                "part around (%s) is outside\n"
                "  remedy:  a larger Mesh/Box, so that the side stays in it",
                condition.name.c_str(),
-               100. * (1. - *least),
-               text_of_place(middles[least - in_mesh.begin()]).c_str()));
+               missing->percent,
+               missing->place.c_str()));
   }
 
   void

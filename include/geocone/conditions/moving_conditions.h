@@ -219,6 +219,19 @@ namespace geocone::GEOCONE_DIM
     NodesWithMass
     known_mass(const NodesWithMass &has_mass) const;
 
+    /** Part of a facet or segment that was not found. */
+    struct MissingPart
+    {
+      double      percent;
+      std::string place; ///< of its middle
+    };
+
+    /** Finds the facet or segment with the least part found, if a part is missing.
+     *  Collective. @param found fraction of each one that this rank found */
+    std::optional<MissingPart>
+    missing_part(const std::vector<dealii::Point<dim>> &middles,
+                 std::vector<double>                    found) const;
+
     /** Checks that functions with mass carry the facets of a traction. Collective.
      *  @param carried fraction of each facet on this rank with such functions or
      *  without load
