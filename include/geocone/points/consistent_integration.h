@@ -6,23 +6,12 @@
 
 #include <geocone/mesh/background_mesh.h>
 #include <geocone/points/material_points.h>
+#include <geocone/points/soil_part.h>
 #include <geocone/space/space.h>
 #include <geocone/surfaces/side_part.h>
 
-#include <deal.II/base/bounding_box.h>
-
 namespace geocone::GEOCONE_DIM
 {
-  /** Part of a fixed boundary that is normal to a coordinate axis and has soil
-   *  on one side. */
-  struct SoilLimit
-  {
-    unsigned int             axis;
-    double                   level;         ///< coordinate along the axis (m)
-    bool                     soil_is_below; ///< soil at smaller coordinates
-    dealii::BoundingBox<dim> extent;        ///< its thickness is irrelevant
-  };
-
   /** Boundaries of the soil that are known while its points move. */
   struct SoilBoundary
   {
@@ -50,12 +39,9 @@ namespace geocone::GEOCONE_DIM
    * beyond a limit); at a surface, if they are filled to 3 %; and if a limit
    * or a loaded side intersects them. If the soil part of an intersected cell
    * has no points, the adjacent cell represents it. In other cells w_p = V_p and
-   * the gradients do not change; points beyond a limit or a loaded side have no weight. Loaded sides with soil beyond them, such as fill of a later stage, limit nothing. The part
-   * below a loaded side is exact where its facets cover the cross-section of a
-   * cell along an axis, with the soil on one side; at a convex edge of loaded
-   * sides along the axes, the part up to their mean levels is taken; others
-   * limit nothing. @pre the cells are boxes of an
-   * axis-aligned grid. Collective.
+   * the gradients do not change; points beyond a limit or a loaded side have no
+   * weight. Loaded sides with soil beyond them, such as fill of a later stage,
+   * limit nothing. @pre the cells are boxes of an axis-aligned grid. Collective.
    */
   void
   make_consistent(const BackgroundMesh &mesh,
