@@ -3,6 +3,7 @@
 
 #include <geocone/base/log.h>
 #include <geocone/base/units.h>
+#include <geocone/laws/mohr_coulomb.h>
 #include <geocone/scene/magnitudes.h>
 
 #include <algorithm>
@@ -122,6 +123,12 @@ namespace geocone::GEOCONE_DIM
             (!scene.water.acts() || scene.water.scales_with_weight()))
           warnings.push_back("the saturated unit weight of '" + name +
                              "' is not used: there is no water table");
+        if (const auto *const plane =
+              dynamic_cast<const MohrCoulomb *>(&scene.materials.law(m));
+            plane != nullptr && plane->undrained_anisotropy().angle != 0. &&
+            !plane->undrained_anisotropy().acts())
+          warnings.push_back("the anisotropy angle of '" + name +
+                             "' is not used: both strength ratios are 1");
         const auto strength = scene.materials.law(m).plane_strain_strength();
         if (!strength)
           continue;

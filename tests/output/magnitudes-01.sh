@@ -20,6 +20,8 @@ asks "the density of 'soil' is 2 kg/m" "${gravity[@]}" --set 'Materials/soil/Den
 asks "the cohesion of 'soil' is 0.1 Pa" "${gravity[@]}" --set 'Materials/soil/Cohesion = 0.1' \
   --set 'Materials/soil/Friction angle = 0' --set 'Materials/soil/Dilatancy angle = 0'
 asks "Young's modulus of 'soil', 100 Pa, is smaller" --set 'Materials/soil/Young modulus = 100'
+asks "the anisotropy angle of 'soil' is not used" \
+  --set 'Materials/soil/Anisotropy angle = 30'
 # Without weight lengths have no unit.
 "$program" "$scene" --quiet --dry-run "${millimetres[@]}" 2>err
 fails grep -q 'large' err
