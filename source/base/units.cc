@@ -101,7 +101,7 @@ namespace geocone
   in_units(const std::string &text)
   {
     static const std::regex unit(
-      "([(\\[]|[0-9.] |are in )(Pa|N|J|kg)(?![A-Za-z0-9])");
+      "([(\\[]|[0-9.)] |are in )(Pa|N|J|kg)(?![A-Za-z0-9])");
     return in_kilonewtons ? replaced(text, unit) : text;
   }
 

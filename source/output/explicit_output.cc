@@ -518,7 +518,7 @@ namespace geocone::GEOCONE_DIM
       unit("J/m").c_str(),
       balance.largest_kinetic(),
       last.exchange.stress_work,
-      summary["energy"][unit("released_potential_J_per_m")].get<double>(),
+      balance.released(),
       balance.loss(),
       unit("J/m").c_str(),
       summary["momentum"]["residual_max_relative"].get<double>()));

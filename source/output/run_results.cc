@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 // Results of a run: its summary and printed results.
+#include <geocone/base/units.h>
 #include <geocone/output/run_output.h>
 
 #include <algorithm>
@@ -454,7 +455,7 @@ namespace geocone::GEOCONE_DIM
         n,
         records.size(),
         newton_part["friction_lag_max"].get<double>(),
-        summary["quality"]["cone_excess_max_Pa"].get<double>(),
+        summary["quality"][key_in_units("cone_excess_max_Pa")].get<double>(),
         100. * summary["quality"]["excess_work_relative"].get<double>(),
         100. * summary["quality"]["excess_work_step_max"].get<double>()));
     if (scene->materials.traits().has_friction_memory())

@@ -45,6 +45,18 @@ assert unit_for(8.3, "kN/m") == ("kN/m", 1.) and unit_for(2e4, "kPa") == ("MPa",
 again = run(Path.cwd() / kn.folder / "parameters.prm", {"Output/Folder": ""})
 close(again.value("limit_load/last"), kn.value("limit_load/last"), 1e-12)
 
+# Explicit steps with a stage that removes soil, whose mass and momentum are told.
+cut = {"Output/Expectations": "", "Output/Report for tests": "none"}
+in_kn = {"Density": 2, "Young modulus": 1e3, "Cohesion": 2}
+si = run("tests/explicit/cut-01.prm", cut)
+kn = run("tests/explicit/cut-01.prm", {
+    **cut, "Analysis/Units": "kN-m", **{f"Materials/sand/{k}": v for k, v in in_kn.items()}})
+close(kn.value("state/removed_mass_t_per_m"), 8)
+close(kn.value("energy/released_potential_kJ_per_m"),
+      1e-3 * si.value("energy/released_potential_J_per_m"), 1e-6)
+log = (Path(kn.folder) / "log.txt").read_text()
+assert "8 t/m, momentum (" in log and ") kN s/m" in log, log
+
 # A strength reduction by bounds with water has no unit: the same factor.
 slope = {"Analysis/Gap tolerance": 0.1, "Output/Pictures": False, "Output/Expectations": ""}
 of_si = run("prm/safety/slope_water.prm", {**slope, "Gravity/Acceleration": "0, -9.81",
