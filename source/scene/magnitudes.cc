@@ -90,6 +90,43 @@ namespace geocone::GEOCONE_DIM
                  2. * lightest_water * g));
       return warnings;
     }
+
+    /** Warnings of holes that water at rest fills, and on whose sides no condition acts. */
+    std::vector<std::string>
+    warn_of_holes(const Scene &scene)
+    {
+      std::vector<std::string> warnings;
+      const Water             &water = scene.water;
+      if (!water.acts() || water.seepage.acts() || water.scales_with_weight())
+        return warnings;
+      for (std::size_t i = 0; i < scene.geometry.holes.size(); ++i)
+        {
+          double most = 0.;
+          for (const dealii::Point<dim> &x : scene.geometry.holes[i])
+            most = std::max(most, water.pressure(x));
+          const std::string &name    = scene.geometry.hole_names[i];
+          const auto        &sides   = scene.geometry.sides_of_hole.at(name);
+          const auto         acts_on = [&](const BoundaryConditions &all) {
+            return std::any_of(
+              all.list.begin(), all.list.end(), [&](const auto &condition) {
+                return std::any_of(
+                  sides.begin(), sides.end(), [&](const std::string &side) {
+                    return condition->is_on_side(side);
+                  });
+              });
+          };
+          if (most > 0. && !acts_on(scene.dirichlet) &&
+              !acts_on(scene.tractions))
+            warnings.push_back(
+              format("'%s' is filled with water, with up to %.4g Pa on its "
+                     "sides: if it is empty, let water flow to it by "
+                     "'Seepage', or give its sides 'Traction normal' = the "
+                     "pore pressure",
+                     name.c_str(),
+                     most));
+        }
+      return warnings;
+    }
   } // namespace
 
   std::vector<std::string>
@@ -102,6 +139,8 @@ namespace geocone::GEOCONE_DIM
     constexpr double least_angle    = 1.5;  // degrees; half of a right angle in
                                             // radians is less
     std::vector<std::string> warnings = warn_of_gravity(scene);
+    const auto               holes    = warn_of_holes(scene);
+    warnings.insert(warnings.end(), holes.begin(), holes.end());
     double                   size     = 0.;
     for (unsigned int d = 0; d < dim; ++d)
       size = std::max(size, body.side_length(d));

@@ -315,6 +315,13 @@ namespace geocone::GEOCONE_DIM
   std::string
   Scene::warn_of_time_histories() const
   {
+    const double full = gravity.at(std::numeric_limits<double>::max()).norm(),
+                 last = gravity.at(loading.duration()).norm();
+    if (last < (1. - 1e-9) * full)
+      return format("gravity grows to %.3g of its value by the end of the "
+                    "loading, %g s: 'Gravity/Ramp duration' is longer",
+                    last / full,
+                    loading.duration());
     for (const auto *conditions : {&dirichlet, &tractions, &absorbing})
       for (const auto &condition : conditions->list)
         for (unsigned int d = 0; d < dim; ++d)

@@ -26,8 +26,9 @@ namespace geocone::GEOCONE_DIM
       table,
       "Piezometric line x, y; x, y; ... [m] from left to right, extended "
       "horizontally; one point: horizontal everywhere. Pore pressures are "
-      "hydrostatic below it, and stresses are effective; above the ground it "
-      "is the level of open water. Densities are those of saturated soil. In "
+      "hydrostatic below it, and stresses are effective; above the ground and "
+      "in holes it is the level of open water. Densities are those of "
+      "saturated soil. In "
       "three dimensions it is constant along z. Empty: no water.");
     add_parameter(
       "File",

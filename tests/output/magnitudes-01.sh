@@ -22,6 +22,16 @@ asks "the cohesion of 'soil' is 0.1 Pa" "${gravity[@]}" --set 'Materials/soil/Co
 asks "Young's modulus of 'soil', 100 Pa, is smaller" --set 'Materials/soil/Young modulus = 100'
 asks "the anisotropy angle of 'soil' is not used" \
   --set 'Materials/soil/Anisotropy angle = 30'
+asks 'gravity grows to 0.5 of its value by the end of the loading, 0.2 s' "${gravity[@]}" \
+  --set 'Gravity/Ramp duration = 0.4'
+# A table at a height of 4.5 m above the invert of a tunnel.
+scene=$root/prm/safety/tunnel.prm
+table=(--set 'Water/Table = 0, -5.5')
+asks "'hole 0' is filled with water, with up to 4.41[45]e+04 Pa on its sides" "${table[@]}"
+fails asks "'hole 0' is filled" "${table[@]}" --set 'Tractions/Names = water' \
+  --set 'Tractions/water/Sides = hole 0' --set 'Tractions/water/Traction normal = -9810*(y + 5.5)'
+fails asks "'hole 0' is filled" --set 'Water/Table = 0, -10.1'
+scene=$root/tests/footing_coarse.prm
 # Without weight lengths have no unit.
 "$program" "$scene" --quiet --dry-run "${millimetres[@]}" 2>err
 fails grep -q 'large' err
