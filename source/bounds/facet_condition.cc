@@ -30,6 +30,39 @@ namespace geocone::GEOCONE_DIM
     }
   } // namespace
 
+  double
+  prescribed_on_facet(const BoundaryCondition           &condition,
+                      const unsigned int                 component,
+                      const std::array<Point<dim>, dim> &vertices)
+  {
+    constexpr int n = dim == 3 ? 8 : 32; // parts of a side
+    const auto   &function =
+      component == dim ? condition.normal : condition.components[component];
+    const double first = function->value(vertices[0], 0.);
+    for (int i = 0; i <= n; ++i)
+      for (int j = 0; j <= (dim == 3 ? n - i : 0); ++j)
+        {
+          std::array<double, dim> weight = {};
+          weight[0]                      = double(i) / n;
+          weight[dim - 2] += double(j) / n;
+          weight[dim - 1] = 1. - double(i + j) / n;
+          Point<dim> x;
+          for (unsigned int v = 0; v < dim; ++v)
+            x += weight[v] * vertices[v];
+          if (std::abs(function->value(x, 0.) - first) >
+              1e-12 * std::abs(first))
+            throw InputError(
+              condition.parameter(
+                component == dim ? std::string("Velocity normal")
+                                 : std::string("Velocity ") + "xyz"[component]),
+              condition.formula(component),
+              "one velocity for all that is pushed where loads are bounded",
+              "the bounded load is the reaction to one translation: give a "
+              "constant, and end the part where it ends");
+        }
+    return first;
+  }
+
   void
   HeldComponents::add(const BoundaryCondition &condition,
                       const FacetPlace        &place)
@@ -42,22 +75,10 @@ namespace geocone::GEOCONE_DIM
     };
     for (unsigned int d = 0; d < dim; ++d)
       if (condition.components[d])
-        {
-          const double v =
-            condition.components[d]->value(place.vertices[0], 0.);
-          for (const Point<dim> &x : place.vertices)
-            if (std::abs(condition.components[d]->value(x, 0.) - v) >
-                1e-12 * std::abs(v))
-              throw InputError(
-                condition.parameter(std::string("Velocity ") + "xyz"[d]),
-                condition.formula(d),
-                "one velocity for all that is pushed where loads are bounded",
-                "the bounded load is the reaction to one translation");
-          set(d, v);
-        }
+        set(d, prescribed_on_facet(condition, d, place.vertices));
     if (condition.normal)
       {
-        if (condition.normal->value(place.vertices[0], 0.) != 0.)
+        if (prescribed_on_facet(condition, dim, place.vertices) != 0.)
           throw InputError(condition.parameter("Velocity normal"),
                            condition.formula(dim),
                            "0 where loads are bounded",

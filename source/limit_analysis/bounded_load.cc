@@ -5,6 +5,7 @@
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
 #include <geocone/base/text_of_place.h>
+#include <geocone/bounds/facet_condition.h>
 #include <geocone/laws/mohr_coulomb.h>
 #include <geocone/limit_analysis/bounded_load.h>
 #include <geocone/materials/retention.h>
@@ -364,28 +365,31 @@ namespace geocone::GEOCONE_DIM
         }
     for (const auto &condition : scene.dirichlet.list)
       for (const auto &held : triangles.held_edges(*condition))
-        for (const unsigned int v : triangles.edges[held.edge].vertices)
-          {
-            const Point<dim> &x = triangles.vertices[v];
-            Tensor<1, dim>    here;
-            for (unsigned int d = 0; d < dim; ++d)
-              if (condition->components[d])
-                here[d] = condition->components[d]->value(x, 0.);
-            if (condition->normal && condition->normal->value(x, 0.) != 0.)
-              throw InputError(condition->parameter("Velocity normal"),
-                               condition->formula(dim),
-                               "0 with 'Analysis/Kind' = limit load",
-                               "push by Velocity x or y");
-            if (here.norm() == 0.)
-              continue;
-            if (velocity && (*velocity - here).norm() > 1e-9 * here.norm())
-              throw InputError(condition->parameter(
-                                 here[1] != 0. ? "Velocity y" : "Velocity x"),
-                               condition->formula(here[1] != 0. ? 1 : 0),
-                               one_velocity,
-                               remedy);
-            velocity = here;
-          }
+        {
+          std::array<Point<dim>, dim> ends;
+          for (unsigned int i = 0; i < dim; ++i)
+            ends[i] =
+              triangles.vertices[triangles.edges[held.edge].vertices[i]];
+          Tensor<1, dim> here;
+          for (unsigned int d = 0; d < dim; ++d)
+            if (condition->components[d])
+              here[d] = prescribed_on_facet(*condition, d, ends);
+          if (condition->normal &&
+              prescribed_on_facet(*condition, dim, ends) != 0.)
+            throw InputError(condition->parameter("Velocity normal"),
+                             condition->formula(dim),
+                             "0 with 'Analysis/Kind' = limit load",
+                             "push by Velocity x or y");
+          if (here.norm() == 0.)
+            continue;
+          if (velocity && (*velocity - here).norm() > 1e-9 * here.norm())
+            throw InputError(
+              condition->parameter(here[1] != 0. ? "Velocity y" : "Velocity x"),
+              condition->formula(here[1] != 0. ? 1 : 0),
+              one_velocity,
+              remedy);
+          velocity = here;
+        }
     return velocity;
   }
 

@@ -67,13 +67,21 @@ namespace geocone::GEOCONE_DIM
     dealii::Tensor<1, dim>              normal;
   };
 
+  /** Returns a velocity component that a boundary condition prescribes on a facet (m/s); that
+   *  along the outward normal for @p component = dim.
+   *  @throws InputError if it differs between the vertices and points between them */
+  double
+  prescribed_on_facet(const BoundaryCondition                   &condition,
+                      const unsigned int                         component,
+                      const std::array<dealii::Point<dim>, dim> &vertices);
+
   /** Velocity components that boundary conditions prescribe on a facet, from which its
    *  FacetCondition follows. */
   class HeldComponents
   {
   public:
     /** Adds the components prescribed by a boundary condition (m/s).
-     *  @throws InputError if the velocity differs between the vertices or from another
+     *  @throws InputError if the velocity varies on the facet or differs from another
      *  condition, or for a normal velocity that is not zero; around an axis also for one
      *  that is not along an axis */
     void
