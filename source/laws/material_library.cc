@@ -267,7 +267,8 @@ namespace geocone::GEOCONE_DIM
                                         : "";
           !formula.empty())
         throw InputError("Materials/" + name(i) + "/" + formula,
-                         "set",
+                         ParameterFile::value("Materials/" + name(i) + "/" +
+                                              formula),
                          "a 'Cohesion gradient' " + where,
                          "strength is to be linear in each cell: give a "
                          "gradient, or layers");
