@@ -4,6 +4,7 @@
 #ifndef geocone_cone_second_order_cone_h
 #define geocone_cone_second_order_cone_h
 
+#include <geocone/base/simd_scalar.h>
 #include <geocone/base/types.h>
 
 #include <algorithm>
@@ -238,54 +239,77 @@ namespace geocone::GEOCONE_DIM
     }
   };
 
-  /** Returns a trial value t beyond the tension cut-off of a cone to s_n =
-   *  -tension, with T = |t_t| shortened to the radius there at the end of the
-   *  step. See return_map_uncut(). */
-  template <typename V, typename M>
-  void
-  return_to_cut_off(const FlowCone &cone,
-                    const double    two_G,
-                    const V        &t,
-                    const double    T,
-                    V              &s,
-                    M              *tangent)
-  {
-    constexpr int n_tangential = V::RowsAtCompileTime - 1;
-    // With hardening, the radius grows by h (T - |s_t|)/2G.
-    const double r     = cone.hardening / two_G;
-    const double limit = std::max(0., cone.k - cone.a * cone.tension);
-    const double part  = T > limit ? (limit / T + r) / (1. + r) : 1.;
-    s[0]               = -cone.tension;
-    s.template tail<n_tangential>() = part * t.template tail<n_tangential>();
-    if (tangent != nullptr)
-      {
-        tangent->setZero();
-        auto C = tangent->template block<n_tangential, n_tangential>(1, 1);
-        C.diagonal().setConstant(two_G * part);
-        if (T > limit)
-          {
-            const auto u = (t.template tail<n_tangential>() / T).eval();
-            C -= two_G * (part - r / (1. + r)) * u * u.transpose();
-          }
-      }
-  }
-
   /**
-   * Closed-form return mapping for a yield cone without the Rankine tension
-   * cut-off.
-   *
-   * Solution of the one-point problem
-   *   s = t + D z with D = diag(K, 2G, ..., 2G),  z from the law of FlowCone
-   * for a trial value t (doc/theory/laws.md): with T = |t_t|,
-   * f = T - a t_n - k, H = 2G + a b K + h, g = f/H = |z_t|, q = T - 2G g = a
-   * s_n + k + h g,
+   * Return mapping to a yield cone without the Rankine tension cut-off, in the
+   * components along and across the axis: with D = diag(K, 2G, ..., 2G), the
+   * solution of s = t + D z with z from the law of FlowCone for a trial value t
+   * (doc/theory/laws.md). With T = |t_t|, f = T - a t_n - k, H = 2G + a b K + h,
+   * g = f/H = |z_t| and q = T - 2G g = a s_n + k + h g,
    *   f <= 0            : s = t                                   (elastic)
    *   q >= 0 or a = 0   : s_n = t_n + K b g, s_t = q t_t/T        (cone)
    *   otherwise         : s = (-(k + h T/2G)/a, 0)                (apex).
    * If a cut-off precedes the apex, states beyond it are returned to
    * s_n = -tension, with s_t shortened to the radius there at the end of the
-   * step; they count as apex states. For b = a this is the projection of t onto
-   * C in the metric of D^{-1}; with K = 2G it is the Euclidean projection P_C.
+   * step, where the radius grows by h (T - |s_t|)/2G; they count as apex states.
+   * @tparam Number double for a point, or Pack for several points
+   */
+  template <typename Number>
+  class ConeReturn
+  {
+  public:
+    ConeReturn(const FlowCone &cone, const double K, const double two_G)
+      : r(cone.hardening > 0. ? cone.hardening / two_G : 0.)
+      , is_cut(cone.tension < infinite_tension)
+      , has_apex(!is_cut && cone.a > 0.)
+      , a(cone.a)
+      , h(cone.hardening)
+      , per_1_r(r > 0. ? 1. / (1. + r) : 1.)
+      , Kb(K * cone.b)
+      , G2(two_G)
+      , H(two_G + cone.a * cone.b * K + cone.hardening)
+      , end(has_apex ? -cone.k / cone.a : -cone.tension)
+      , end_per_T(r > 0. && has_apex ? r / cone.a : 0.)
+    {}
+
+    struct Returned
+    {
+      Number s_n, radius; ///< normal stress and |s_t| (Pa)
+      Number beyond;      ///< positive at the apex or the cut-off
+    };
+
+    /** @param k radius at s_n = 0 (Pa): that of the cone unless it is cut off */
+    Returned
+    operator()(const Number &k, const Number &t_n, const Number &T) const
+    {
+      const Number zero(0.);
+      const Number g   = max(T - (a * t_n + k), zero) / H; // 0 if only cut off
+      const Number s_n = t_n + Kb * g;
+      // q = T - 2G g, in the form that satisfies the cone within rounding even
+      // for trial values larger by many orders of magnitude. At the apex
+      // rounding makes the sign of either form arbitrary: the apex is returned.
+      const Number q = min(a * s_n + k + h * g, T);
+      if (!is_cut && !has_apex)
+        return {s_n, q, zero};
+      const Number beyond = is_cut ? end - s_n : zero - min(q, T - G2 * g);
+      const Number radius =
+        is_cut ? min((max(k + a * end, zero) + Number(r) * T) * per_1_r, T)
+               : zero;
+      return {where_greater(beyond, zero, end - end_per_T * T, s_n),
+              where_greater(beyond, zero, radius, q),
+              beyond};
+    }
+
+  private:
+    const double r; ///< h/2G
+    const bool   is_cut, has_apex;
+    const Number a, h, per_1_r, Kb, G2, H;
+    const Number end, end_per_T; ///< s_n of the cut-off or the apex
+  };
+
+  /**
+   * Closed-form return mapping of one point by ConeReturn. For b = a this is the
+   * projection of t onto C in the metric of D^{-1}; with K = 2G it is the
+   * Euclidean projection P_C.
    *
    * @param[out] tangent an element of the generalised Jacobian ds/dt times D,
    * i.e. ds/de for t = s^n + D e; untouched if null
@@ -315,51 +339,43 @@ namespace geocone::GEOCONE_DIM
         return Mode::elastic;
       }
     const double T = std::sqrt(T2);
-    const double f = std::max(0., T - radius); // 0 if only cut off
-    const double H = two_G + cone.a * cone.b * K + cone.hardening;
-    const double g = f / H;
-    // q = T - 2G g, in the form that satisfies the cone within rounding even
-    // for trial values larger by many orders of magnitude. At the apex rounding
-    // makes the sign of either form arbitrary: the apex is returned then.
-    const double s_n = t[0] + K * cone.b * g;
-    const double q   = std::min(cone.a * s_n + cone.k + cone.hardening * g, T);
-    if (s_n < -cone.tension)
-      {
-        return_to_cut_off(cone, two_G, t, T, s, tangent);
-        return Mode::apex;
-      }
-    if ((q >= 0. && T - two_G * g >= 0.) || cone.a == 0.)
-      {
-        const auto u = (t.template tail<n_tangential>() / T).eval();
-        s[0]         = s_n;
-        s.template tail<n_tangential>() = q * u;
-        if (tangent != nullptr)
-          {
-            M &C    = *tangent;
-            C(0, 0) = K - cone.a * cone.b * K * K / H;
-            C.template block<1, n_tangential>(0, 1) =
-              (K * cone.b * two_G / H) * u.transpose();
-            C.template block<n_tangential, 1>(1, 0) =
-              (two_G * cone.a * K / H) * u;
-            C.template block<n_tangential, n_tangential>(1, 1) =
-              (two_G - two_G * two_G / H - two_G * q / T) * u * u.transpose();
-            C.template block<n_tangential, n_tangential>(1, 1)
-              .diagonal()
-              .array() += two_G * q / T;
-          }
-        return Mode::cone;
-      }
+    const auto [s_n, q, beyond] =
+      ConeReturn<double>(cone, K, two_G)(cone.k, t[0], T);
+    const Mode   mode   = beyond > 0. ? Mode::apex : Mode::cone;
+    const bool   is_cut = mode == Mode::apex && cone.tension < infinite_tension;
+    const double part = is_cut && T > 0. ? q / T : 1., h = cone.hardening;
+    const auto   t_t = t.template tail<n_tangential>();
+    const auto   u   = (t_t / (T > 0. ? T : 1.)).eval();
     s.setZero();
-    s[0] = -(cone.k + cone.hardening * T / two_G) / cone.a;
-    if (tangent != nullptr)
+    s[0] = s_n;
+    if (mode == Mode::cone)
+      s.template tail<n_tangential>() = q * u;
+    else if (is_cut)
+      s.template tail<n_tangential>() = part * t_t;
+    if (tangent == nullptr)
+      return mode;
+    M &C = *tangent;
+    C.setZero();
+    auto C_tt = C.template block<n_tangential, n_tangential>(1, 1);
+    if (mode == Mode::cone)
       {
-        tangent->setZero();
-        if (cone.hardening > 0. && T > 0.)
-          tangent->template block<1, n_tangential>(0, 1) =
-            (-cone.hardening / (cone.a * T)) *
-            t.template tail<n_tangential>().transpose();
+        const double H = two_G + cone.a * cone.b * K + h;
+        C(0, 0)        = K - cone.a * cone.b * K * K / H;
+        C.template block<1, n_tangential>(0, 1) =
+          (K * cone.b * two_G / H) * u.transpose();
+        C.template block<n_tangential, 1>(1, 0) = (two_G * cone.a * K / H) * u;
+        C_tt = (two_G - two_G * two_G / H - two_G * q / T) * u * u.transpose();
+        C_tt.diagonal().array() += two_G * q / T;
       }
-    return Mode::apex;
+    else if (is_cut)
+      {
+        C_tt.diagonal().setConstant(two_G * part);
+        if (q < T)
+          C_tt -= two_G * (part - h / (two_G + h)) * u * u.transpose();
+      }
+    else if (h > 0.)
+      C.template block<1, n_tangential>(0, 1) = (-h / cone.a) * u.transpose();
+    return mode;
   }
 
   /**

@@ -13,32 +13,24 @@ namespace geocone::GEOCONE_DIM
   /**
    * Explicit stress update of an elastoplastic material with a conical yield
    * surface, for a block of points. The trial stress, rotated stress plus D e,
-   * is returned as by return_map(), without branches. With the mean m = (s_xx +
-   * s_yy)/2, the half difference d = (s_xx - s_yy)/2 and tau = sqrt(d^2 +
-   * s_xy^2), the cone is tau <= -a m + k/sqrt2. In three dimensions m =
-   * tr(s)/3, tau = |dev s|/sqrt3, and k/sqrt3 replaces k/sqrt2. A tension
-   * cut-off of the cone is ignored.
-   */
-  void
-  advance_cone(const FlowCone   &cone,
-               const Elasticity &elasticity,
-               const PointBlock &block);
-
-  /**
-   * Explicit stress update of a material with friction memory (strength that
-   * follows the normal stress with a delay), for a block of points. The yield
-   * surface at each point is cone.delayed(part, p), with tension cut-off. The
+   * is returned by ConeReturn. With the mean m = (s_xx + s_yy)/2, the half
+   * difference d = (s_xx - s_yy)/2 and tau = sqrt(d^2 + s_xy^2), the cone is
+   * tau <= -a m + k/sqrt2. In three dimensions m = tr(s)/3, tau = |dev
+   * s|/sqrt3, and k/sqrt3 replaces k/sqrt2. Rankine's cut-off is ignored.
+   *
+   * With friction memory (strength that follows the normal stress with a
+   * delay), the yield surface at each point is cone.delayed(part, p), and the
    * delayed normal stress p is then replaced by part p + (1 - part) s_n.
-   * @param cone with a > 0
+   * @param cone with a > 0 if there is memory
    * @param part memory factor lambda
-   * @param place index of p (Pa) in the history
+   * @param place index of p (Pa) in the history; 0: no memory
    */
   void
   advance_cone(const FlowCone    &cone,
                const Elasticity  &elasticity,
                const PointBlock  &block,
-               const double       part,
-               const unsigned int place);
+               const double       part  = 0.,
+               const unsigned int place = 0);
 } // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -4,6 +4,7 @@
 #ifndef geocone_kernels_cone_kernel_templates_h
 #define geocone_kernels_cone_kernel_templates_h
 
+#include <geocone/cone/second_order_cone.h>
 #include <geocone/kernels/point_block.h>
 #include <geocone/kernels/simd.h>
 #include <geocone/kernels/spin.h>
@@ -13,17 +14,16 @@ namespace geocone::GEOCONE_DIM
   /** Material constants of the kernel advance_cone() in d dimensions. */
   struct ConeConstants
   {
-    double a, b;
-    double radius; ///< k/sqrt(d) (Pa)
-    double apex;   ///< mean stress at the apex, k/(sqrt(d) a) (Pa), or infinity
-    double K;      ///< d lambda + 2 G (Pa)
-    double two_G;  ///< (Pa)
-    double wave_modulus;
+    FlowCone cone;  ///< k and tension over sqrt(d), for mean stress and tau
+    double   K;     ///< d lambda + 2 G (Pa)
+    double   two_G; ///< (Pa)
+    double   wave_modulus;
 
     /** @name Friction with memory */
     /** @{ */
-    double   memory_factor = 0.; ///< memory factor lambda of the step
-    unsigned place         = 0;  ///< index of p in the history; 0: no memory
+    double   memory_factor; ///< memory factor lambda of the step
+    double   delayed;       ///< lambda (a - b)/sqrt(d)
+    unsigned place;         ///< index of p in the history; 0: no memory
     /** @} */
   };
 
@@ -53,24 +53,18 @@ namespace geocone::GEOCONE_DIM
     {
       if constexpr (dim == 2)
         {
-          const P half(0.5), quarter(0.25), one(1.);
+          const P half(0.5);
           const P xx = P::load(block.l[0] + p), xy = P::load(block.l[1] + p),
                   yx = P::load(block.l[2] + p), yy = P::load(block.l[3] + p);
           trace     = xx + yy;
           strain[0] = xx - yy;
           strain[1] = xy + yx;
 
-          // Rotation by the Cayley transform, tan(angle/2) = spin/2.
-          const P t = quarter * (yx - xy), t2 = t * t;
-          const P q = one + t2, per_q2 = one / (q * q);
-          const P cos2 = (one - t2 * (P(6.) - t2)) * per_q2;
-          const P sin2 = P(4.) * t * (one - t2) * per_q2;
-          const P sxx = P::load(block.s[0] + p), syy = P::load(block.s[1] + p),
-                  sxy        = P::load(block.s[2] + p);
-          m                  = half * (sxx + syy);
-          const P difference = half * (sxx - syy);
-          d[0]               = cos2 * difference - sin2 * sxy;
-          d[1]               = sin2 * difference + cos2 * sxy;
+          const P sxx = P::load(block.s[0] + p), syy = P::load(block.s[1] + p);
+          m    = half * (sxx + syy);
+          d[0] = half * (sxx - syy);
+          d[1] = P::load(block.s[2] + p);
+          PlaneSpin<P>(std::array<P, 4>{{xx, xy, yx, yy}}).turn(d[0], d[1]);
         }
       else
         {
@@ -130,93 +124,57 @@ namespace geocone::GEOCONE_DIM
     }
   };
 
-  /** Implements the stress update advance_cone() for one SIMD instruction set,
-   *  with or without friction memory. */
-  template <typename Arch, bool has_memory>
-  void
-  advance_cone_block(const ConeConstants &cone, const PointBlock &block)
-  {
-    using P = Pack<Arch>;
-    // With memory: aperture and radius of the delayed cone.
-    const double lagging =
-      has_memory ? cone.memory_factor * (cone.a - cone.b) : 0.;
-    const double     aperture = cone.a - lagging;
-    double *const    memory = has_memory ? block.history[cone.place] : nullptr;
-    const P          one(1.), half(0.5), zero(0.), tiny(1e-300);
-    const P          a(aperture), b(cone.b), k(cone.radius), apex(cone.apex);
-    constexpr double root = dim == 2 ? sqrt2 : 1.73205080756887729353;
-    // s_n = -sqrt2 m, of which lambda mu/sqrt2 contributes to the radius.
-    const P least(-root * cone.apex), part_of_p(lagging / root),
-      part(cone.memory_factor), kept(root * (1. - cone.memory_factor));
-    const P K(cone.K), G2(cone.two_G), K_part(cone.K / dim);
-    const P per_H(1. / (cone.two_G + aperture * cone.b * cone.K));
-    const P per_K(1. / cone.K), per_G2(1. / cone.two_G), M(cone.wave_modulus);
-    const P root_of_dim(root);
-    using Turned = TurnedStress<P>;
-    for (unsigned int p = 0; p < block.n_points; p += PointBlock::lanes)
-      {
-        const Turned turned(block, p);
-        const P      m0 = turned.m, mt = m0 + K_part * turned.trace;
-        P            trial[Turned::n];
-        for (int i = 0; i < Turned::n; ++i)
-          trial[i] =
-            turned.d[i] + P(Turned::part[i] * cone.two_G) * turned.strain[i];
-        const P tau    = Turned::norm(trial);
-        P       radius = k;
-        if constexpr (has_memory)
-          radius = k + part_of_p * max(P::load(memory + p), least);
-        P       f = tau - (radius - a * mt);
-        const P g = max(f, zero) * per_H;
-        // Smooth part; the apex follows below.
-        const P tau_1 = tau - G2 * g;
-        P       m1, tau_2;
-        if constexpr (has_memory)
-          {
-            // The cut-off is at the apex of the exact cone.
-            const P m = mt - K * b * g;
-            tau_2     = where_greater(
-              m, apex, min(tau, max(radius - a * apex, zero)), tau_1);
-            m1 = min(m, apex);
-            f  = max(f, mt - apex);
-            (part * P::load(memory + p) - kept * m1).store(memory + p);
-          }
-        else
-          {
-            m1    = where_greater(zero, tau_1, apex, mt - K * b * g);
-            tau_2 = max(tau_1, zero);
-          }
-        const P scale = where_greater(f, zero, tau_2 / max(tau, tiny), one);
-        P       end[Turned::n];
-        P       work = (m0 + m1) * turned.trace;
-        for (int i = 0; i < Turned::n; ++i)
-          {
-            end[i] = scale * trial[i];
-            work += (turned.d[i] + end[i]) * turned.strain[i];
-          }
-        Turned::store(m1, end, block, p);
-
-        const P volumetric = (mt - m1) * per_K;
-        const P deviatoric = (tau - tau_2) * per_G2;
-        const P plastic =
-          root_of_dim * sqrt(volumetric * volumetric + deviatoric * deviatoric);
-        (P::load(block.plastic_strain + p) +
-         where_greater(f, zero, plastic, zero))
-          .store(block.plastic_strain + p);
-        (half * work).store(block.work + p);
-        M.store(block.wave_modulus + p);
-      }
-  }
-
-  /** Calls the version of the cone kernel with or without friction memory, as
-   *  required. */
+  /** Implements the stress update advance_cone() for one SIMD instruction
+   *  set. */
   template <typename Arch>
   void
   advance_cone_block(const ConeConstants &cone, const PointBlock &block)
   {
-    if (cone.place > 0)
-      advance_cone_block<Arch, true>(cone, block);
-    else
-      advance_cone_block<Arch, false>(cone, block);
+    using P              = Pack<Arch>;
+    using Turned         = TurnedStress<P>;
+    double *const memory = cone.place > 0 ? block.history[cone.place] : nullptr;
+    const P       zero(0.), half(0.5), tiny(1e-300), k(cone.cone.k);
+    constexpr double root = dim == 2 ? sqrt2 : 1.73205080756887729353;
+    // p >= -k/a, of which lambda mu/sqrt(d) contributes to the radius.
+    const P least(-root * cone.cone.tension), delayed(cone.delayed),
+      part(cone.memory_factor), kept(root * (1. - cone.memory_factor));
+    const P K_part(cone.K / dim), root_of_dim(root), M(cone.wave_modulus);
+    const P per_K(1. / cone.K), per_G2(1. / cone.two_G);
+    const ConeReturn<P> returns(cone.cone, cone.K, cone.two_G);
+    for (unsigned int p = 0; p < block.n_points; p += PointBlock::lanes)
+      {
+        const Turned turned(block, p);
+        const P      t_n = zero - (turned.m + K_part * turned.trace);
+        P            trial[Turned::n];
+        for (int i = 0; i < Turned::n; ++i)
+          trial[i] =
+            turned.d[i] + P(Turned::part[i] * cone.two_G) * turned.strain[i];
+        const P tau = Turned::norm(trial);
+        P       own = k;
+        if (memory != nullptr)
+          own = k + delayed * max(P::load(memory + p), least);
+        const auto end = returns(own, t_n, tau);
+        if (memory != nullptr)
+          (part * P::load(memory + p) + kept * end.s_n).store(memory + p);
+
+        const P scale = end.radius / max(tau, tiny), m = zero - end.s_n;
+        P       work = (turned.m + m) * turned.trace;
+        for (int i = 0; i < Turned::n; ++i)
+          {
+            trial[i] = scale * trial[i];
+            work += (turned.d[i] + trial[i]) * turned.strain[i];
+          }
+        Turned::store(m, trial, block, p);
+
+        const P volumetric = (end.s_n - t_n) * per_K;
+        const P deviatoric = (tau - end.radius) * per_G2;
+        const P plastic =
+          root_of_dim * sqrt(volumetric * volumetric + deviatoric * deviatoric);
+        (P::load(block.plastic_strain + p) + plastic)
+          .store(block.plastic_strain + p);
+        (half * work).store(block.work + p);
+        M.store(block.wave_modulus + p);
+      }
   }
 } // namespace geocone::GEOCONE_DIM
 

@@ -4,8 +4,8 @@
 #ifndef geocone_kernels_pyramid_body_h
 #define geocone_kernels_pyramid_body_h
 
+#include <geocone/base/simd_scalar.h>
 #include <geocone/base/types.h>
-#include <geocone/kernels/simd_scalar.h>
 
 namespace geocone::GEOCONE_DIM
 {

@@ -26,13 +26,11 @@ namespace geocone::GEOCONE_DIM
      *  with l_ij at index 2 i + j. */
     explicit PlaneSpin(const std::array<T, 4> &l)
     {
-      const T one(1.), two(2.);
-      const T tan_half = T(0.25) * (l[2] - l[1]);
-      const T t2       = tan_half * tan_half;
-      const T cosine   = (one - t2) / (one + t2);
-      const T sine     = two * tan_half / (one + t2);
-      cos2             = cosine * cosine - sine * sine;
-      sin2             = two * sine * cosine;
+      const T one(1.);
+      const T t = T(0.25) * (l[2] - l[1]), t2 = t * t;
+      const T q = one + t2, per_q2 = one / (q * q);
+      cos2 = (one - t2 * (T(6.) - t2)) * per_q2;
+      sin2 = T(4.) * t * (one - t2) * per_q2;
     }
 
     /** Rotates the in-plane components xx, yy, xy of a symmetric tensor. */
@@ -40,12 +38,20 @@ namespace geocone::GEOCONE_DIM
     turn(std::array<T, 3> &s) const
     {
       auto &[xx, yy, xy] = s;
-      const T half(0.5);
-      const T mean = half * (xx + yy), difference = half * (xx - yy);
+      const T half(0.5), mean = half * (xx + yy);
+      T       difference = half * (xx - yy);
+      turn(difference, xy);
+      xx = mean + difference;
+      yy = mean - difference;
+    }
+
+    /** Rotates half the difference of the normal components, and xy. */
+    void
+    turn(T &difference, T &xy) const
+    {
       const T turned = cos2 * difference - sin2 * xy;
       xy             = sin2 * difference + cos2 * xy;
-      xx             = mean + turned;
-      yy             = mean - turned;
+      difference     = turned;
     }
 
   private:

@@ -4,7 +4,7 @@
 #ifndef geocone_kernels_subloading_body_h
 #define geocone_kernels_subloading_body_h
 
-#include <geocone/kernels/simd_scalar.h>
+#include <geocone/base/simd_scalar.h>
 #include <geocone/kernels/subloading_constants.h>
 
 #include <type_traits>

@@ -1,8 +1,8 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-#ifndef geocone_kernels_simd_scalar_h
-#define geocone_kernels_simd_scalar_h
+#ifndef geocone_base_simd_scalar_h
+#define geocone_base_simd_scalar_h
 
 #include <cmath>
 
