@@ -4,11 +4,11 @@
 #include <geocone/linear/linear_solver.h>
 #include <geocone/linear/preconditioner.h>
 
-#include <deal.II/lac/solver_cg.h>
 #include <deal.II/lac/solver_control.h>
 #include <deal.II/lac/solver_gmres.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace geocone
 {
@@ -142,35 +142,87 @@ namespace geocone
           return true;
         dealii::SolverControl control(
           max_iterations, tolerance * norm, false, false);
-        bool converged = true;
-        try
-          {
-            if (symmetric)
-              dealii::SolverCG<RowVector>(control).solve(
-                rows, solution, right_side, *preconditioner);
-            else
-              dealii::SolverGMRES<RowVector>(
-                control,
-                dealii::SolverGMRES<RowVector>::AdditionalData(100, true))
-                .solve(rows, solution, right_side, *preconditioner);
-          }
-        catch (const dealii::SolverControl::NoConvergence &)
-          {
-            converged = false;
-          }
+        const bool converged =
+          symmetric ? conjugate_gradients(control) : gmres(control, norm);
         ++counts.systems;
         counts.total += control.last_step();
         counts.most = std::max(counts.most, control.last_step());
         if (!converged && is_large)
-          {
-            ++counts.stopped;
-            // Neither NaN nor a larger residual than that of zero.
-            if (!(control.last_value() < norm))
-              solution = 0.;
-          }
+          ++counts.stopped;
         if (converged || is_large)
           std::copy_n(solution.begin(), last->n_owned, x);
         return converged || is_large;
+      }
+
+      /**
+       * Performs preconditioned conjugate gradients. Their iterates are descent
+       * directions of the energy as long as the matrix and the preconditioner
+       * are positive definite, also if the residual is large. A preconditioner
+       * that turns out to be indefinite is made definite, and the iterations
+       * restart. They end at a direction of negative curvature.
+       * @return whether the solution is within the tolerance
+       */
+      bool
+      conjugate_gradients(dealii::SolverControl &control)
+      {
+        using State    = dealii::SolverControl::State;
+        RowVector &r   = right_side, z(r), p(r), product(r);
+        double     r_z = 0.;
+        control.check(0, r.l2_norm());
+        for (unsigned int step = 0;;)
+          {
+            preconditioner->vmult(z, r);
+            const double next_r_z = r * z;
+            if (!(next_r_z > 0.))
+              {
+                if (!std::isfinite(next_r_z) ||
+                    !preconditioner->make_definite())
+                  return false;
+                r_z = 0.;
+                continue;
+              }
+            if (r_z == 0.)
+              p = z;
+            else
+              p.sadd(next_r_z / r_z, 1., z);
+            r_z = next_r_z;
+            rows.vmult(product, p);
+            const double curvature = p * product;
+            if (!(curvature > 0.))
+              {
+                if (step == 0 && std::isfinite(curvature))
+                  solution = p;
+                return false;
+              }
+            solution.add(r_z / curvature, p);
+            r.add(-r_z / curvature, product);
+            const State state = control.check(++step, r.l2_norm());
+            if (state != State::iterate)
+              return state == State::success;
+          }
+      }
+
+      /** Performs GMRES. The solution of systems too large for a direct solver
+       *  is zero unless its residual is below the right-hand side.
+       *  @return whether the solution is within the tolerance */
+      bool
+      gmres(dealii::SolverControl &control, const double norm)
+      {
+        try
+          {
+            dealii::SolverGMRES<RowVector>(
+              control,
+              dealii::SolverGMRES<RowVector>::AdditionalData(100, true))
+              .solve(rows, solution, right_side, *preconditioner);
+          }
+        catch (const dealii::SolverControl::NoConvergence &)
+          {
+            // Neither NaN nor a larger residual than that of zero.
+            if (!(control.last_value() < norm))
+              solution = 0.;
+            return false;
+          }
+        return true;
       }
 
       /** Factorises the last matrix by the direct solver. */

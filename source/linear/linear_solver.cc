@@ -103,7 +103,8 @@ namespace geocone
     };
     auto preconditioner = make_aggregation(comm, symmetric);
     if (on_degrees)
-      preconditioner = make_p_multigrid(direct(), std::move(preconditioner));
+      preconditioner =
+        make_p_multigrid(symmetric, direct(), std::move(preconditioner));
     return make_iterative(
       symmetric, *this, std::move(preconditioner), direct());
   }

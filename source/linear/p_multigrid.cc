@@ -49,7 +49,10 @@ namespace geocone
         last_node = -1;
       }
 
-      void
+      /** Inverts the blocks. Without elastic stiffness the block of a node is
+       *  zero if all points of its cells are at the apex.
+       *  @return false if a block is singular; the same on all ranks */
+      [[nodiscard]] bool
       invert(const SparseMatrix &matrix, const RowOperator &rows)
       {
         // Sums the blocks over the ranks, column by column.
@@ -65,6 +68,13 @@ namespace geocone
         if (MPI::n_mpi_processes(matrix.comm) > 1)
           for (RowVector &c : column)
             c.compress(dealii::VectorOperation::add);
+        double largest = 0.; // of the diagonal
+        for (unsigned int b = 0; first_row[b] < matrix.n_owned; ++b)
+          for (int i = first_row[b]; i < first_row[b + 1]; ++i)
+            largest = std::max(
+              largest, std::abs(column[i - first_row[b]].local_element(i)));
+        largest         = MPI::max(largest, matrix.comm);
+        int is_singular = 0;
         inverse.clear();
         for (unsigned int b = 0; first_row[b] < matrix.n_owned; ++b)
           {
@@ -73,15 +83,13 @@ namespace geocone
             for (int i = 0; i < n; ++i)
               for (int k = 0; k < n; ++k)
                 block(i, k) = column[k].local_element(first_row[b] + i);
-            Eigen::Matrix3d inverted = block.inverse();
-            if (!inverted.allFinite())
-              inverted = block.diagonal()
-                           .cwiseAbs()
-                           .cwiseMax(std::numeric_limits<double>::min())
-                           .cwiseInverse()
-                           .asDiagonal();
-            inverse.push_back(inverted);
+            const Eigen::Array3d diagonal = block.diagonal().array().abs();
+            if (!(diagonal.head(n).minCoeff() > smallest * largest &&
+                  std::abs(block.determinant()) > smallest * diagonal.prod()))
+              is_singular = 1;
+            inverse.push_back(block.inverse());
           }
+        return MPI::max(is_singular, matrix.comm) == 0;
       }
 
       /** Multiplies the owned rows by the inverses, in place. */
@@ -102,6 +110,11 @@ namespace geocone
       }
 
     private:
+      /** Smallest diagonal entry relative to the largest one of the matrix, and
+       *  smallest determinant of a block relative to the product of its
+       *  diagonal, which are not taken for rounding. */
+      static constexpr double smallest = 1e-14;
+
       std::vector<int>             first_row; ///< of each local node with rows
       unsigned int                 last_node = -1;
       std::vector<Eigen::Matrix3d> inverse; ///< of owned nodes
@@ -383,9 +396,11 @@ namespace geocone
     class PMultigrid : public Preconditioner
     {
     public:
-      PMultigrid(std::unique_ptr<LinearSolver>   direct,
+      PMultigrid(const bool                      symmetric,
+                 std::unique_ptr<LinearSolver>   direct,
                  std::unique_ptr<Preconditioner> aggregation)
-        : direct(std::move(direct))
+        : symmetric(symmetric)
+        , direct(std::move(direct))
         , aggregation(std::move(aggregation))
       {}
 
@@ -413,8 +428,9 @@ namespace geocone
       bool
       factorise(const SparseMatrix &matrix) override
       {
-        blocks.invert(matrix, fine);
-        if (!find_largest_eigenvalue())
+        n_mended = 0;
+        if (!blocks.invert(matrix, fine) ||
+            !(symmetric ? find_largest_by_lanczos() : find_largest_by_powers()))
           return false;
         levels.project(matrix);
         return is_large ? aggregation->factorise(levels.coarse)
@@ -443,6 +459,14 @@ namespace geocone
         smooth(x, b, false);
       }
 
+      bool
+      make_definite() override
+      {
+        // An eigenvalue beyond the interval of the polynomial.
+        largest_eigenvalue *= 1.5;
+        return ++n_mended <= 3;
+      }
+
       std::string
       name() const override
       {
@@ -458,6 +482,9 @@ namespace geocone
       static constexpr int    degree = 4;
       static constexpr double range  = 15.;
 
+      /** Largest eigenvalue of the smoother over the computed one. */
+      static constexpr double margin = 1.15;
+
       /** Takes a vector with parts of all frequencies. */
       void
       start_eigenvector()
@@ -472,7 +499,7 @@ namespace geocone
        *  eigenvector is the start of the next ones.
        *  @return false for a matrix without a finite eigenvalue above zero */
       bool
-      find_largest_eigenvalue()
+      find_largest_by_powers()
       {
         const int n = largest_eigenvalue == 0. ? 12 : 4;
         for (int k = 0; k < n; ++k)
@@ -492,11 +519,61 @@ namespace geocone
         return true;
       }
 
+      /**
+       * Lanczos iterations, as the coefficients of conjugate gradients with the
+       * nodal blocks as the preconditioner. They find eigenvalues of a few nodes,
+       * which the plastic tangents add between two matrices, to some per cent;
+       * powers of the last eigenvector miss them.
+       * @return false for a matrix that is not positive definite at all
+       */
+      bool
+      find_largest_by_lanczos()
+      {
+        constexpr int   n = 12;
+        Eigen::VectorXd diagonal(n), side(n);
+        RowVector      &r = residual, &p = change;
+        double          r_z = 0., length = 0.;
+        int             k = 0;
+        for (start_eigenvector(), r = eigenvector; k < n; ++k)
+          {
+            product = r;
+            blocks.apply(product);
+            const double next_r_z = r * product;
+            if (!(next_r_z > 0.))
+              break;
+            const double beta = k == 0 ? 0. : next_r_z / r_z;
+            if (k == 0)
+              p = product;
+            else
+              p.sadd(beta, 1., product);
+            r_z = next_r_z;
+            fine.vmult(product, p);
+            const double curvature = p * product;
+            if (!(curvature > 0.))
+              break;
+            diagonal(k) = curvature / r_z;
+            if (k > 0)
+              {
+                diagonal(k) += beta / length;
+                side(k - 1) = std::sqrt(beta) / length;
+              }
+            length = r_z / curvature;
+            r.add(-length, product);
+          }
+        if (k == 0)
+          return false;
+        Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> tridiagonal;
+        tridiagonal.computeFromTridiagonal(
+          diagonal.head(k), side.head(k - 1), Eigen::EigenvaluesOnly);
+        largest_eigenvalue = tridiagonal.eigenvalues()(k - 1);
+        return std::isfinite(largest_eigenvalue);
+      }
+
       /** Chebyshev smoother, x += p(D^-1 A) D^-1 (b - A x). */
       void
       smooth(RowVector &x, const RowVector &b, const bool from_zero) const
       {
-        const double most = 1.15 * largest_eigenvalue, least = most / range,
+        const double most = margin * largest_eigenvalue, least = most / range,
                      middle = 0.5 * (most + least), half = 0.5 * (most - least);
         double rho = half / middle;
         if (from_zero)
@@ -524,6 +601,7 @@ namespace geocone
           }
       }
 
+      const bool                      symmetric;
       std::unique_ptr<LinearSolver>   direct;
       std::unique_ptr<Preconditioner> aggregation;
 
@@ -532,16 +610,18 @@ namespace geocone
       Interpolation     levels;
       bool              is_large           = false;
       double            largest_eigenvalue = 0.;
+      unsigned int      n_mended           = 0; ///< of the last matrix
       RowVector         eigenvector;
       mutable RowVector residual, change, product, coarse_b, coarse_x;
     };
   } // namespace
 
   std::unique_ptr<Preconditioner>
-  make_p_multigrid(std::unique_ptr<LinearSolver>   direct,
+  make_p_multigrid(const bool                      symmetric,
+                   std::unique_ptr<LinearSolver>   direct,
                    std::unique_ptr<Preconditioner> aggregation)
   {
-    return std::make_unique<PMultigrid>(std::move(direct),
-                                        std::move(aggregation));
+    return std::make_unique<PMultigrid>(
+      symmetric, std::move(direct), std::move(aggregation));
   }
 } // namespace geocone

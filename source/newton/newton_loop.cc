@@ -129,6 +129,52 @@ namespace geocone::GEOCONE_DIM
     };
   } // namespace
 
+  namespace
+  {
+    /**
+     * Successive iterations whose linear systems multigrid has not solved within
+     * its allowed iterations and that have not reduced the residual: the matrix
+     * is nearly singular as the body fails. Direct solvers have none.
+     */
+    class UnsolvedSystems
+    {
+    public:
+      explicit UnsolvedSystems(const StepWorkspace &work)
+        : counts(work.system.linear_solver().iterations())
+        , n_above(n_above_tolerance())
+        , least(work.report.residual)
+      {}
+
+      /** Counts an iteration with the residual at its end. */
+      void
+      count(const double residual)
+      {
+        const unsigned int before = n_above;
+        n_above                   = n_above_tolerance();
+        in_a_row = n_above > before && residual >= least ? in_a_row + 1 : 0;
+        least    = std::min(least, residual);
+      }
+
+      /** Returns whether further iterations are not worth their cost. */
+      bool
+      too_many() const
+      {
+        return in_a_row >= 3;
+      }
+
+    private:
+      unsigned int
+      n_above_tolerance() const
+      {
+        return counts == nullptr ? 0 : counts->stopped;
+      }
+
+      const LinearIterations *counts;
+      unsigned int            n_above, in_a_row = 0;
+      double                  least;
+    };
+  } // namespace
+
   void
   NewtonLoop::run(Globalisation &globalisation, const StepWorkspace &work) const
   {
@@ -142,7 +188,8 @@ namespace geocone::GEOCONE_DIM
     const bool          jumps = !jump.is_zero();
     line.state                = work.evaluate(law);
     work.record(line.state, 0., 0., law.friction_lag);
-    ForcingTerms forcing(work);
+    ForcingTerms    forcing(work);
+    UnsolvedSystems unsolved(work);
     for (bool first = true;; first = false)
       {
         stop_if_asked(work.v.get_mpi_communicator());
@@ -165,7 +212,8 @@ namespace geocone::GEOCONE_DIM
         if (spent >=
               allowed + (report.residual < near_tolerance ? allowed : 0) ||
             (!flows && spent >= allowed_without_flow) ||
-            (report.residual > far_threshold && spent >= allowed_if_far))
+            (report.residual > far_threshold && spent >= allowed_if_far) ||
+            unsolved.too_many())
           {
             give_up(line.state, work);
             return;
@@ -204,6 +252,7 @@ namespace geocone::GEOCONE_DIM
                                              : globalisation.move(line);
         jump.defect = work.problem.free_dofs().multipliers.defect(work.v);
         work.record(line.state, length, *blend, law.friction_lag);
+        unsolved.count(report.residual);
       }
   }
 } // namespace geocone::GEOCONE_DIM

@@ -77,6 +77,15 @@ namespace geocone
     virtual void
     vmult(RowVector &x, const RowVector &b) const = 0;
 
+    /** Changes a preconditioner of a symmetric matrix that conjugate gradients
+     *  have found to be indefinite.
+     *  @return false if this is impossible */
+    [[nodiscard]] virtual bool
+    make_definite()
+    {
+      return false;
+    }
+
     virtual std::string
     name() const = 0;
   };
@@ -96,7 +105,8 @@ namespace geocone
    * coarse systems
    */
   std::unique_ptr<Preconditioner>
-  make_p_multigrid(std::unique_ptr<LinearSolver>   direct,
+  make_p_multigrid(const bool                      symmetric,
+                   std::unique_ptr<LinearSolver>   direct,
                    std::unique_ptr<Preconditioner> aggregation);
 } // namespace geocone
 
