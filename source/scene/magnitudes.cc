@@ -2,12 +2,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/log.h>
+#include <geocone/base/number_in.h>
 #include <geocone/base/units.h>
-#include <geocone/laws/mohr_coulomb.h>
 #include <geocone/scene/magnitudes.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <limits>
 
 namespace geocone::GEOCONE_DIM
@@ -162,10 +161,13 @@ namespace geocone::GEOCONE_DIM
             (!scene.water.acts() || scene.water.scales_with_weight()))
           warnings.push_back("the saturated unit weight of '" + name +
                              "' is not used: there is no water table");
-        if (const auto *const plane =
-              dynamic_cast<const MohrCoulomb *>(&scene.materials.law(m));
-            plane != nullptr && plane->undrained_anisotropy().angle != 0. &&
-            !plane->undrained_anisotropy().acts())
+        const auto number = [&](const char *parameter) {
+          return number_in(
+            ParameterFile::value("Materials/" + name + "/" + parameter));
+        };
+        if (number("Anisotropy angle").value_or(0.) != 0. &&
+            number("Passive strength ratio") == 1. &&
+            number("Simple shear strength ratio") == 1.)
           warnings.push_back("the anisotropy angle of '" + name +
                              "' is not used: both strength ratios are 1");
         const auto strength = scene.materials.law(m).plane_strain_strength();
@@ -195,9 +197,7 @@ namespace geocone::GEOCONE_DIM
                    "larger units? Strengths are in Pa",
                    name.c_str(),
                    strength->c));
-        const std::string stiffness =
-          ParameterFile::value("Materials/" + name + "/Young modulus");
-        if (const double E = std::strtod(stiffness.c_str(), nullptr);
+        if (const double E = number("Young modulus").value_or(0.);
             E > 0. && E < strength->c)
           warnings.push_back(
             format("Young's modulus of '%s', %g Pa, is smaller "

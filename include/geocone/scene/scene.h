@@ -69,8 +69,9 @@ namespace geocone::GEOCONE_DIM
     }
 
     /** Returns a warning about time histories that end before the loading
-     *  programme with a non-zero value. This value then remains constant. The
-     *  text is empty if there are none. */
+     *  programme with a non-zero value, which then remains constant, or about
+     *  gravity that has not reached its value by the end. The text is empty if
+     *  there are none. */
     std::string
     warn_of_time_histories() const;
 
