@@ -191,19 +191,25 @@ namespace geocone::GEOCONE_DIM
     const Works             &works = balance.works();
     const dealii::Point<dim> front =
       records.empty() ? worst.front : records.back().last.motion.front;
-    // Steps whose load is more than 5 % below those before and after, while the support
-    // moves in one direction.
-    unsigned int n_drops = 0;
+    // While the support moves in one direction: steps whose load is more than 5 % below
+    // those before and after, and the largest fall from one step to the next.
+    unsigned int n_drops      = 0;
+    double       largest_fall = 0.;
     for (std::size_t i = 1; i + 1 < records.size(); ++i)
       {
         const ImplicitRecord &a = records[i - 1], &b = records[i],
                              &c = records[i + 1];
-        n_drops += moves_on(a, b, c) &&
-                   std::abs(b.load) <
-                     0.95 * std::min(std::abs(a.load), std::abs(c.load));
+        if (!moves_on(a, b, c))
+          continue;
+        n_drops += std::abs(b.load) <
+                   0.95 * std::min(std::abs(a.load), std::abs(c.load));
+        if (std::abs(b.load) > 0.)
+          largest_fall =
+            std::max(largest_fall, 1. - std::abs(c.load) / std::abs(b.load));
       }
     return {
       {"load_drops", n_drops},
+      {"largest_fall_relative", largest_fall},
       {"points_behind", worst.points_behind},
       {"points_put_back_max", worst.points_returned},
       {"put_back_max_m", worst.returned_by},
