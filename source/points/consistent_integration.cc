@@ -302,6 +302,12 @@ namespace geocone::GEOCONE_DIM
                            last  = points.first_point[c + 1];
         if (room.share < negligible_part)
           {
+            // Points beyond a loaded side would leave functions without
+            // stiffness: it moves with the mean of the soil, not with points.
+            if (soil_part(points.cells[c]->bounding_box(),
+                          {boundary.limits, {}})
+                  .volume() > 0.)
+              continue;
             std::fill(&points.weight[first], &points.weight[last - 1] + 1, 0.);
             continue;
           }
