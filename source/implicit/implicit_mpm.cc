@@ -31,22 +31,9 @@ namespace geocone::GEOCONE_DIM
     scene = &scene_;
     mesh  = &mesh_;
     space = &space_;
-    check_parameters();
+    check_scene(newton.linear_solver());
     if (!scene->structures.list.empty())
-      {
-        check_structures();
-        bars = std::make_unique<Bars>(scene->structures, *mesh, *space);
-      }
-    ScaledLoads::check(*scene);
-    if (drainage.acts)
-      check_consolidation(newton.linear_solver());
-    check_axisymmetric_body(*scene);
-
-    for (const auto &condition : scene->dirichlet.list)
-      condition->refuse_normal("free with MPM",
-                               "give Velocity x and y, or set "
-                               "Discretisation/Method = FEM");
-
+      bars = std::make_unique<Bars>(scene->structures, *mesh, *space);
     std::string warning = particles.prepare(*scene, *mesh, *space, points);
     const auto  warn    = [&](const std::string &text) {
       if (!text.empty())

@@ -103,7 +103,7 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
-  ImplicitMPM::check_parameters()
+  ImplicitMPM::check_scene(const LinearSolverParameters &linear_solver)
   {
     const std::string section = "Material point method/";
     if (rule.is_affine() && consistent_mass > 0.)
@@ -145,6 +145,16 @@ namespace geocone::GEOCONE_DIM
                        "in places, and so would be masses: set Basis = "
                        "automatic, or '" +
                          section + "Consistent mass part' = 1");
+    if (!scene->structures.list.empty())
+      check_structures();
+    ScaledLoads::check(*scene);
+    if (drainage.acts)
+      check_consolidation(linear_solver);
+    check_axisymmetric_body(*scene);
+    for (const auto &condition : scene->dirichlet.list)
+      condition->refuse_normal("free with MPM",
+                               "give Velocity x and y, or set "
+                               "Discretisation/Method = FEM");
   }
 
   std::string

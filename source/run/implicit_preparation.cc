@@ -47,6 +47,23 @@ namespace geocone::GEOCONE_DIM
       return false;
     }
 
+    /** @throws InputError for states that do not hold excess pore pressures */
+    void
+    refuse_beside_consolidation(const StartOfRun &start, const Freezer &freezer)
+    {
+      if (!start.folder.empty())
+        throw InputError("Initial stress/Run",
+                         start.folder,
+                         "empty with 'Time stepping/Consolidation'",
+                         "compute the earlier stages in the same run");
+      if (freezer.is_used())
+        throw InputError(
+          "Output/Freeze steps",
+          "steps or failures",
+          "none with 'Time stepping/Consolidation'",
+          "leave 'Output/Freeze steps' and 'Freeze failures' out");
+    }
+
     /** Effect of friction with memory on the steps, for the estimate.
      *  @throws InputError if there are too many substeps */
     std::string
@@ -181,11 +198,8 @@ namespace geocone::GEOCONE_DIM
       stepper = &implicit_fem;
     std::vector<std::string> warnings = {
       stepper->prepare(scene, mesh, space, newton, timer, kinematics, points)};
-    if (!start_of_run.folder.empty() && stepper->consolidates())
-      throw InputError("Initial stress/Run",
-                       start_of_run.folder,
-                       "empty with 'Time stepping/Consolidation'",
-                       "compute the earlier stages in the same run");
+    if (stepper->consolidates())
+      refuse_beside_consolidation(start_of_run, freezer);
     if (!start_of_run.folder.empty() && !options.resumes)
       checkpoint.read(
         start_of_run.folder,
@@ -226,11 +240,6 @@ namespace geocone::GEOCONE_DIM
     else
       observed_points.prepare_field(scene, mesh, space);
     freezer.check(scene);
-    if (stepper->consolidates() && freezer.is_used())
-      throw InputError("Output/Freeze steps",
-                       "steps or failures",
-                       "none with 'Time stepping/Consolidation'",
-                       "leave 'Output/Freeze steps' and 'Freeze failures' out");
     return warnings;
   }
 } // namespace geocone::GEOCONE_DIM

@@ -9,6 +9,8 @@
 
 #include <cmath>
 #include <limits>
+#include <tuple>
+#include <utility>
 
 namespace geocone::GEOCONE_DIM
 {
@@ -105,6 +107,25 @@ namespace geocone::GEOCONE_DIM
                                                     : 7.;
       return {p, spline, nodes_per_cell, functions, points};
     }
+
+    /** Memory of the points and of the nodes in implicit steps (bytes). */
+    std::pair<double, double>
+    memory_of_implicit(const RunEstimate &e,
+                       const CellCounts  &of_cell,
+                       const bool         has_p_multigrid)
+    {
+      // Columns per row: the functions that overlap a function's support.
+      const double row =
+        dim * (of_cell.is_spline ? std::pow(2. * of_cell.degree + 1., dim)
+                                 : 3.5 * of_cell.functions);
+      if (has_p_multigrid)
+        return {e.points * (600. + 30. * of_cell.functions),
+                e.unknowns * (1000. + 14. * row)};
+      // In three dimensions fill-in grows as n^(4/3).
+      const double filled = dim == 3 ? 60. * std::pow(e.unknowns, 4. / 3.) : 0.;
+      return {e.points * (1000. + 100. * of_cell.functions),
+              e.unknowns * (1500. + 60. * row) + filled};
+    }
   } // namespace
 
   RunEstimate
@@ -140,36 +161,15 @@ namespace geocone::GEOCONE_DIM
           stage->output_every > 0 ? std::ceil(n / stage->output_every) : 1.;
       }
 
-    double of_points, of_nodes;
-    if (method.is_explicit())
-      {
-        of_points = 280. * e.points;
-        of_nodes  = 200. * nodes;
-        e.memory  = 80e6;
-      }
-    else
-      {
-        // Columns per row: the functions that overlap a function's support.
-        const double row = dim * (of_cell.is_spline ? std::pow(2. * p + 1., dim)
-                                                    : 3.5 * of_cell.functions);
-        e.memory         = 160e6;
-        if (linear_solver != nullptr && of_cell.degree > 1 &&
-            !method.is_mpm() &&
-            linear_solver->selects_p_multigrid(
-              dim == 3 && scene.obstacles.list.empty() ? e.unknowns : 0))
-          {
-            of_points = e.points * (600. + 30. * of_cell.functions);
-            of_nodes  = e.unknowns * (1000. + 14. * row);
-          }
-        else
-          {
-            of_points = e.points * (1000. + 100. * of_cell.functions);
-            of_nodes  = e.unknowns * (1500. + 60. * row);
-            // In three dimensions fill-in grows as n^(4/3).
-            if (dim == 3)
-              of_nodes += 60. * std::pow(e.unknowns, 4. / 3.);
-          }
-      }
+    e.memory         = method.is_explicit() ? 80e6 : 160e6;
+    double of_points = 280. * e.points, of_nodes = 200. * nodes;
+    if (!method.is_explicit())
+      std::tie(of_points, of_nodes) = memory_of_implicit(
+        e,
+        of_cell,
+        linear_solver != nullptr && p > 1 && !method.is_mpm() &&
+          linear_solver->selects_p_multigrid(
+            dim == 3 && scene.obstacles.list.empty() ? e.unknowns : 0));
     e.memory += of_points + of_nodes;
     if (seeding != nullptr && of_points > of_nodes &&
         !seeding->size_parameter().empty())

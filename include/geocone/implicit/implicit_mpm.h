@@ -389,7 +389,7 @@ namespace geocone::GEOCONE_DIM
                           const unsigned int    p) const;
 
     void
-    check_parameters();
+    check_scene(const LinearSolverParameters &linear_solver);
 
     ParticleTransfer rule;
 
