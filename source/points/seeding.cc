@@ -48,6 +48,33 @@ namespace geocone::GEOCONE_DIM
     /** More than any integration needs; the positions of a cell are stored. */
     constexpr unsigned int most_per_direction = 100;
 
+    /** Distance (m) within which a point lies on a side of the body. */
+    double
+    rounding_of(const Geometry &geometry)
+    {
+      return geometry.shape == Geometry::Shape::file ? 0. : geometry.rounding();
+    }
+
+    /** Returns the part of a point's volume that is in the body: 1/2 for a point on a side,
+     *  which rounding would put in or out. @param tolerance see rounding_of() */
+    double
+    share_of(const Geometry   &geometry,
+             const Point<dim> &x,
+             const double      tolerance)
+    {
+      // Opposite places beside a side are never on the same side of it.
+      constexpr unsigned int n_places = 1 << dim;
+      unsigned int           n_inside = 0;
+      for (unsigned int place = 0; place < n_places; ++place)
+        {
+          Point<dim> near = x;
+          for (unsigned int d = 0; d < dim; ++d)
+            near[d] += (place >> d & 1 ? 1. : -1.) * tolerance / (1. + 0.6 * d);
+          n_inside += geometry.contains(near);
+        }
+      return double(n_inside) / n_places;
+    }
+
     InputError
     outside_mesh(const Point<dim> &x)
     {
@@ -135,7 +162,8 @@ namespace geocone::GEOCONE_DIM
       "Layout",
       ". Gauss: Gauss points of each cell. Sub-cells: centres of sub-cells "
       "(not for tetrahedra). Lattice: squares or cubes, independent of the "
-      "mesh. Random: uniformly distributed. File: from 'File'.");
+      "mesh. Points on a side of the body have half their volume. Random: "
+      "uniformly distributed. File: from 'File'.");
     add_parameter(
       "Points per direction",
       k,
@@ -375,6 +403,7 @@ namespace geocone::GEOCONE_DIM
         });
         return;
       }
+    const double tolerance = rounding_of(scene.geometry);
     // Columns of cells, then cells in a column, then points in a cell.
     const Quadrature<dim> places(
       places_in_interval(layout == Layout::gauss, k));
@@ -395,9 +424,11 @@ namespace geocone::GEOCONE_DIM
                 seed.position[d] =
                   grid.axes[d].begin +
                   (cell[d] + places.point(q)[d]) * grid.axes[d].size;
-              if (!scene.geometry.contains(seed.position))
+              const double share =
+                share_of(scene.geometry, seed.position, tolerance);
+              if (share == 0.)
                 continue;
-              seed.volume = places.weight(q) * volume;
+              seed.volume = share * places.weight(q) * volume;
               seed.cell   = size;
               describe(seed, scene, Given(), detail);
               take(seed);
@@ -462,15 +493,18 @@ namespace geocone::GEOCONE_DIM
                          nothing,
                          quadrature,
                          update_JxW_values | update_quadrature_points);
+    const double          tolerance = rounding_of(scene.geometry);
     for (const BackgroundMesh::Cell &cell : mesh.own_cells())
       {
         values.reinit(Triangulation<dim>::cell_iterator(cell));
         for (unsigned int q = 0; q < quadrature.size(); ++q)
-          if (scene.geometry.contains(values.quadrature_point(q)))
+          if (const double share =
+                share_of(scene.geometry, values.quadrature_point(q), tolerance);
+              share > 0.)
             {
               Seed seed;
               seed.position = values.quadrature_point(q);
-              seed.volume   = values.JxW(q);
+              seed.volume   = share * values.JxW(q);
               seed.cell     = BackgroundMesh::size_of(cell);
               if (mesh.n_layers() > 1)
                 {
@@ -534,7 +568,8 @@ namespace geocone::GEOCONE_DIM
     };
     if (layout == Layout::lattice)
       {
-        seed.volume = spacing * spacing * (dim == 3 ? spacing : 1.);
+        const double square    = spacing * spacing * (dim == 3 ? spacing : 1.);
+        const double tolerance = rounding_of(geometry);
         // By index: summing spacings would accumulate rounding errors.
         const auto coordinate = [&](const double begin, const std::size_t i) {
           return begin + (i + 0.5) * spacing;
@@ -548,7 +583,8 @@ namespace geocone::GEOCONE_DIM
             const GridIndex index = index_in_grid(i, n);
             for (unsigned int d = 0; d < dim; ++d)
               seed.position[d] = coordinate(lower[d], index[d]);
-            if (geometry.contains(seed.position))
+            seed.volume = square * share_of(geometry, seed.position, tolerance);
+            if (seed.volume > 0.)
               add();
           }
       }

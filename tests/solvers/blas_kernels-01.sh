@@ -1,6 +1,7 @@
 # OpenBLAS selects its kernels by the model of the processor, and takes those of SSE3 for
 # models that it does not know: with AVX2 they must not be used, unless they are asked for.
 program=$1 root=$2 folder=$3
+unset OPENBLAS_CORETYPE
 rm -rf "$folder" && mkdir -p "$folder" && cd "$folder"
 core() {
   "$program" "$root/tests/footing_coarse.prm" --quiet --output "$1" \
