@@ -483,7 +483,7 @@ namespace geocone
       static constexpr double range  = 15.;
 
       /** Largest eigenvalue of the smoother over the computed one. */
-      static constexpr double margin = 1.15;
+      static constexpr double margin = 1.10;
 
       /** Takes a vector with parts of all frequencies. */
       void
