@@ -30,36 +30,61 @@ namespace geocone::GEOCONE_DIM
     }
   } // namespace
 
+  namespace
+  {
+    using Weights = std::array<double, dim>; ///< of the vertices of a facet
+
+    /** Calls @p f with the weights of the vertices of a facet, and of places inside: where
+     *  formulas jump on an edge between two vertices, rounding would decide. */
+    template <typename F>
+    void
+    visit_places(const F &f)
+    {
+      constexpr int n = dim == 3 ? 8 : 32; // parts of a side
+      for (int i = 0; i <= n; ++i)
+        for (int j = 0; j <= (dim == 3 ? n - i : 0); ++j)
+          {
+            Weights weight = {};
+            weight[0]      = double(i) / n;
+            weight[dim - 2] += double(j) / n;
+            weight[dim - 1]    = 1. - double(i + j) / n;
+            const auto n_zeros = std::count(weight.begin(), weight.end(), 0.);
+            if (n_zeros == 0 || n_zeros == dim - 1)
+              f(weight);
+          }
+    }
+
+    template <typename T>
+    T
+    weighted(const Weights &weight, const std::array<T, dim> &of_vertices)
+    {
+      T sum;
+      for (unsigned int v = 0; v < dim; ++v)
+        sum += weight[v] * of_vertices[v];
+      return sum;
+    }
+  } // namespace
+
   double
   prescribed_on_facet(const BoundaryCondition           &condition,
                       const unsigned int                 component,
                       const std::array<Point<dim>, dim> &vertices)
   {
-    constexpr int n = dim == 3 ? 8 : 32; // parts of a side
-    const auto   &function =
+    const auto &function =
       component == dim ? condition.normal : condition.components[component];
     const double first = function->value(vertices[0], 0.);
-    for (int i = 0; i <= n; ++i)
-      for (int j = 0; j <= (dim == 3 ? n - i : 0); ++j)
-        {
-          std::array<double, dim> weight = {};
-          weight[0]                      = double(i) / n;
-          weight[dim - 2] += double(j) / n;
-          weight[dim - 1] = 1. - double(i + j) / n;
-          Point<dim> x;
-          for (unsigned int v = 0; v < dim; ++v)
-            x += weight[v] * vertices[v];
-          if (std::abs(function->value(x, 0.) - first) >
-              1e-12 * std::abs(first))
-            throw InputError(
-              condition.parameter(
-                component == dim ? std::string("Velocity normal")
-                                 : std::string("Velocity ") + "xyz"[component]),
-              condition.formula(component),
-              "one velocity for all that is pushed where loads are bounded",
-              "the bounded load is the reaction to one translation: give a "
-              "constant, and end the part where it ends");
-        }
+    visit_places([&](const Weights &weight) {
+      const double here = function->value(weighted(weight, vertices), 0.);
+      if (std::abs(here - first) > 1e-12 * std::abs(first))
+        throw InputError(
+          condition.parameter(component == dim
+                                ? std::string("Velocity normal")
+                                : std::string("Velocity ") + "xyz"[component]),
+          condition.formula(component),
+          "one velocity for all that is pushed where loads are bounded",
+          "the bounded load is the reaction to one translation: give a "
+          "constant, and end the part where it ends");
+    });
     return first;
   }
 
@@ -170,15 +195,11 @@ namespace geocone::GEOCONE_DIM
           t[d] += load.components[d]->value(x, 0.);
       return t;
     };
-    Point<dim>                      middle;
-    Tensor<1, dim>                  mean;
     std::array<Tensor<1, dim>, dim> t;
     double                          largest = 0., on_held = 0.;
     for (unsigned int i = 0; i < dim; ++i)
       {
-        t[i] = traction(place.vertices[i]);
-        middle += place.vertices[i] / double(dim);
-        mean += t[i] / double(dim);
+        t[i]    = traction(place.vertices[i]);
         largest = std::max(largest, t[i].norm());
         on_held += held.held_part(t[i]).norm();
       }
@@ -196,13 +217,22 @@ namespace geocone::GEOCONE_DIM
                        "are bounded",
                        "leave the traction out where the velocity is "
                        "prescribed");
-    if ((traction(middle) - mean).norm() > 1e-9 * largest)
-      throw InputError(load.parameter("Traction x"),
-                       load.part(),
+    visit_places([&](const Weights &weight) {
+      const Point<dim> x = weighted(weight, place.vertices);
+      if ((traction(x) - weighted(weight, t)).norm() <= 1e-9 * largest)
+        return;
+      unsigned int c = 0; // a component that is given; dim: the normal one
+      while (c < dim && !load.components[c])
+        ++c;
+      throw InputError(load.parameter(c == dim
+                                        ? std::string("Traction normal")
+                                        : std::string("Traction ") + "xyz"[c]),
+                       load.formula(c),
                        "tractions that are linear in each face of the mesh "
                        "where loads are bounded",
                        "divide the side where its traction has a kink, or take "
                        "finer cells there");
+    });
     return t;
   }
 } // namespace geocone::GEOCONE_DIM

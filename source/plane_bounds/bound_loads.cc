@@ -327,9 +327,13 @@ namespace geocone::GEOCONE_DIM
         };
         const Tensor<1, dim> first = at(0.), last = at(1.);
         largest = std::max({largest, first.norm(), last.norm()});
-        for (const double part : {0.25, 0.382, 0.5, 0.75})
-          departure = std::max(
-            departure, (at(part) - (1. - part) * first - part * last).norm());
+        constexpr int n = 33; // odd: most periods do not fit
+        for (int i = 1; i < n; ++i)
+          {
+            const double part = double(i) / n;
+            departure         = std::max(
+              departure, (at(part) - (1. - part) * first - part * last).norm());
+          }
       }
     return departure > 0. ? departure / std::max(largest, departure) : 0.;
   }
