@@ -336,12 +336,13 @@ def foreign_case(rng, tools, folder):
     how = rng.choice(("overwrite", "overwrite", "overwrite", "number", "refuse", "resume", "plot",
                       "defaults"))
     # What a run before has written is its own, if it is a file, and so is what has the name
-    # of its temporary file.
+    # of its temporary file; pictures have other names than those of the run's list.
     kept = tuple(str(path.relative_to(folder.parent.parent)) for path in
                  sorted([*elsewhere.rglob("*"), *out.rglob("*")])
                  if "elsewhere/out" not in str(path) and
                  (path.name.removesuffix(".part") not in listed or path.parent == elsewhere or
-                  how in ("number", "refuse")) and not path.is_dir())
+                  how in ("number", "refuse")) and not path.is_dir() and
+                 not (how == "plot" and path.suffix == ".part"))
     said = f"{how}, {source}, {', '.join(said)}"
     if how == "resume":
         return Call("geocone", ["--resume", "results/out", "--quiet"], said, kept=kept)
