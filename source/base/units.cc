@@ -117,7 +117,7 @@ namespace geocone
   {
     // The last unit only: names of structures are parts of keys.
     static const std::regex last(
-      "(_)(Pa|N|J|kg)(?=(_m)?(_s)?(_per_[a-z0-9]+)?$)");
+      "(_)(Pa|N|J|kg)(?=(_m)?(_s)?(_per_[a-z0-9]+)?(_least|_most)?$)");
     return in_kilonewtons ? replaced(key, last) : key;
   }
 

@@ -24,7 +24,7 @@ namespace geocone::GEOCONE_DIM
     const unsigned int p = space.degree();
     if (!mesh.is_simplicial())
       return QGauss<dim>(p + 1);
-    if (p < 3) // 1 point of degree 1; 6 of degree 4 in the plane, 3 in space
+    if (p < 3) // 1 point of degree 1; degree 3, 4 points in the plane
       return QGaussSimplex<dim>(p);
     return QWitherdenVincentSimplex<dim>(3); // 7 points, degree 5
   }

@@ -12,6 +12,7 @@
 #include <geocone/terms/bars.h>
 
 #include <algorithm>
+#include <fstream>
 
 namespace geocone::GEOCONE_DIM
 {
@@ -19,6 +20,24 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
+    /** @throws InputError if the state of a run is in other units than those of this one */
+    void
+    check_units(const std::string &folder)
+    {
+      const std::string file = folder + "/parameters.prm";
+      if (!std::ifstream(file)) // what reads the state says what is missing
+        return;
+      const std::string theirs =
+                          ParameterFile(file, {}).peek("Analysis/Units", "SI"),
+                        ours = ParameterFile::value("Analysis/Units");
+      if (theirs != ours)
+        throw InputError("Initial stress/Run",
+                         folder,
+                         "a run with 'Analysis/Units' = " + ours,
+                         "its stresses have those of " + theirs +
+                           ": write both parameter files in the same units");
+    }
+
     void
     remove_empty(std::vector<std::string> &texts)
     {
@@ -201,14 +220,17 @@ namespace geocone::GEOCONE_DIM
     if (stepper->consolidates())
       refuse_beside_consolidation(start_of_run, freezer);
     if (!start_of_run.folder.empty() && !options.resumes)
-      checkpoint.read(
-        start_of_run.folder,
-        log,
-        [&](const Archive &archive) {
-          stepper->begin_from(archive, kinematics, points);
-          return std::string();
-        },
-        "Initial stress/Run");
+      {
+        check_units(start_of_run.folder);
+        checkpoint.read(
+          start_of_run.folder,
+          log,
+          [&](const Archive &archive) {
+            stepper->begin_from(archive, kinematics, points);
+            return std::string();
+          },
+          "Initial stress/Run");
+      }
     warnings.push_back(remark_on_bounds);
     warnings.push_back(scene.warn_of_time_histories());
     const BoundingBox<dim> body = box_of_body(scene, mesh);

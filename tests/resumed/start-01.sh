@@ -33,3 +33,5 @@ refused() {  # TEXT SETTINGS...
 }
 refused "parameter 'Initial stress/Run' = 'nowhere'" 'Initial stress/Run = nowhere'
 refused 'the checkpoint has' 'Initial stress/Run = mpm-before' 'Mesh/Cell size = 0.5'
+refused "a run with 'Analysis/Units' = kN-m" 'Initial stress/Run = mpm-before' \
+  'Analysis/Units = kN-m'

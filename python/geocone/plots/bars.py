@@ -116,10 +116,10 @@ def draw_run(run, path):
     figure, axes_of = subplots(1, 3 if plates else 2, figsize=(15. if plates else 11., 4.4),
                                gridspec_kw={"width_ratios": [1.5, 1., 1.][:3 if plates else 2]})
     draw_yielding(axes_of[0], bars, model)
-    draw_forces(axes_of[1], bars, "axial force", "N/m",
+    draw_forces(axes_of[1], bars, "axial force", run.unit("N/m"),
                 lambda bar: (bar.tensile, -bar.compressive if bar.compressive else None))
     if plates:
-        draw_forces(axes_of[2], plates, "bending moment", "N m/m",
+        draw_forces(axes_of[2], plates, "bending moment", run.unit("N m/m"),
                     lambda bar: (bar.moment, -bar.moment) if bar.moment else ())
     figure.suptitle(heading(run) + "; dashed: strengths", fontsize=13)
     save(figure, run, path)

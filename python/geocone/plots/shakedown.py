@@ -66,7 +66,7 @@ def draw_cycle(run, path):
                                cmap=STRAINS, vmin=0., vmax=1.)
         axes.set_title(title)
         add_bar(axes, drawn, "relative", extend="max")
-    unit, factor = unit_for(np.abs(residual).max(), "Pa")
+    unit, factor = unit_for(np.abs(residual).max(), run.unit("Pa"))
     largest = max(level(np.abs(residual)[first], sizes_of(field), 0.002) / factor,
                   np.finfo(float).tiny)
     drawn = axes_of[2].tripcolor(*field.points.T, field.cells, residual / factor,
