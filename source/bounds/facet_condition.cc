@@ -40,7 +40,7 @@ namespace geocone::GEOCONE_DIM
     void
     visit_places(const F &f)
     {
-      constexpr int n = dim == 3 ? 8 : 32; // parts of a side
+      constexpr int n = dim == 3 ? 8 : 33; // parts of a side
       for (int i = 0; i <= n; ++i)
         for (int j = 0; j <= (dim == 3 ? n - i : 0); ++j)
           {
@@ -86,6 +86,24 @@ namespace geocone::GEOCONE_DIM
           "constant, and end the part where it ends");
     });
     return first;
+  }
+
+  double
+  departure_from_linear(
+    const std::function<Tensor<1, dim>(const Point<dim> &)> &field,
+    const std::array<Point<dim>, dim>                       &vertices)
+  {
+    std::array<Tensor<1, dim>, dim> at_vertices;
+    for (unsigned int v = 0; v < dim; ++v)
+      at_vertices[v] = field(vertices[v]);
+    double largest = 0.;
+    visit_places([&](const Weights &weight) {
+      largest = std::max(
+        largest,
+        (field(weighted(weight, vertices)) - weighted(weight, at_vertices))
+          .norm());
+    });
+    return largest;
   }
 
   void
@@ -217,22 +235,20 @@ namespace geocone::GEOCONE_DIM
                        "are bounded",
                        "leave the traction out where the velocity is "
                        "prescribed");
-    visit_places([&](const Weights &weight) {
-      const Point<dim> x = weighted(weight, place.vertices);
-      if ((traction(x) - weighted(weight, t)).norm() <= 1e-9 * largest)
-        return;
-      unsigned int c = 0; // a component that is given; dim: the normal one
-      while (c < dim && !load.components[c])
-        ++c;
-      throw InputError(load.parameter(c == dim
-                                        ? std::string("Traction normal")
-                                        : std::string("Traction ") + "xyz"[c]),
-                       load.formula(c),
-                       "tractions that are linear in each face of the mesh "
-                       "where loads are bounded",
-                       "divide the side where its traction has a kink, or take "
-                       "finer cells there");
-    });
+    if (departure_from_linear(traction, place.vertices) > 1e-9 * largest)
+      {
+        unsigned int c = 0; // a component that is given; dim: the normal one
+        while (c < dim && !load.components[c])
+          ++c;
+        throw InputError(
+          load.parameter(c == dim ? std::string("Traction normal")
+                                  : std::string("Traction ") + "xyz"[c]),
+          load.formula(c),
+          "tractions that are linear in each face of the mesh "
+          "where loads are bounded",
+          "divide the side where its traction has a kink, or "
+          "take finer cells there");
+      }
     return t;
   }
 } // namespace geocone::GEOCONE_DIM

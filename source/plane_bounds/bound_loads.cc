@@ -1,6 +1,7 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <geocone/bounds/facet_condition.h>
 #include <geocone/bounds/load_choice.h>
 #include <geocone/cone/second_order_cone.h>
 #include <geocone/materials/retention.h>
@@ -314,26 +315,20 @@ namespace geocone::GEOCONE_DIM
     double           largest = 0., departure = 0.;
     for (const auto &held : triangles.held_edges(load))
       {
-        const auto       &ends = triangles.edges[held.edge].vertices;
-        const Point<dim> &a    = triangles.vertices[ends[0]],
-                         &b    = triangles.vertices[ends[1]];
-        const auto at          = [&](const double part) {
+        const auto &ends = triangles.edges[held.edge].vertices;
+        const std::array<Point<dim>, dim> places = {
+          {triangles.vertices[ends[0]], triangles.vertices[ends[1]]}};
+        const auto at = [&](const Point<dim> &x) {
           return traction(
             load,
-            Point<dim>(a + part * (b - a)),
+            x,
             outward_normal(triangles, held.cell, held.opposite_vertex),
             1.,
             time);
         };
-        const Tensor<1, dim> first = at(0.), last = at(1.);
-        largest = std::max({largest, first.norm(), last.norm()});
-        constexpr int n = 33; // odd: most periods do not fit
-        for (int i = 1; i < n; ++i)
-          {
-            const double part = double(i) / n;
-            departure         = std::max(
-              departure, (at(part) - (1. - part) * first - part * last).norm());
-          }
+        for (const Point<dim> &x : places)
+          largest = std::max(largest, at(x).norm());
+        departure = std::max(departure, departure_from_linear(at, places));
       }
     return departure > 0. ? departure / std::max(largest, departure) : 0.;
   }

@@ -9,6 +9,7 @@
 #include <deal.II/base/point.h>
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -74,6 +75,14 @@ namespace geocone::GEOCONE_DIM
   prescribed_on_facet(const BoundaryCondition                   &condition,
                       const unsigned int                         component,
                       const std::array<dealii::Point<dim>, dim> &vertices);
+
+  /** Returns the largest difference of a vector field from the linear one with its values at
+   *  the vertices of a facet, over many places between them. */
+  double
+  departure_from_linear(
+    const std::function<dealii::Tensor<1, dim>(const dealii::Point<dim> &)>
+                                              &field,
+    const std::array<dealii::Point<dim>, dim> &vertices);
 
   /** Velocity components that boundary conditions prescribe on a facet, from which its
    *  FacetCondition follows. */
