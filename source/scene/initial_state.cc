@@ -201,7 +201,7 @@ namespace geocone::GEOCONE_DIM
     if (type == Type::geostatic)
       {
         check_geostatic("Initial stress/Type", type.word(), gravity, regions);
-        check_level_ground(geometry);
+        check_level_ground(geometry, regions);
         check_level_water();
       }
     if (adds(Type::geostatic))
@@ -271,42 +271,6 @@ namespace geocone::GEOCONE_DIM
                        "automatic takes 1 - sin(phi) of each material");
   }
 
-  void
-  InitialStress::check_level_ground(const Geometry &geometry) const
-  {
-    // A box is level; the surface of a .msh file is not checked.
-    if (dim == 3 || geometry.outline.empty())
-      return;
-    double top = geometry.outline[0][1];
-    for (const dealii::Point<dim> &x : geometry.outline)
-      top = std::max(top, x[1]);
-    // Level ground: the highest vertices span the whole width.
-    const double rounding = geometry.rounding();
-    double left = 1e300, right = -1e300, left_top = 1e300, right_top = -1e300;
-    for (const dealii::Point<dim> &x : geometry.outline)
-      {
-        left  = std::min(left, x[0]);
-        right = std::max(right, x[0]);
-        if (x[1] > top - rounding)
-          {
-            left_top  = std::min(left_top, x[0]);
-            right_top = std::max(right_top, x[0]);
-          }
-      }
-    if (left_top > left + rounding || right_top < right - rounding)
-      throw InputError("Initial stress/Type",
-                       type.word(),
-                       "zero | given, where the ground is not level",
-                       "let gravity build up the stress of a slope in a stage "
-                       "of its own");
-    if (surface < top - rounding)
-      throw InputError("Initial stress/Surface level",
-                       surface,
-                       ">= " + std::to_string(top) +
-                         " m, the top of the domain",
-                       "give the level of the ground");
-  }
-
   namespace
   {
     /** Boundary of a property that holds at @p low but not at @p high. */
@@ -363,7 +327,79 @@ namespace geocone::GEOCONE_DIM
         }
       return layers;
     }
+
+    /** Places of vertical lines through the body: two between vertices that
+     *  are neighbours along x, and a lattice. */
+    std::vector<dealii::Point<dim>>
+    columns_of(const Geometry &geometry)
+    {
+      const auto [low, high]   = geometry.bounding_box();
+      std::vector<double>    x = {low[0], high[0]};
+      constexpr unsigned int n = dim == 2 ? 100 : 10;
+      for (unsigned int i = 1; i < n; ++i)
+        x.push_back(low[0] + (high[0] - low[0]) * i / n);
+      for (const dealii::Point<dim> &vertex : geometry.outline)
+        x.push_back(vertex[0]);
+      std::sort(x.begin(), x.end());
+      std::vector<dealii::Point<dim>> columns;
+      for (std::size_t i = 1; i < x.size(); ++i)
+        for (const double part : {0.1, 0.9})
+          if (x[i] > x[i - 1] + geometry.rounding())
+            for (unsigned int k = 0; k < (dim == 2 ? 1 : n); ++k)
+              {
+                dealii::Point<dim> place = low;
+                place[0]                 = x[i - 1] + part * (x[i] - x[i - 1]);
+                if (dim == 3)
+                  place[dim - 1] +=
+                    (high[dim - 1] - low[dim - 1]) * (k + 0.5) / n;
+                columns.push_back(place);
+              }
+      return columns;
+    }
   } // namespace
+
+  void
+  InitialStress::check_level_ground(const Geometry &geometry,
+                                    const Regions  &regions) const
+  {
+    // The surface of a .msh file is not checked.
+    if (geometry.shape == Geometry::Shape::file)
+      return;
+    const auto [low, high] = geometry.bounding_box();
+    const double rounding =
+      std::max(geometry.rounding(), 1e-6 * (high[1] - low[1]));
+    const auto is_soil = [&](const dealii::Point<dim> &x) {
+      return geometry.contains(x) && stage_of[regions.material_at(x)] < 0;
+    };
+    double lowest = 1e300, highest = -1e300;
+    for (dealii::Point<dim> x : columns_of(geometry))
+      {
+        const double part = (high[1] - low[1]) / 400;
+        const auto   soil = [&](const double y) {
+          x[1] = y;
+          return is_soil(x);
+        };
+        double middle = high[1] - part / 2.;
+        while (middle > low[1] && !soil(middle))
+          middle -= part;
+        const double ground =
+          middle > low[1] ? border(middle, middle + part, soil) : low[1];
+        lowest  = std::min(lowest, ground);
+        highest = std::max(highest, ground);
+      }
+    if (lowest < highest - rounding)
+      throw InputError("Initial stress/Type",
+                       type.word(),
+                       "zero | given, where the ground is not level",
+                       "let gravity build up the stress of a slope in a stage "
+                       "of its own");
+    if (surface < highest - rounding)
+      throw InputError("Initial stress/Surface level",
+                       surface,
+                       ">= " + std::to_string(highest) +
+                         " m, the top of the soil before the first stage",
+                       "give the level of the ground");
+  }
 
   double
   InitialStress::vertical_stress(const dealii::Point<dim> &x,
@@ -398,6 +434,8 @@ namespace geocone::GEOCONE_DIM
           if (stage >= 0)
             vertical += pressure(layer.low) - pressure(layer.high);
         }
+      else if (stage < 0) // water stands where soil is added later
+        vertical -= pressure(layer.low) - pressure(layer.high);
     return vertical;
   }
 

@@ -90,8 +90,10 @@ namespace geocone::GEOCONE_DIM
     void
     prepare_k0();
 
+    /** Checks that the ground before the first stage is level and not above
+     *  the surface level. @throws InputError */
     void
-    check_level_ground(const Geometry &geometry) const;
+    check_level_ground(const Geometry &geometry, const Regions &regions) const;
 
     /** Checks that the water table is horizontal. @throws InputError */
     void
