@@ -108,11 +108,11 @@ namespace geocone::GEOCONE_DIM
     return function->value(x);
   }
 
-  double
-  Expression::constant_from() const
+  std::optional<std::array<double, 2>>
+  Expression::recorded() const
   {
-    return record && record->value(record->end()) != 0.
-             ? record->end()
-             : std::numeric_limits<double>::infinity();
+    return record ? std::optional(
+                      std::array<double, 2>{{record->begin(), record->end()}})
+                  : std::nullopt;
   }
 } // namespace geocone::GEOCONE_DIM

@@ -253,7 +253,13 @@ namespace geocone::GEOCONE_DIM
   {
     bool hold = true;
     if (writes && reference_case.is_asked())
-      log.print(reference_case.text(summary));
+      {
+        const std::string text = reference_case.text(summary);
+        if (summary["reference"]["value"].is_null())
+          log.warn(text);
+        else
+          log.print(text);
+      }
     if (writes)
       for (const Expectation &expectation : expectations)
         {

@@ -42,11 +42,50 @@ namespace geocone::GEOCONE_DIM
     return first > 0. ? std::optional(last / first) : std::nullopt;
   }
 
+  std::optional<Failure>
+  RunOutput::onset_of_motion() const
+  {
+    bool reduces = false;
+    for (std::size_t i = 1; i < records.size(); ++i)
+      {
+        const ImplicitRecord &now = records[i], &before = records[i - 1];
+        const Stage          &stage =
+          scene->loading.stage_at((before.time + now.time) / 2.);
+        reduces                  = reduces || stage.strength_factor > 0.;
+        const Energies &energies = now.last.energies;
+        const double    plastic  = now.last.works.dissipation;
+        if (!reduces || stage.requires_equilibrium() || !(plastic > 0.) ||
+            energies.kinetic <= 1e-4 * energies.elastic)
+          continue;
+        const std::string reason = stage.no_equilibrium(
+          (energies.kinetic - before.last.energies.kinetic) / plastic);
+        if (!reason.empty())
+          return Failure{stage.name, before.time, now.time, reason};
+      }
+    return std::nullopt;
+  }
+
   Json
   RunOutput::safety() const
   {
     const LoadingProgramme &loading = scene->loading;
     const double            end = records.empty() ? 0. : records.back().time;
+    if (const auto motion = failure ? std::nullopt : onset_of_motion())
+      {
+        const double lower = loading.strength_factor(motion->carried_until);
+        return {
+          {"factor", Json()},
+          {"displacement_growth", Json()},
+          {"lower",
+           lower > loading.factor_before(motion->stage) ? Json(lower) : Json()},
+          {"upper", Json()},
+          {"criterion",
+           format("the body accelerates by the strength factor %.4f, at t = "
+                  "%.6g s: ",
+                  loading.strength_factor(motion->not_until),
+                  motion->not_until) +
+             motion->reason}};
+      }
     if (!failure)
       {
         const bool   whole     = end >= (1. - 1e-9) * loading.duration();
@@ -515,11 +554,20 @@ namespace geocone::GEOCONE_DIM
                       "any: let the stages begin with a 'Strength factor' "
                       "below 1, e.g. 0.5, and rise from there",
                       safety["upper"].get<double>()));
-    else
+    else if (onset_of_motion())
+      log.warn(safety["criterion"].get<std::string>() +
+               "; 'Until failure = true' finds a factor of safety");
+    else if (const auto &stages = scene->loading.list;
+             std::any_of(stages.begin(), stages.end(), [](const auto &stage) {
+               return stage->requires_equilibrium();
+             }))
       log.warn(format(
         "no factor of safety: equilibrium is found for all "
         "factors, up to %.4g: raise 'Strength factor'",
         safety["lower"].is_number() ? safety["lower"].get<double>() : 1.));
+    else if (safety["lower"].is_number())
+      log.print(format("equilibrium is found with strength divided by %.4g",
+                       safety["lower"].get<double>()));
     if (!safety["displacement_growth"].is_number())
       return;
     const double growth = safety["displacement_growth"].get<double>();

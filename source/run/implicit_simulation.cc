@@ -114,8 +114,16 @@ namespace geocone::GEOCONE_DIM
       {
         if (!stage.until_failure)
           {
-            if (scene.loading.reduces_strength() &&
-                scene.loading.strength_factor(now.time) >= 1.)
+            if (!scene.loading.reduces_strength())
+              throw;
+            if (const double factor = scene.loading.strength_factor(now.time);
+                factor > 1.)
+              log.warn(format("no equilibrium is found beyond the strength "
+                              "factor %.4f: 'Loading/%s/Until failure = true' "
+                              "makes that the answer",
+                              factor,
+                              stage.name.c_str()));
+            else if (factor == 1.)
               log.warn("a body that does not carry its loads has a factor of "
                        "safety below 1: let the stages begin with a 'Strength "
                        "factor' below 1, e.g. 0.5, and rise from there");

@@ -325,16 +325,30 @@ namespace geocone::GEOCONE_DIM
     for (const auto *conditions : {&dirichlet, &tractions, &absorbing})
       for (const auto &condition : conditions->list)
         for (unsigned int d = 0; d < dim; ++d)
-          if (const auto &component = condition->components[d])
-            if (const double end = component->constant_from();
-                end < (1. - 1e-9) * loading.duration())
+          {
+            const auto &component = condition->components[d];
+            const auto  record =
+              component ? component->recorded() : std::nullopt;
+            if (!record)
+              continue;
+            const auto [begin, end] = *record;
+            if (begin >= loading.duration())
+              return format("the record of '%s' begins at t = %g s, when the "
+                            "loading has ended: its first value, %g, acts in "
+                            "all steps",
+                            condition->name.c_str(),
+                            begin,
+                            component->value({}, begin));
+            if (const double last = component->value({}, end);
+                last != 0. && end < (1. - 1e-9) * loading.duration())
               return format(
                 "the record of '%s' ends at t = %g s with %g, which "
                 "stays until the end of the loading, %g s",
                 condition->name.c_str(),
                 end,
-                component->value({}, end),
+                last,
                 loading.duration());
+          }
     return "";
   }
 } // namespace geocone::GEOCONE_DIM

@@ -10,6 +10,7 @@
 #include <deal.II/base/function_parser.h>
 #include <deal.II/base/point.h>
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -48,10 +49,10 @@ namespace geocone::GEOCONE_DIM
       return number == 0.;
     }
 
-    /** Time (s) after which a time history stays at a constant non-zero value;
-     *  infinite for other expressions. */
-    double
-    constant_from() const;
+    /** First and last time (s) of a time history, before and after which its
+     *  value is constant; empty for other expressions. */
+    std::optional<std::array<double, 2>>
+    recorded() const;
 
   private:
     std::optional<double>                        number; ///< if constant

@@ -32,6 +32,13 @@ namespace geocone
     double
     value(const double t) const;
 
+    /** Time of the first row of the file (s). */
+    double
+    begin() const
+    {
+      return times.front();
+    }
+
     /** Time of the last row of the file (s). */
     double
     end() const

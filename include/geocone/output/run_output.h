@@ -183,6 +183,12 @@ namespace geocone::GEOCONE_DIM
     Json
     safety() const;
 
+    /** Returns the first step with reduced strength in which the body
+     *  accelerates, of stages that do not end at failure (see
+     *  Stage::no_equilibrium()). */
+    std::optional<Failure>
+    onset_of_motion() const;
+
     /** Ratio of the last to the first displacement rate during strength
      *  reduction, a measure of acceleration (-). The rate is the displacement
      *  per increment of the strength factor in one reduction, at the observed

@@ -124,7 +124,14 @@ def meaning_of(run):
         factor = "The factor of safety F divides c and tan φ of the soils at failure."
         if run.method == "strength reduction":
             return [factor, proof, *associated]
-        sentences = [factor, "It was found by steps on this mesh, and is no bound."]
+        lower, found = number_in(run, "safety/lower"), run.value("safety/criterion")
+        if number_in(run, "safety/factor") is not None:
+            found = "It was found by steps on this mesh, and is no bound."
+        elif lower is not None:
+            found = f"By steps on this mesh, F is {digits_of(lower)} or more: {found}."
+        else:
+            found = f"{found[:1].upper()}{found[1:]}."
+        sentences = [factor, found]
         if None not in loads:
             sentences.append(
                 f"Another factor: at full strength all loads may be multiplied by "
