@@ -3,6 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
+#include <geocone/base/parameter_file.h>
 #include <geocone/laws/hardening_mohr_coulomb.h>
 
 #include <algorithm>
@@ -85,12 +86,15 @@ namespace geocone::GEOCONE_DIM
   {
     MohrCoulomb::prepare();
     if (cohesion_grows())
-      throw InputError(parameter(strength_formula().empty()
-                                   ? "Cohesion gradient"
-                                   : strength_formula()),
-                       "set",
-                       "none for a law that hardens",
-                       "take Mohr-Coulomb, or layers of several materials");
+      {
+        const std::string growth =
+          parameter(strength_formula().empty() ? "Cohesion gradient"
+                                               : strength_formula());
+        throw InputError(growth,
+                         ParameterFile::value(growth),
+                         "none for a law that hardens",
+                         "take Mohr-Coulomb, or layers of several materials");
+      }
     if (!(modulus >= 0.))
       throw InputError(
         parameter("Hardening modulus"),

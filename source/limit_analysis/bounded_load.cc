@@ -4,6 +4,7 @@
 #include <geocone/axisymmetric_bounds/axisymmetric_bounds.h>
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
+#include <geocone/base/parameter_file.h>
 #include <geocone/base/text_of_place.h>
 #include <geocone/bounds/facet_condition.h>
 #include <geocone/laws/mohr_coulomb.h>
@@ -302,13 +303,14 @@ namespace geocone::GEOCONE_DIM
                            "take the strength that counts, initial or final");
         const std::string formula = scene.materials[m].strength_formula();
         if (formula == "Cohesion ratio")
-          throw InputError("Materials/" + scene.materials.name(m) + "/" +
-                             formula,
-                           "set",
-                           "a 'Cohesion gradient' or 'Cohesion formula' where "
-                           "loads are bounded",
-                           "the initial stresses of steps are unknown here: "
-                           "give the cohesion that they lead to");
+          throw InputError(
+            "Materials/" + scene.materials.name(m) + "/" + formula,
+            ParameterFile::value("Materials/" + scene.materials.name(m) + "/" +
+                                 formula),
+            "a 'Cohesion gradient' or 'Cohesion formula' where "
+            "loads are bounded",
+            "the initial stresses of steps are unknown here: "
+            "give the cohesion that they lead to");
         if (cone->cut_off == 0.)
           throw InputError("Materials/" + scene.materials.name(m) +
                              "/Tensile strength",

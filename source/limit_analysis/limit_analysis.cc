@@ -4,6 +4,7 @@
 #include <geocone/base/exceptions.h>
 #include <geocone/base/files.h>
 #include <geocone/base/number_in.h>
+#include <geocone/base/parameter_file.h>
 #include <geocone/limit_analysis/bound_fields.h>
 #include <geocone/limit_analysis/certificate_files.h>
 #include <geocone/limit_analysis/fans_of_jumps.h>
@@ -163,7 +164,7 @@ namespace geocone::GEOCONE_DIM
     if (scene.geometry.is_axisymmetric())
       throw InputError(
         "Seepage/Names",
-        "set",
+        ParameterFile::value("Seepage/Names"),
         "none with " + where() + " around an axis",
         "the flow is that of plane scenes: give its pressures by "
         "'Water/Table' or 'Water/File'");

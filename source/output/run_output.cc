@@ -71,7 +71,8 @@ namespace geocone::GEOCONE_DIM
   {
     add_time_columns();
     add("displacement (m)", [](const Record &r) { return r.displacement; });
-    add("load (N/m)", [](const Record &r) { return r.load; });
+    add(load_is_number() ? "load (-)" : "load (N/m)",
+        [](const Record &r) { return r.load; });
     const auto supports = scene->supports();
     for (const unsigned int c : scene->observation.conditions)
       for (unsigned int d = 0; d < dim; ++d)

@@ -3,6 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
+#include <geocone/base/parameter_file.h>
 #include <geocone/base/unused_parameters.h>
 #include <geocone/reliability/random_fields.h>
 #include <geocone/reliability/statistics.h>
@@ -155,7 +156,7 @@ namespace geocone::GEOCONE_DIM
                          "Density");
     if (chosen != RandomProperty::unit_weight && std::isfinite(cone.cut_off))
       throw InputError(of_material + "Tensile strength",
-                       "set",
+                       ParameterFile::value(of_material + "Tensile strength"),
                        "none where the strength is random",
                        "leave it out");
   }

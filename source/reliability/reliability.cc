@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
+#include <geocone/base/parameter_file.h>
 #include <geocone/base/shared_counter.h>
 #include <geocone/base/stop_request.h>
 #include <geocone/base/unused_parameters.h>
@@ -98,7 +99,7 @@ namespace geocone::GEOCONE_DIM
   {
     if (scene.water.seepage.acts())
       throw InputError("Seepage/Names",
-                       "set",
+                       ParameterFile::value("Seepage/Names"),
                        "none with " + where(),
                        "bodies of random soil have no water; leave it out");
   }

@@ -76,8 +76,9 @@ namespace geocone::GEOCONE_DIM
     add_parameter(
       "Reference",
       value,
-      "Reference load: none, a number [N/m], or Prandtl: the exact load width "
-      "x (c Nc + surcharge x Nq) of a strip footing on weightless soil.");
+      "Reference load: none, a number [N/m, or - where the load is a factor], "
+      "or Prandtl: the exact load width x (c Nc + surcharge x Nq) of a strip "
+      "footing on weightless soil.");
     add_parameter("Reference material",
                   material,
                   "Material with the c and phi of Prandtl's load; empty: the "

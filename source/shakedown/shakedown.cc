@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
+#include <geocone/base/parameter_file.h>
 #include <geocone/mesh/adapted_sizes.h>
 #include <geocone/mesh/divided_at_chords.h>
 #include <geocone/mesh/fitted_mesh.h>
@@ -126,10 +127,11 @@ namespace geocone::GEOCONE_DIM
                            "none with " + where(),
                            "the cone alone limits tension here");
         if (!scene.materials[m].has_constant_stiffness())
-          throw InputError(section + "/Young modulus formula",
-                           "set",
-                           "empty with " + where(),
-                           "give layers with constants of their own");
+          throw InputError(
+            section + "/Young modulus formula",
+            ParameterFile::value(section + "/Young modulus formula"),
+            "empty with " + where(),
+            "give layers with constants of their own");
       }
     for (unsigned int c = 0; c < triangles->cells.size(); ++c)
       for (unsigned int i = 0; i < 3; ++i)

@@ -79,12 +79,13 @@ namespace geocone::GEOCONE_DIM
     if (!varies_in_time())
       return take_corners();
     if (!minima.empty() || !maxima.empty())
-      throw InputError(minima.empty() ? "Shakedown/Maximum factors"
-                                      : "Shakedown/Minimum factors",
-                       "set",
-                       "empty with 'Shakedown/Times'",
-                       "the formulas of the loads give their values at these "
-                       "times");
+      throw InputError(
+        minima.empty() ? "Shakedown/Maximum factors"
+                       : "Shakedown/Minimum factors",
+        dealii::Patterns::Tools::to_string(minima.empty() ? maxima : minima),
+        "empty with 'Shakedown/Times'",
+        "the formulas of the loads give their values at these "
+        "times");
     if (times.size() < 2 || times.size() > most_states)
       throw InputError("Shakedown/Times",
                        dealii::Patterns::Tools::to_string(times),

@@ -53,6 +53,8 @@ def constants_of(parameters, material):
 def soil_text(values, key, mass_unit):
     """A constant of a soil in the unit of its column. @param mass_unit of the values (kg)"""
     value = number(values.get(key))
+    if key == "Saturated unit weight" and not value:  # as above the water
+        return "–"
     _, unit, size = CONSTANTS[key]
     if unit not in ("-", "°", "m"):
         size /= mass_unit
