@@ -502,6 +502,7 @@ namespace geocone::GEOCONE_DIM
       return;
     const ExplicitRecord &last = records.back();
     const ExplicitState  &s    = last.last;
+    warn_of_untouched();
     log.print(
       format("%lu explicit steps of %.3g to %.3g s; the body reaches from x = "
              "%.4g to %.4g m, up to y = %.4g m",

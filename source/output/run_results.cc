@@ -476,6 +476,8 @@ namespace geocone::GEOCONE_DIM
                      newton_part["iterations_mean"].get<double>(),
                      newton_part["iterations_max"].get<unsigned int>(),
                      newton_part["failures"].get<unsigned int>()));
+    if (points_move)
+      warn_of_untouched();
     if (scene->materials.traits().can_yield)
       log.print(
         format("natural-map error <= %.1e, complementarity <= %.1e, cone "

@@ -80,3 +80,22 @@ printf 't,v\n7,0\n8,1\n' >late.csv
 run late --set 'Loading/Stages = weight' \
   --set 'Boundary conditions/sides/Velocity x = record late.csv' --dry-run
 grep -q "the record of 'sides' begins at t = 7 s" err
+
+# A plate on the upper side of a mesh that is higher than the body of particles.
+cat >plate.prm <<EOF
+include $root/tests/stages/geostatic_fill-02.prm
+subsection Boundary conditions
+  set Names = bottom, sides, plate
+  subsection plate
+    set Sides      = top
+    set Velocity y = -0.001
+  end
+end
+EOF
+push() {
+  "$program" plate.prm --quiet --set 'Output/Expectations =' --set "Output/Folder = $1" "${@:2}" 2>err
+}
+push above
+grep -q "no force acts on 'plate' in any step" err
+push beside --set 'Mesh/Box = 0, 0; 1, 6'
+fails grep -q 'no force' err

@@ -8,6 +8,7 @@
 #include <geocone/output/table_output.h>
 #include <geocone/scene/scene.h>
 
+#include <algorithm>
 #include <string>
 
 namespace geocone::GEOCONE_DIM
@@ -186,6 +187,38 @@ namespace geocone::GEOCONE_DIM
         [this](const std::string &name) { return unit(name); }, weight_changes);
     }
     /** @} */
+
+    /** Warns of conditions on sides of the mesh that are observed or move,
+     *  and on which no force acts in any step: the particles do not reach
+     *  them. */
+    void
+    warn_of_untouched() const
+    {
+      const auto &observed = scene->observation.conditions;
+      const auto  is_given = [](const std::optional<Expression> &value) {
+        return value && !value->is_zero();
+      };
+      for (unsigned int c = 0; c < scene->dirichlet.list.size(); ++c)
+        {
+          const BoundaryCondition &condition = *scene->dirichlet.list[c];
+          const bool               matters =
+            is_given(condition.normal) ||
+            std::any_of(condition.components.begin(),
+                        condition.components.end(),
+                        is_given) ||
+            std::count(observed.begin(), observed.end(), c) > 0;
+          if (matters &&
+              std::all_of(
+                records.begin(), records.end(), [c](const Record &record) {
+                  return record.last.reactions[c].force.norm() == 0.;
+                }))
+            this->log.warn(
+              "no force acts on '" + condition.name +
+              "' in any step: its sides are those of the mesh, and no particle "
+              "reaches them; end the mesh at the body, or push the body by an "
+              "obstacle or with 'Imposed on' = segments");
+        }
+    }
 
     const Scene  *scene = nullptr;
     EnergyBalance balance;
