@@ -86,6 +86,11 @@ class Missing(ReadError):
     """Missing data: the run has not, or not yet, written them."""
 
 
+def reason(problem: Exception) -> str:
+    """A problem in a line: its kind and what it says, without the data that caused it."""
+    return f"{type(problem).__name__}: {problem}"
+
+
 def read(folder: str | os.PathLike) -> "Run":
     """Reads the run of a folder, as far as it has come.
 
@@ -137,7 +142,7 @@ class Run:
             self.warnings = list(self.summary.get("warnings", []))
         except (OSError, ValueError, LookupError, TypeError, AttributeError,
                 RecursionError) as problem:
-            raise ReadError(f"'{folder}' has no summary.json of a run: {problem!r}")
+            raise ReadError(f"'{folder}' has no summary.json of a run: {reason(problem)}")
         # The pictures of a run ask for the same states again and again.
         self.states = functools.lru_cache(maxsize=2)(self._states)
         # Those of obstacles are small, and must not drive out the others.
@@ -476,7 +481,7 @@ def damage_of_fields(reads: Callable) -> Callable:
             return reads(path, *arguments)
         except (ElementTree.ParseError, zlib.error, LookupError, TypeError, ValueError,
                 AttributeError, OSError, RuntimeError) as problem:  # some are HDF5's
-            raise ReadError(f"the fields of '{path}' cannot be read: {problem!r}")
+            raise ReadError(f"the fields of '{path}' cannot be read: {reason(problem)}")
     return reads_or_reports
 
 

@@ -15,6 +15,8 @@
 #include <fstream>
 #include <regex>
 #include <set>
+#include <string>
+#include <vector>
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -245,12 +247,27 @@ namespace geocone
       for (const char *name : {list_of_files, "summary.json"})
         if (!fs::is_regular_file(fs::path(path) / name, error))
           return std::string("it has no ") + name;
-      std::ifstream names(fs::path(path) / list_of_files);
-      for (std::string name; std::getline(names, name);)
-        if (fs::is_symlink(fs::symlink_status(fs::path(path) / name, error)))
-          return "'" + printable(name) +
-                 "' is a symbolic link, through which nothing is written: take "
-                 "it away";
+      std::vector<std::string> names = {list_of_files};
+      std::ifstream            file(fs::path(path) / list_of_files);
+      for (std::string name; std::getline(file, name);)
+        names.push_back(name);
+      for (const std::string &name : names)
+        {
+          const auto is = [&](const std::string  &file,
+                              const fs::file_type type) {
+            std::error_code ignored;
+            return fs::symlink_status(fs::path(path) / file, ignored).type() ==
+                   type;
+          };
+          if (is(name, fs::file_type::symlink))
+            return "'" + printable(name) +
+                   "' is a symbolic link, through which nothing is written: "
+                   "take it away";
+          for (const std::string &file : {name, name + ".part"})
+            if (is(file, fs::file_type::directory))
+              return "'" + printable(file) +
+                     "' is a folder where a file is written: take it away";
+        }
       return take_folder(path);
     }
   } // namespace

@@ -61,3 +61,8 @@ done
 ln -s "$PWD/outside" a/summary.json.part
 "$program" --resume a --quiet
 [ "$(cat outside)" = mine ] && [ ! -L a/summary.json ] && [ ! -e a/summary.json.part ]
+# A folder in the place of a file is met before a table is cut.
+mkdir a/newton.csv.part
+cp -r a before_part
+refused "'newton.csv.part' is a folder" "$program" --resume a --quiet
+diff -r a before_part

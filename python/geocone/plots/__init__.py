@@ -32,7 +32,7 @@ import sys
 import warnings
 from pathlib import Path
 
-from geocone.reader import Missing, ReadError, Run
+from geocone.reader import Missing, ReadError, Run, reason
 
 try:
     from geocone.style import PlotError, Skipped, finish, plain
@@ -102,7 +102,7 @@ def draw_run(run, folder, times=None, kind="png"):
     except (PlotError, ReadError, OSError):
         raise
     except Exception as problem:  # damaged results may fail anywhere
-        raise PlotError(f"what is in '{run.folder}' cannot be drawn: {problem!r}")
+        raise PlotError(f"what is in '{run.folder}' cannot be drawn: {reason(problem)}")
 
 
 def draw_models(folders, output, kind="png"):

@@ -17,7 +17,7 @@ from matplotlib.path import Path as Outline
 from matplotlib.transforms import offset_copy
 
 from geocone.parameter_file import IncludeError, parameters_of
-from geocone.reader import Missing, ReadError, mass_unit
+from geocone.reader import Missing, ReadError, mass_unit, reason
 from geocone.style import (WATER, draw_free_surface, draw_table, plain, save, subplots, table_of,
                            unit_for)
 
@@ -47,7 +47,7 @@ class Model:
             raise Missing(f"there is no file '{problem.filename}'")
         except (OSError, ValueError, LookupError, TypeError, IncludeError,
                 RecursionError) as problem:
-            raise ReadError(f"the model of '{folder}' cannot be read: {problem!r}")
+            raise ReadError(f"the model of '{folder}' cannot be read: {reason(problem)}")
         self.size = float(np.max(self.high - self.low))
         # Of one number: 1 kg, or 1 t where forces are in kN (kg).
         self.mass_unit = mass_unit(self.parameters)

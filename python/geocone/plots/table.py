@@ -3,7 +3,7 @@
 """A table of runs, in Markdown."""
 
 from geocone.files import write_listed
-from geocone.reader import ReadError
+from geocone.reader import ReadError, reason
 
 WORDS = ("run", "method", "element", "reference")  # columns of texts
 
@@ -46,7 +46,7 @@ def write_table(runs, path):
         lines = [{name: " ".join(str(cell).replace("|", "\\|").split())
                   for name, cell in cells_of(run, unit).items()} for run in runs]
     except (LookupError, TypeError, ValueError) as problem:
-        raise ReadError(f"a summary.json is damaged: {problem!r}")
+        raise ReadError(f"a summary.json is damaged: {reason(problem)}")
     columns = [[name, *(line[name] for line in lines)] for name in lines[0]]
     widths = [max(map(len, column)) for column in columns]
     rows = [[cell.ljust(width) if name in WORDS else cell.rjust(width)
