@@ -192,7 +192,7 @@ namespace geocone::GEOCONE_DIM
                          place(points[(*twice)[0]]) + " to " +
                          place(points[(*twice)[1]]) +
                          "\n  allowed: cells side by side\n  remedy:  look for "
-                         "cells that are there twice, or mesh anew");
+                         "cells that are there twice or folded, or mesh anew");
     }
 
     /** Compares the shortest edge with the largest coordinate. */
@@ -519,7 +519,9 @@ namespace geocone::GEOCONE_DIM
       double largest = 0.; ///< coordinate
     };
 
-    /** All cells can be clockwise, single cells cannot. */
+    /** Turns clockwise cells round, e.g. those of a surface that looks down:
+     *  cells that fold over others overlap then. Solids are turned round
+     *  together. */
     void
     orient(const std::vector<Point<dim>>          &points,
            const Elements                         &cells,
@@ -527,13 +529,13 @@ namespace geocone::GEOCONE_DIM
            std::vector<std::vector<unsigned int>> &around)
     {
       double total = 0.;
-      for (const auto &v : around)
-        total +=
-          dim == 2 ? signed_area(points, v) : worst_corner_of_solid(points, v);
+      if (dim == 3)
+        for (const auto &v : around)
+          total += worst_corner_of_solid(points, v);
       for (std::size_t c = 0; c < around.size(); ++c)
         {
           std::vector<unsigned int> &v = around[c];
-          if (total < 0.)
+          if ((dim == 2 ? signed_area(points, v) : total) < 0.)
             turn_round(v);
           if (!((dim == 2 ? worst_corner(points, v)
                           : worst_corner_of_solid(points, v)) > 0.))

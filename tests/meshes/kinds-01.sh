@@ -38,7 +38,8 @@ def mesh(name, kind, order=1, bent=0.):
             corners = [(a, c), (b, c), (b, d), (a, d)]
             if kind == "triangles" or (kind == "mixed" and a < 0.5):
                 add("triangle", 1, corners[:3])
-                add("triangle", 1, corners[2:] + corners[:1])
+                second = corners[2:] + corners[:1]
+                add("triangle", 1, second[::-1] if name == "turned" else second)
             else:
                 add("quadrilateral", 1, corners)
     with open(name + ".msh", "w") as file:
@@ -56,6 +57,7 @@ def mesh(name, kind, order=1, bent=0.):
 mesh("quadrilaterals", "quadrilaterals")
 mesh("triangles", "triangles")
 mesh("mixed", "mixed")
+mesh("turned", "triangles")  # every second one is clockwise, as those of surfaces that look down
 for kind in ("quadrilaterals", "triangles", "mixed"):
     mesh(kind + "2", kind, 2)
 mesh("curved", "triangles", 2, 0.1)
@@ -107,7 +109,7 @@ subsection Output
   set Expectations = limit_load/last = 10989.010989 +- 1e-4
 end
 END
-for mesh in quadrilaterals triangles mixed quadrilaterals2 triangles2 mixed2; do
+for mesh in quadrilaterals triangles turned mixed quadrilaterals2 triangles2 mixed2; do
   "$program" block.prm --quiet --output "$mesh" --set "Geometry/File = $mesh.msh" 2>&1
 done
 
