@@ -187,6 +187,48 @@ namespace geocone::GEOCONE_DIM
     return warnings;
   }
 
+  std::string
+  warn_of_steep_water(const Scene &scene, const BackgroundMesh &mesh)
+  {
+    const Water &water = scene.water;
+    if (!water.acts() || water.scales_with_weight() || water.has_suction())
+      return "";
+    const MPI_Comm comm  = mesh.triangulation().get_communicator();
+    double         worst = 0.;
+    Point<dim>     place;
+    for (const auto &cell : mesh.own_cells())
+      if (const Point<dim> c = cell->center(); scene.geometry.contains(c))
+        for (const unsigned int v : cell->vertex_indices())
+          {
+            // A jump that the gradient between does not see, of more than half
+            // of a cell of water: kinks of its line have less.
+            const Tensor<1, dim> r = cell->vertex(v) - c;
+            double jump            = water.pressure(c + r) - water.pressure(c);
+            for (const double at : {0.25, 0.75})
+              jump += 0.5 * water.force(c + at * r) * r;
+            const double of_cells =
+              0.5 * water.weight() * BackgroundMesh::size_of(cell);
+            if (std::abs(jump) > std::max(worst, of_cells))
+              {
+                worst = std::abs(jump);
+                place = c;
+              }
+          }
+    const double largest = Utilities::MPI::max(worst, comm);
+    if (!(largest > 0.))
+      return "";
+    for (unsigned int d = 0; d < dim; ++d)
+      place[d] = Utilities::MPI::max(
+        worst == largest ? place[d] : std::numeric_limits<double>::lowest(),
+        comm);
+    return format("the pore pressure changes by %.4g Pa within the cell at (",
+                  largest) +
+           text_of_place(place) +
+           "), more than its points see: a part of its thrust is missing; let "
+           "the line of water rise over two cells, or put edges on it "
+           "(Mesh/Type = unstructured)";
+  }
+
   std::vector<std::string>
   warn_of_cut_cells(const Scene &scene, const BackgroundMesh &mesh)
   {

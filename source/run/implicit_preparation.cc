@@ -241,6 +241,7 @@ namespace geocone::GEOCONE_DIM
                                              : warn_of_cut_cells(scene, mesh),
                              warn_of_fixed_ends(scene.structures, mesh)})
       warnings.insert(warnings.end(), more.begin(), more.end());
+    warnings.push_back(warn_of_steep_water(scene, mesh));
     warnings.push_back(warn_of_overstress(points, scene.materials, comm));
     LawTraits traits = scene.materials.traits();
     // The remedies of undrained soil are refused.

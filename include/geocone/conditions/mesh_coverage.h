@@ -27,6 +27,11 @@ namespace geocone::GEOCONE_DIM
    *  Collective. */
   std::vector<std::string>
   warn_of_cut_cells(const Scene &scene, const BackgroundMesh &mesh);
+
+  /** Returns a warning of pore pressures that change within a cell by more than
+   *  the seepage forces at its points, or nothing. Collective. */
+  std::string
+  warn_of_steep_water(const Scene &scene, const BackgroundMesh &mesh);
 } // namespace geocone::GEOCONE_DIM
 
 #endif
