@@ -2,7 +2,7 @@
 # compressed has the exact force E / (1 - nu^2) times the strain on quadrilaterals, triangles,
 # both in one mesh (the quadrilaterals are divided), and on quadratic ones, whose corners count.
 # Curved edges, an open quote, and a curve inside the body are refused.
-program=$1 folder=$3
+program=$1 root=$2 folder=$3
 rm -rf "$folder" && mkdir -p "$folder" && cd "$folder"
 /usr/bin/python3 - <<'END'
 n = 2
@@ -127,3 +127,6 @@ refused '"base, level", inside' --set "Geometry/File = mixed.msh" \
   --set 'Boundary conditions/base/Sides = base, level'
 refused "inside the body" --set "Geometry/File = mixed.msh" \
   --set 'Boundary conditions/base/Sides = 1, inside'
+# Regions of a gmsh mesh may be given clockwise where the body is not.
+"$program" "$root/prm/safety/embankment.prm" --quiet --dry-run \
+  --set 'Materials/clay/Region polygon = 0, 0; 40, 0; 40, -5; 0, -5'
