@@ -83,7 +83,10 @@ namespace geocone::GEOCONE_DIM
             "instead of along coordinates; tangential motion is free."
           : "Traction [Pa] along the outward normal of the sides, -p for a "
             "pressure p; with 'Traction tangential' instead of x and y. MPM: "
-            "it follows the rotation and stretch of the side.");
+            "it follows the rotation and stretch of the side. Or pore "
+            "pressure: "
+            "that of the water in the soil, for sides that are closed and dry "
+            "outside, whose total traction is zero.");
     if (quantity == "Traction" && dim == 2)
       add_parameter(
         quantity + " tangential",
@@ -222,7 +225,9 @@ namespace geocone::GEOCONE_DIM
           components[c]->prepare(
             texts[c], parameter(quantity + " " + coordinate[c]), &folder);
         }
-    if (texts[dim] != unset)
+    if (is_pore_pressure())
+      normal.emplace();
+    else if (texts[dim] != unset)
       normal.emplace().prepare(texts[dim], parameter(quantity + " normal"));
     if (texts[dim + 1] != unset)
       tangential.emplace().prepare(texts[dim + 1],

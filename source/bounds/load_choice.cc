@@ -77,6 +77,20 @@ namespace geocone::GEOCONE_DIM
     may_vanish = true;
   }
 
+  void
+  LoadChoice::refuse_pore_pressures(const Scene &scene) const
+  {
+    for (const auto &load : scene.tractions.list)
+      if (load->is_pore_pressure() &&
+          (chosen == LoadFactor::weight || chosen == LoadFactor::tractions))
+        throw InputError(load->parameter("Traction normal"),
+                         load->formula(dim),
+                         "a formula where weight or tractions are multiplied",
+                         "bound the reaction to a velocity or reduce the "
+                         "strength, in which water stays as it is, or give "
+                         "the pressure by a formula");
+  }
+
   double
   LoadChoice::stress_of_weight(const Scene &scene, const double height)
   {

@@ -99,6 +99,8 @@ namespace geocone::GEOCONE_DIM
   double
   Expression::value(const dealii::Point<dim> &x, const double t) const
   {
+    if (field)
+      return field(x, t);
     if (number)
       return *number;
     if (record)

@@ -163,6 +163,7 @@ namespace geocone::GEOCONE_DIM
   {
     take_strengths(scene);
     choose(prescribed_velocity(scene, triangles), scene.gravity.acts());
+    refuse_pore_pressures(scene);
     check_loads(scene, triangles);
   }
 
@@ -199,6 +200,7 @@ namespace geocone::GEOCONE_DIM
   {
     take_strengths(scene);
     choose_tractions(prescribed_velocity(scene, triangles).has_value(), kind);
+    refuse_pore_pressures(scene);
     check_loads(scene, triangles);
   }
 

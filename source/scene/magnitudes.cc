@@ -120,8 +120,8 @@ namespace geocone::GEOCONE_DIM
             warnings.push_back(
               format("'%s' is filled with water, with up to %.4g Pa on its "
                      "sides: if it is empty, let water flow to it by "
-                     "'Seepage', or give its sides 'Traction normal' = the "
-                     "pore pressure",
+                     "'Seepage', or give its sides 'Traction normal = pore "
+                     "pressure'",
                      name.c_str(),
                      most));
         }
@@ -203,8 +203,8 @@ namespace geocone::GEOCONE_DIM
           format("the side '%s' is not in 'Seepage', and water presses on it "
                  "with up to %.4g Pa, %.4g N/m in all: it is held as by free "
                  "water outside; name it with 'Level = none' if water leaves "
-                 "there, or give it 'Traction normal' = the pore pressure if "
-                 "it is closed and dry outside",
+                 "there, or give it 'Traction normal = pore pressure' if it is "
+                 "closed and dry outside",
                  side.c_str(),
                  thrust.first,
                  thrust.second));
@@ -261,8 +261,8 @@ namespace geocone::GEOCONE_DIM
             warnings.push_back(format(
               "the plate '%s' is on a side of the body, and water is taken to "
               "stand on both sides of it: if it is dry outside, its thrust of "
-              "%.4g, %.4g N/m is missing; add it as 'Traction normal' = the "
-              "pore pressure on this side",
+              "%.4g, %.4g N/m is missing: give this side 'Traction normal = "
+              "pore pressure'",
               plate->name.c_str(),
               force[0],
               force[1]));

@@ -259,22 +259,44 @@ namespace geocone::GEOCONE_DIM
   double
   Water::pressure(const Point<dim> &x) const
   {
+    if (all_flows.empty())
+      return pressure_of(x, 0);
+    double sum = 0.;
+    for (std::size_t i = 0; i < all_flows.size(); ++i)
+      if (initial_weights[i] != 0.)
+        sum += initial_weights[i] * pressure_of(x, i);
+    return sum;
+  }
+
+  double
+  Water::pressure(const Point<dim> &x, const double t) const
+  {
+    if (t == 0.)
+      return pressure(x);
+    const std::vector<double> weights = interpolation_weights(t);
+    double                    sum     = 0.;
+    for (std::size_t i = 0; i < weights.size(); ++i)
+      if (weights[i] != 0.)
+        sum += weights[i] * pressure_of(x, i);
+    return sum;
+  }
+
+  double
+  Water::pressure_of(const Point<dim> &x, const std::size_t line) const
+  {
     if (grid)
       return grid->value(x);
     if (!all_flows.empty())
-      {
-        double sum = 0.;
-        for (std::size_t i = 0; i < all_flows.size(); ++i)
-          if (initial_weights[i] != 0.)
-            sum +=
-              initial_weights[i] * std::max(all_flows[i].pressure.value(x), 0.);
-        return sum;
-      }
+      return std::max(all_flows[line].pressure.value(x), 0.);
     if (columns)
       return pressure_ratio * columns->stress(x);
     return table.empty()
              ? 0.
-             : unit_weight * std::max(level(table, x[0])[0] - x[1], 0.);
+             : unit_weight *
+                 std::max(
+                   level(line == 0 ? table : later[line - 1].table, x[0])[0] -
+                     x[1],
+                   0.);
   }
 
   double

@@ -238,6 +238,7 @@ namespace geocone::GEOCONE_DIM
     const std::vector<FacetCondition> held =
       facet_conditions(scene, tetrahedra);
     choose(prescribed_velocity(held), scene.gravity.acts());
+    refuse_pore_pressures(scene);
     check_loads(scene, tetrahedra, held);
   }
 

@@ -190,6 +190,14 @@ namespace geocone::GEOCONE_DIM
       return quantity == "Traction";
     }
 
+    /** Returns true if the condition prescribes the traction of the pore
+     *  pressure along the normal, whose field is that of the scene's water. */
+    bool
+    is_pore_pressure() const
+    {
+      return is_traction() && texts[dim] == "pore pressure";
+    }
+
     /** Returns true if the velocity is prescribed for particles or for a side
      *  of the body instead of nodes. */
     bool

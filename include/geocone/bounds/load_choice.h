@@ -100,6 +100,12 @@ namespace geocone::GEOCONE_DIM
     choose(const std::optional<dealii::Tensor<1, dim>> &velocity,
            const bool                                   has_weight);
 
+    /** Rejects tractions of pore pressures if either weight or tractions are
+     *  multiplied: water would be multiplied in one of them alone.
+     *  @throws InputError */
+    void
+    refuse_pore_pressures(const Scene &scene) const;
+
     /** Selects weight and tractions as the loads for strength reduction.
      *  @param kind of analysis, for messages
      *  @throws InputError if a velocity is prescribed that is not zero */

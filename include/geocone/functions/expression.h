@@ -11,6 +11,7 @@
 #include <deal.II/base/point.h>
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -18,8 +19,8 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Scalar function of position (m) and time (s), given by a formula or by a
-   * time history. A formula is written in muParser's language with the constant
+   * Scalar function of position (m) and time (s), given by a formula, by a
+   * time history or by a field. A formula is written in muParser's language with the constant
    * pi; where files are allowed, a time history is given as "record FILE.csv"
    * (TimeHistory).
    */
@@ -42,6 +43,15 @@ namespace geocone::GEOCONE_DIM
     double
     value(const dealii::Point<dim> &x, const double t) const;
 
+    using Field = std::function<double(const dealii::Point<dim> &, double)>;
+
+    /** Takes the values from a field instead. */
+    void
+    set_field(const Field &values)
+    {
+      field = values;
+    }
+
     /** Returns true if the expression is identically zero. */
     bool
     is_zero() const
@@ -55,6 +65,7 @@ namespace geocone::GEOCONE_DIM
     recorded() const;
 
   private:
+    Field                                        field;  ///< or empty
     std::optional<double>                        number; ///< if constant
     std::unique_ptr<dealii::FunctionParser<dim>> function;
     std::unique_ptr<TimeHistory>                 record;

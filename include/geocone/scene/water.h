@@ -145,6 +145,11 @@ namespace geocone::GEOCONE_DIM
     double
     pressure(const dealii::Point<dim> &x) const;
 
+    /** Returns the pore pressure u (Pa) at the point x and the time t (s); at
+     *  t = 0 the initial one. */
+    double
+    pressure(const dealii::Point<dim> &x, const double t) const;
+
     /** Returns true if the soil at x has its saturated density: below the water
      *  table, where the initial pore pressure is positive. With the pore
      *  pressure ratio no soil has: unit weights are total ones. */
@@ -203,6 +208,11 @@ namespace geocone::GEOCONE_DIM
 
   private:
     using Table = std::vector<dealii::Point<2>>; ///< vertices (x, y)
+
+    /** Returns the pore pressure (Pa) of one piezometric line or flow problem.
+     *  @param line see force() */
+    double
+    pressure_of(const dealii::Point<dim> &x, const std::size_t line) const;
 
     /** Rejects a pore pressure ratio out of its limits or beside other pore
      *  pressures. @throws InputError */
