@@ -135,7 +135,33 @@ namespace geocone::GEOCONE_DIM
           for (unsigned int k = 0; k + 1 < dim; ++k)
             size = std::max(size, cell_size_along(mesh, panel, k));
         loads.push_back({c, MovingSurface(panels, size)});
+        loads.back().surface.remove(
+          [&](const Point<dim> &x) {
+            return scene.loading.adds(
+              scene.materials.name(scene.regions.material_at(x)));
+          },
+          0.,
+          0.);
       }
+  }
+
+  void
+  MovingConditions::remove(const Stage &stage,
+                           const double t,
+                           const double duration)
+  {
+    for (LoadedSide &side : loads)
+      side.surface.remove(
+        [&](const Point<dim> &x) { return stage.removes(x); }, t, duration);
+  }
+
+  void
+  MovingConditions::add(const unsigned int material)
+  {
+    for (LoadedSide &side : loads)
+      side.surface.add([&](const Point<dim> &x) {
+        return scene.regions.material_at(x) == material;
+      });
   }
 
   void
@@ -207,12 +233,6 @@ namespace geocone::GEOCONE_DIM
     return f * mesh.measure(x); // around an axis, current radius
   }
 
-  NodesWithMass
-  MovingConditions::known_mass(const NodesWithMass &has_mass) const
-  {
-    return scene.loading.changes_body() ? NodesWithMass() : has_mass;
-  }
-
   void
   MovingConditions::add_tractions(Vector              &force,
                                   const NodesWithMass &has_mass,
@@ -220,7 +240,6 @@ namespace geocone::GEOCONE_DIM
                                   const Stage         *stage,
                                   const bool           scaled) const
   {
-    const NodesWithMass carries = known_mass(has_mass);
     std::vector<double> N;
     for (const auto &[condition, surface] : loads)
       {
@@ -231,16 +250,17 @@ namespace geocone::GEOCONE_DIM
         std::vector<double>         carried(facets.size(), 0.);
         const auto add = [&, &surface = surface](const std::size_t    number,
                                                  const BoundaryPoint &point) {
+          const double   left = surface.part_left(number, t);
           Tensor<1, dim> f;
-          if (is_active)
-            f = traction_at(load,
-                            surface.size_at_start(number),
-                            area_of(facets[number]),
-                            point.position,
-                            t);
+          if (is_active && left > 0.)
+            f = left * traction_at(load,
+                                   surface.size_at_start(number),
+                                   area_of(facets[number]),
+                                   point.position,
+                                   t);
           N = point.values;
-          if (f.norm() > 0. && carries &&
-              !keep_nodes_with_mass(space, carries, point.nodes, N))
+          if (f.norm() > 0. && has_mass &&
+              !keep_nodes_with_mass(space, has_mass, point.nodes, N))
             return;
           carried[number] += point.weight;
           for (unsigned int i = 0; i < point.nodes.size(); ++i)
@@ -248,13 +268,16 @@ namespace geocone::GEOCONE_DIM
               force.local_element(dim * space.local_node(point.nodes[i]) + d) +=
                 point.weight * N[i] * f[d];
         };
-        const std::vector<double> parts =
-          for_each_point(mesh, space, facets, add);
+        std::vector<double> parts = for_each_point(mesh, space, facets, add);
         std::vector<Point<dim>> middles;
-        for (const SidePart &facet : facets)
-          middles.push_back(facet.middle());
+        for (std::size_t i = 0; i < facets.size(); ++i)
+          {
+            middles.push_back(facets[i].middle());
+            if (!(surface.part_left(i, t) > 0.)) // may be anywhere
+              parts[i] = carried[i] = 1.;
+          }
         check_in_mesh(load, middles, parts);
-        if (carries)
+        if (has_mass)
           check_on_soil(load, middles, carried);
       }
     if (!loads.empty())
@@ -494,14 +517,13 @@ namespace geocone::GEOCONE_DIM
                          const double         h,
                          const double         t)
   {
-    const NodesWithMass moves = known_mass(has_mass);
     for (PrescribedSide &side : supports)
       {
         side.before = side.panels;
         if (!is_active[side.condition])
           {
             side.panels =
-              moved_with_body(side.panels, mesh, space, moves, v, h);
+              moved_with_body(side.panels, mesh, space, has_mass, v, h);
             continue;
           }
         for (SidePart &panel : side.panels)
@@ -516,7 +538,7 @@ namespace geocone::GEOCONE_DIM
           }
       }
     for (LoadedSide &side : loads)
-      side.surface.move(mesh, space, moves, v, h);
+      side.surface.move(mesh, space, has_mass, v, h);
   }
 
   std::vector<bool>
@@ -538,7 +560,7 @@ namespace geocone::GEOCONE_DIM
     for (const LoadedSide &side : loads)
       for_each_point(mesh,
                      space,
-                     side.surface.facets(),
+                     side.surface.facets_with_soil(),
                      [&](const std::size_t, const BoundaryPoint &point) {
                        mark_nodes(point);
                      });
@@ -630,7 +652,7 @@ namespace geocone::GEOCONE_DIM
         }
     std::set<std::vector<double>> seen; // corners of facets
     for (const LoadedSide &side : loads)
-      for (SidePart &facet : side.surface.facets())
+      for (SidePart &facet : side.surface.facets_with_soil())
         {
           std::vector<double> places;
           for (const Point<dim> &corner : facet.corners)

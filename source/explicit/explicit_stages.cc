@@ -30,6 +30,8 @@ namespace geocone::GEOCONE_DIM
         if (fade_end > 0.)
           end_removal(); // of an earlier stage, up to rounding
         remarks.push_back(body.remove(stage));
+        if (boundary)
+          boundary->remove(stage, t);
         if (stage.removal_duration > 0.)
           fade_end = t + stage.removal_duration;
         must_refresh = true;

@@ -28,6 +28,7 @@ namespace geocone::GEOCONE_DIM
       Utilities::MPI::sum(stays.size(), comm),
       "points"));
     particles.keep(stays, points);
+    moving->remove(stage, 0., 0.); // its forces are ramped on the nodes
   }
 
   void
@@ -45,6 +46,7 @@ namespace geocone::GEOCONE_DIM
                                    particles.add(m, points)) +
                             name + "'");
           added.push_back(m);
+          moving->add(m);
         }
   }
 

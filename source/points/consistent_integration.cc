@@ -142,18 +142,15 @@ namespace geocone::GEOCONE_DIM
       return result;
     }
 
-    /** Facets with soil behind and none beyond them. Of the others, some have
-     *  no soil in the present stage: no point lies in their cell and in the one
-     *  behind it. Some have been buried: a cell away from them along their
-     *  normal points fill half of a cell. Collective. */
+    /** Facets that are not buried: a cell away from them along their normal
+     *  points fill less than half of a cell. Collective. */
     std::vector<LoadedFacet>
     free_facets(const BackgroundMesh        &mesh,
                 const std::vector<SidePart> &facets,
                 const MaterialPoints        &points)
     {
       std::vector<LoadedFacet> loaded(facets.begin(), facets.end()), free;
-      // Beyond each facet, and number of cells with points behind it.
-      std::vector<double> filled(loaded.size(), 0.), behind = filled;
+      std::vector<double>      filled(loaded.size(), 0.); // beyond each
       for (unsigned int c = 0; c < points.n_cells() && !loaded.empty(); ++c)
         {
           const BoundingBox<dim> box = points.cells[c]->bounding_box();
@@ -161,23 +158,19 @@ namespace geocone::GEOCONE_DIM
                               (box.volume() * mesh.measure(box.center()));
           for (std::size_t i = 0; i < loaded.size(); ++i)
             {
-              const LoadedFacet &facet  = loaded[i];
-              const Point<dim>   middle = facet.part.middle();
+              const LoadedFacet &facet = loaded[i];
               // Along an axis, diagonal facets through vertices would see the
               // cells that they cut.
               const Tensor<1, dim> area = area_of(facet.part),
                                    out  = box.side_length(facet.axis) /
                                          area.norm() * area;
-              if (box.point_inside(middle + out))
+              if (box.point_inside(facet.part.middle() + out))
                 filled[i] = std::max(filled[i], part);
-              if (box.point_inside(middle) || box.point_inside(middle - out))
-                behind[i] += 1.;
             }
         }
       sum_over_ranks(filled, mesh.triangulation().get_communicator());
-      sum_over_ranks(behind, mesh.triangulation().get_communicator());
       for (std::size_t i = 0; i < loaded.size(); ++i)
-        if (filled[i] < 0.5 && behind[i] > 0.)
+        if (filled[i] < 0.5)
           free.push_back(loaded[i]);
       return free;
     }

@@ -11,6 +11,25 @@ namespace geocone::GEOCONE_DIM
 {
   using namespace dealii;
 
+  namespace
+  {
+    /** Vector out of the body, of a facet's own length. */
+    Tensor<1, dim>
+    outward(const SidePart &facet)
+    {
+      const Tensor<1, dim> area = area_of(facet);
+      const double         size = area.norm();
+      return std::pow(size, 1. / (dim - 1)) / size * area;
+    }
+
+    /** Place behind a facet, at the depth of the first particles. */
+    Point<dim>
+    place_behind(const SidePart &facet)
+    {
+      return facet.middle() - 0.1 * outward(facet);
+    }
+  } // namespace
+
   MovingSurface::MovingSurface(const std::vector<SidePart> &panels,
                                const double                 longest)
   {
@@ -47,6 +66,8 @@ namespace geocone::GEOCONE_DIM
                 add({{p, q + 1, q}});
             }
       }
+    ends.assign(parts.size(), always);
+    fading.assign(parts.size(), 0.);
   }
 
   std::vector<SidePart>
@@ -59,6 +80,48 @@ namespace geocone::GEOCONE_DIM
     return all;
   }
 
+  std::vector<SidePart>
+  MovingSurface::facets_with_soil() const
+  {
+    std::vector<SidePart> all = facets(), with_soil;
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (has_soil(i))
+        with_soil.push_back(std::move(all[i]));
+    return with_soil;
+  }
+
+  void
+  MovingSurface::remove(const std::function<bool(const Point<dim> &)> &goes,
+                        const double                                   begin,
+                        const double                                   duration)
+  {
+    const std::vector<SidePart> all = facets();
+    for (std::size_t i = 0; i < parts.size(); ++i)
+      if (ends[i] == always && goes(place_behind(all[i])))
+        {
+          ends[i]   = duration > 0. ? begin + duration : never;
+          fading[i] = duration;
+        }
+  }
+
+  void
+  MovingSurface::add(const std::function<bool(const Point<dim> &)> &comes)
+  {
+    const std::vector<SidePart> all = facets();
+    for (std::size_t i = 0; i < parts.size(); ++i)
+      if (!has_soil(i) && comes(place_behind(all[i])))
+        ends[i] = always;
+  }
+
+  double
+  MovingSurface::part_left(const std::size_t facet, const double t) const
+  {
+    const double end = ends[facet];
+    return end == always ? 1.
+           : t < end     ? std::min((end - t) / fading[facet], 1.)
+                         : 0.;
+  }
+
   void
   MovingSurface::move(const BackgroundMesh &mesh,
                       const Space          &space,
@@ -69,16 +132,16 @@ namespace geocone::GEOCONE_DIM
     // A position inside the body near each corner, towards the midpoints of its
     // facets.
     std::vector<Tensor<1, dim>> inward(places.size());
+    std::vector<bool>           moves(places.size(), false);
     const std::vector<SidePart> present = facets();
     for (std::size_t i = 0; i < parts.size(); ++i)
-      {
-        const Point<dim>     middle = present[i].middle();
-        const Tensor<1, dim> area   = area_of(present[i]);
-        const double size = std::pow(area.norm(), 1. / (dim - 1)); // its length
+      if (has_soil(i))
         for (const unsigned int corner : parts[i].corners)
-          inward[corner] +=
-            1e-6 * (middle - places[corner]) - 1e-9 * size / area.norm() * area;
-      }
+          {
+            moves[corner] = true;
+            inward[corner] += 1e-6 * (present[i].middle() - places[corner]) -
+                              1e-9 * outward(present[i]);
+          }
     // Sum of velocities there, and number of cells of all ranks that
     // contribute.
     constexpr unsigned int               n_sums = dim + 1;
@@ -91,7 +154,7 @@ namespace geocone::GEOCONE_DIM
         for (std::size_t k = 0; k < places.size(); ++k)
           {
             const Point<dim> x = places[k] + inward[k];
-            if (!box.point_inside(x, 1e-6))
+            if (!moves[k] || !box.point_inside(x, 1e-6))
               continue;
             const auto unit = mesh.unit_point(cell, x);
             if (!unit)

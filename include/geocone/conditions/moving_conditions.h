@@ -36,6 +36,15 @@ namespace geocone::GEOCONE_DIM
       is_active = scene.dirichlet.acting_in(stage);
     }
 
+    /** Removes the loads on the soil that a stage removes from time t on.
+     *  @param duration of their decrease (s); 0: at once */
+    void
+    remove(const Stage &stage, const double t, const double duration);
+
+    /** Adds the loads on the soil of a material added by a stage. */
+    void
+    add(const unsigned int material);
+
     /** Returns true if a boundary condition is active in the current stage. */
     bool
     is_acting(const unsigned int condition) const
@@ -50,11 +59,9 @@ namespace geocone::GEOCONE_DIM
     check_held_particles(const MaterialPoints &points) const;
 
     /**
-     * Adds the nodal forces of all tractions at time t to @p force, on nodes
-     * with mass. Collective.
-     * @param has_mass empty: on all nodes. Also where stages change the body:
-     * loads on soil that is absent, on nodes without mass, must not pass to
-     * other nodes
+     * Adds the nodal forces of all tractions at time t to @p force, on facets with
+     * soil and nodes with mass. Collective.
+     * @param has_mass empty: on all nodes
      * @param stage,scaled as in Loads::evaluate()
      * @throws StepFailure if a boundary segment has left the mesh or the points
      */
@@ -102,8 +109,8 @@ namespace geocone::GEOCONE_DIM
          const double         t);
 
     /** Boundary segments that limit the soil domain: those normal to a
-     *  coordinate axis whose normal velocity is prescribed, and loaded ones,
-     *  each once whatever the number of its tractions. */
+     *  coordinate axis whose normal velocity is prescribed, and loaded ones with
+     *  soil, each once whatever the number of its tractions. */
     SoilBoundary
     soil_boundary() const;
 
@@ -214,10 +221,6 @@ namespace geocone::GEOCONE_DIM
                 const dealii::Tensor<1, dim> &area,
                 const dealii::Point<dim>     &x,
                 const double                  t) const;
-
-    /** Returns @p has_mass, or nothing in scenes whose stages change the body. */
-    NodesWithMass
-    known_mass(const NodesWithMass &has_mass) const;
 
     /** Part of a facet or segment that was not found. */
     struct MissingPart

@@ -37,6 +37,14 @@ namespace geocone::GEOCONE_DIM
     void
     follow_ranks();
 
+    /** Removes the tractions on the soil that a stage removes, at time t or
+     *  gradually from then on. */
+    void
+    remove(const Stage &stage, const double t)
+    {
+      moving->remove(stage, t, stage.removal_duration);
+    }
+
     /** Evaluates the boundary forces at time t, the midpoint of a step.
      *  Collective.
      *  @throws StepFailure if a loaded segment has left the mesh */
