@@ -75,6 +75,27 @@ namespace geocone::GEOCONE_DIM
       return true;
     }
 
+    bool
+    is_on_side(const BoundaryCondition &condition)
+    {
+      return condition.imposed_on() == Imposition::On::side;
+    }
+
+    /** Whether the side of a condition moves as prescribed: not that of a mean
+     *  of all particles, which are free to deviate from it, and not through
+     *  FLIP, which leaves the velocity of the grid free. */
+    bool
+    moves_as_prescribed(const BoundaryCondition &condition)
+    {
+      if (is_on_side(condition))
+        return true;
+      const Imposition &imposition = *condition.imposition.get();
+      const auto        row_of     = [&](const unsigned int particle) {
+        return imposition.share({particle, particle, 1., 1.}).row;
+      };
+      return !imposition.through_flip && row_of(0) != row_of(1); // in two cells
+    }
+
     /** Panels whose corners have moved with the velocity of the grid.
      *  Collective. */
     std::vector<SidePart>
@@ -120,9 +141,10 @@ namespace geocone::GEOCONE_DIM
         {
           std::vector<SidePart> panels = // also checks the names
             segments_of_body(*list[c], scene.geometry);
-          if (list[c]->imposed_on() != Imposition::On::side)
+          if (!moves_as_prescribed(*list[c]))
             continue;
-          shorten(*list[c], panels);
+          if (is_on_side(*list[c]))
+            shorten(*list[c], panels);
           supports.push_back({c, panels});
         }
     const auto &tractions = scene.tractions.list;
@@ -331,10 +353,10 @@ namespace geocone::GEOCONE_DIM
   {
     for (const PrescribedSide &side : supports)
       {
-        if (!is_active[side.condition])
-          continue;
         const BoundaryCondition &condition =
           *scene.dirichlet.list[side.condition];
+        if (!is_active[side.condition] || !is_on_side(condition))
+          continue;
         std::array<unsigned int, dim - 1> n;
         n.fill(condition.n_segments);
         std::vector<double>     part_in_mesh;
@@ -582,8 +604,10 @@ namespace geocone::GEOCONE_DIM
         {
           const SidePart &panel = side.panels[l];
           const Seen      now   = seen_from(panel, after);
+          const BoundaryCondition &condition =
+            *scene.dirichlet.list[side.condition];
           if (!now.is_close_behind() || !is_active[side.condition] ||
-              !holds_normal(*scene.dirichlet.list[side.condition], panel))
+              !is_on_side(condition) || !holds_normal(condition, panel))
             continue;
           const Seen was = seen_from(side.before[l], before);
           if (was.is_close_behind())
@@ -620,13 +644,16 @@ namespace geocone::GEOCONE_DIM
         for (const PrescribedSide &side : supports)
           for (const SidePart &panel : side.panels)
             {
+              const BoundaryCondition &condition =
+                *scene.dirichlet.list[side.condition];
               const Seen seen = seen_from(panel, points.position[p]);
               behind =
                 behind ||
-                (is_active[side.condition] && seen.is_close_behind() &&
+                (is_active[side.condition] && is_on_side(condition) &&
+                 seen.is_close_behind() &&
                  seen.beyond > 0.1 * scene.geometry.size_of_point(
                                        points.position[p], points.volume[p]) &&
-                 holds_normal(*scene.dirichlet.list[side.condition], panel));
+                 holds_normal(condition, panel));
             }
         n += behind;
       }
