@@ -27,7 +27,6 @@ namespace geocone::GEOCONE_DIM
     , stress(points.n_points())
     , mode(points.n_points(), Mode::elastic)
     , previous_mode(points.n_points(), Mode::elastic)
-    , tangent(points.n_points())
   {
     for (unsigned int p = 0; p < points.n_points(); ++p)
       if (runs.empty() || runs.back().material != points.material[p])
@@ -35,7 +34,10 @@ namespace geocone::GEOCONE_DIM
       else
         ++runs.back().end;
     if (CellPressures::are_those_of(points, materials))
-      cell_pressures.emplace(points, materials);
+      {
+        cell_pressures.emplace(points, materials);
+        tangent.resize(points.n_points());
+      }
     if (dim == 2 && materials.traits().spatial)
       stress_zz.resize(points.n_points());
     if (is_axisymmetric())
@@ -53,9 +55,9 @@ namespace geocone::GEOCONE_DIM
   void
   InternalForces::begin_step(const double step)
   {
-    h              = step;
-    friction_lag   = 0.;
-    by_natural_map = false;
+    h            = step;
+    friction_lag = 0.;
+    natural_map  = nullptr;
     if (cell_pressures)
       cell_pressures->begin_step();
   }
@@ -226,40 +228,51 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
-  InternalForces::update_materials(const bool with_tangent) const
-  {
-    for (const Run &run : runs)
-      update_material(run, with_tangent);
-  }
-
-  void
   InternalForces::update_materials(const unsigned int begin,
-                                   const unsigned int end) const
+                                   const unsigned int end,
+                                   MandelMatrix      *tangents) const
   {
     auto run =
       std::partition_point(runs.begin(), runs.end(), [begin](const Run &run) {
         return run.end <= begin;
       });
     for (; run != runs.end() && run->begin < end; ++run)
-      update_material(
-        {std::max(run->begin, begin), std::min(run->end, end), run->material},
-        true);
+      {
+        const Run part{
+          std::max(run->begin, begin), std::min(run->end, end), run->material};
+        const unsigned int n = part.end - part.begin;
+        Response           response;
+        response.stress = ArrayView<Mandel>(&stress[part.begin], n);
+        response.mode   = ArrayView<Mode>(&mode[part.begin], n);
+        if (tangents != nullptr)
+          response.tangent =
+            ArrayView<MandelMatrix>(tangents + (part.begin - begin), n);
+        if (!stress_zz.empty())
+          response.stress_zz = &stress_zz[part.begin];
+        if (!tangent_zz.empty())
+          response.tangent_zz = &tangent_zz[part.begin];
+        materials[part.material].update(increment_of(part), response);
+      }
   }
 
-  void
-  InternalForces::update_material(const Run &run, const bool with_tangent) const
+  const MandelMatrix *
+  InternalForces::TangentsByCell::of_cell(const unsigned int c)
   {
-    const unsigned int n = run.end - run.begin;
-    Response           response;
-    response.stress = ArrayView<Mandel>(&stress[run.begin], n);
-    response.mode   = ArrayView<Mode>(&mode[run.begin], n);
-    if (with_tangent)
-      response.tangent = ArrayView<MandelMatrix>(&tangent[run.begin], n);
-    if (!stress_zz.empty())
-      response.stress_zz = &stress_zz[run.begin];
-    if (!tangent_zz.empty())
-      response.tangent_zz = &tangent_zz[run.begin];
-    materials[run.material].update(increment_of(run), response);
+    constexpr unsigned int           n_cells = 64; // computed at once
+    const std::vector<unsigned int> &first   = forces.points.first_point;
+    if (forces.cell_pressures)
+      return &forces.tangent[first[c]];
+    if (first[c + 1] > end)
+      {
+        begin = first[c];
+        end   = first[std::min(c + n_cells, forces.points.n_cells())];
+        computed.resize(end - begin);
+        if (forces.natural_map != nullptr)
+          forces.natural_map->copy_tangents(begin, end, computed.data());
+        else
+          forces.update_materials(begin, end, computed.data());
+      }
+    return computed.data() + (first[c] - begin);
   }
 
   Increment
@@ -316,8 +329,8 @@ namespace geocone::GEOCONE_DIM
   void
   InternalForces::residual(Vector &part, const Vector &v, const LocalLaw &law)
   {
-    friction_lag   = law.friction_lag;
-    by_natural_map = law.natural_map != nullptr;
+    friction_lag = law.friction_lag;
+    natural_map  = law.natural_map;
     with_n_nodes(points.n_nodes, [&](const auto n_constant) {
       constexpr int n = n_constant;
       for (unsigned int c = 0; c < points.n_cells(); ++c)
@@ -331,23 +344,22 @@ namespace geocone::GEOCONE_DIM
 
     previous_mode.swap(mode);
     map_error = NaturalMap::Error();
-    if (by_natural_map)
+    if (natural_map != nullptr)
       {
         map_error = law.natural_map->update(strain, mode);
-        stress    = law.natural_map->stress();
-        tangent   = law.natural_map->tangent();
+        stress    = natural_map->stress();
       }
     else if (cell_pressures)
       cell_pressures->equalise(
         [this](const unsigned int begin, const unsigned int end) {
-          update_materials(begin, end);
+          update_materials(begin, end, &tangent[begin]);
         },
         stress,
         tangent,
         strain,
         strain_zz);
     else
-      update_materials(false);
+      update_materials(0, points.n_points(), nullptr);
     if (flow != nullptr)
       flow->update(v);
     update_pressures();
@@ -420,7 +432,7 @@ namespace geocone::GEOCONE_DIM
   {
     if (cell_pressures)
       return Utilities::MPI::max(cell_pressures->difference(), comm);
-    if (!by_natural_map)
+    if (natural_map == nullptr)
       return 0.;
     const double scale = Utilities::MPI::max(map_error.stress_scale, comm);
     return Utilities::MPI::max(map_error.largest_residual, comm) /
@@ -511,8 +523,8 @@ namespace geocone::GEOCONE_DIM
                             const double           blend,
                             SparseMatrix          &matrix) const
   {
-    update_tangents();
-    const bool one_triangle = pattern.is_one_triangle();
+    TangentsByCell tangents(*this);
+    const bool     one_triangle = pattern.is_one_triangle();
     with_n_nodes(points.n_nodes, [&](const auto n_constant) {
       constexpr int                  n = n_constant;
       std::vector<MandelMatrix>      C;
@@ -524,12 +536,13 @@ namespace geocone::GEOCONE_DIM
         {
           const unsigned int first = points.first_point[c];
           const unsigned int n_q   = points.first_point[c + 1] - first;
+          const MandelMatrix *const of_cell = tangents.of_cell(c);
           C.resize(n_q);
           scratch.resize(kernels::scratch_size(n_q, n));
           for (unsigned int q = 0; q < n_q; ++q)
             {
               const unsigned int p = first + q;
-              C[q]                 = (h * points.weight[p]) * tangent[p];
+              C[q]                 = (h * points.weight[p]) * of_cell[q];
               if (blend > 0.)
                 C[q] = (1. - blend) * C[q] +
                        (blend * h * points.weight[p]) *
@@ -574,8 +587,8 @@ namespace geocone::GEOCONE_DIM
   void
   InternalForces::apply_tangent(Vector &dst, const Vector &dv) const
   {
-    update_tangents();
-    Vector part;
+    TangentsByCell tangents(*this);
+    Vector         part;
     part.reinit(dst);
     std::vector<Mandel> rate(points.n_points());
     std::vector<double> rate_zz(strain_zz.size());
@@ -587,7 +600,8 @@ namespace geocone::GEOCONE_DIM
       constexpr int n = n_constant;
       for (unsigned int c = 0; c < points.n_cells(); ++c)
         {
-          double cell_v[dim * n], cell_f[dim * n] = {};
+          const MandelMatrix *const of_cell = tangents.of_cell(c);
+          double                    cell_v[dim * n], cell_f[dim * n] = {};
           gather<n>(dv.begin(), &points.nodes[c * n], cell_v);
           turned.velocities_to_xy(c, cell_v);
           strains_of_cell<n>(c, cell_v, h, rate, rate_zz);
@@ -597,7 +611,7 @@ namespace geocone::GEOCONE_DIM
           add_forces_of_cell<n>(
             c,
             [&](const unsigned int p) -> Mandel {
-              Mandel change = tangent[p] * rate[p];
+              Mandel change = of_cell[p - points.first_point[c]] * rate[p];
               if (is_axisymmetric())
                 change += rate_zz[p] * tangent_zz[p].by_zz;
               if (is_undrained())

@@ -50,7 +50,7 @@ namespace geocone::GEOCONE_DIM
     , step(step)
     , rho(rho)
     , iterate(start)
-    , slope(start.size())
+    , slopes((start.size() + block_size - 1) / block_size)
   {
     for (unsigned int i = 0; i < materials.size(); ++i)
       {
@@ -69,22 +69,42 @@ namespace geocone::GEOCONE_DIM
     const bool moves = !last_strain.empty();
     Error      error;
     double     largest_k = 0.;
-    for (unsigned int p = 0; p < strain.size(); ++p)
+    Slopes     next; // of a block
+    for (unsigned int p = 0, of_last = 0; p < strain.size(); ++p)
       {
+        Slopes          &last       = slopes[p / block_size];
         const Elasticity elasticity = elasticity_at_start(materials, points, p);
-        Mandel           s          = iterate[p];
+        MandelMatrix     slope;
+        Mandel           s = iterate[p];
         if (moves)
-          s += slope[p] * (strain[p] - last_strain[p]);
+          {
+            const bool flowed =
+              of_last < last.point.size() && last.point[of_last] == p;
+            slope = flowed ? last.slope[of_last] : elasticity.stiffness();
+            s += slope * (strain[p] - last_strain[p]);
+            of_last += flowed;
+          }
         const Mandel z =
           elasticity.strain(Mandel(s - points.stress[p])) - strain[p];
-        mode[p] = cones[points.material[p]]
-                    ? update_on_cone(p, elasticity, s, z, error, largest_k)
-                    : update_with_edges(p, elasticity, s, z, strain[p], error);
+        mode[p] =
+          cones[points.material[p]]
+            ? update_on_cone(p, elasticity, s, z, slope, error, largest_k)
+            : update_with_edges(p, elasticity, s, z, strain[p], slope, error);
         if (mode[p] == Mode::elastic)
+          // J = I, for which the linear law is solved at once.
+          iterate[p] = points.stress[p] + elasticity.stress(strain[p]);
+        else
           {
-            // J = I, for which the linear law is solved at once.
-            iterate[p] = points.stress[p] + elasticity.stress(strain[p]);
-            slope[p]   = elasticity.stiffness();
+            next.point.push_back(p);
+            next.slope.push_back(slope);
+          }
+        if ((p + 1) % block_size == 0 || p + 1 == strain.size())
+          {
+            last.point.assign(next.point.begin(), next.point.end());
+            last.slope.assign(next.slope.begin(), next.slope.end());
+            next.point.clear();
+            next.slope.clear();
+            of_last = 0;
           }
       }
     error.stress_scale += largest_k;
@@ -92,11 +112,29 @@ namespace geocone::GEOCONE_DIM
     return error;
   }
 
+  void
+  NaturalMap::copy_tangents(const unsigned int begin,
+                            const unsigned int end,
+                            MandelMatrix      *tangent) const
+  {
+    for (unsigned int p = begin; p < end; ++p)
+      {
+        const Slopes &block = slopes[p / block_size];
+        const auto    found =
+          std::lower_bound(block.point.begin(), block.point.end(), p);
+        tangent[p - begin] =
+          found != block.point.end() && *found == p
+            ? block.slope[found - block.point.begin()]
+            : elasticity_at_start(materials, points, p).stiffness();
+      }
+  }
+
   Mode
   NaturalMap::update_on_cone(const unsigned int p,
                              const Elasticity  &elasticity,
                              const Mandel      &s,
                              const Mandel      &z,
+                             MandelMatrix      &slope,
                              Error             &error,
                              double            &largest_k)
   {
@@ -138,7 +176,7 @@ namespace geocone::GEOCONE_DIM
     const MandelMatrix A = MandelMatrix::Identity() - J + B * S.asDiagonal();
     const auto         factors = A.partialPivLu();
     iterate[p]                 = from_cone_axes(Mandel(x - factors.solve(R)));
-    slope[p]                   = from_cone_axes(MandelMatrix(factors.solve(B)));
+    slope                      = from_cone_axes(MandelMatrix(factors.solve(B)));
     return mode;
   }
 
@@ -148,11 +186,12 @@ namespace geocone::GEOCONE_DIM
                                 const Mandel      &s,
                                 const Mandel      &z,
                                 const Mandel      &strain,
+                                MandelMatrix      &slope,
                                 Error             &error)
   {
     Progress &own = progress[p];
     if (own.since == patience)
-      return map_back(p, strain);
+      return map_back(p, strain, slope);
     const unsigned int material = points.material[p];
     const double       rho_p    = rho_with_edges * (rho * elasticity.two_G);
     const auto         at       = materials[material].project_natural_map(
@@ -170,19 +209,21 @@ namespace geocone::GEOCONE_DIM
     if (own.since == 0)
       own.least = size;
     if (own.since == patience)
-      return map_back(p, strain);
+      return map_back(p, strain, slope);
 
     const MandelMatrix B = rho_p * at->slope * at->psi_slope,
                        A = MandelMatrix::Identity() - at->slope +
                            B * compliance[material];
     const auto factors = A.partialPivLu();
     iterate[p]         = s - factors.solve(R);
-    slope[p]           = factors.solve(B);
+    slope              = factors.solve(B);
     return at->mode;
   }
 
   Mode
-  NaturalMap::map_back(const unsigned int p, const Mandel &strain)
+  NaturalMap::map_back(const unsigned int p,
+                       const Mandel      &strain,
+                       MandelMatrix      &slope)
   {
     Mode      mode = Mode::elastic;
     Increment increment;
@@ -194,7 +235,7 @@ namespace geocone::GEOCONE_DIM
     Response response;
     response.stress  = dealii::ArrayView<Mandel>(&iterate[p], 1);
     response.mode    = dealii::ArrayView<Mode>(&mode, 1);
-    response.tangent = dealii::ArrayView<MandelMatrix>(&slope[p], 1);
+    response.tangent = dealii::ArrayView<MandelMatrix>(&slope, 1);
     materials[points.material[p]].update(increment, response);
     return mode;
   }

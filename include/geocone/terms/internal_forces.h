@@ -263,24 +263,34 @@ namespace geocone::GEOCONE_DIM
       return {h, friction_lag};
     }
 
-    /** Updates the stresses and plastic modes (elastic, cone or apex) of all
-     *  points. The second version also updates tangents, for the points [begin,
-     *  end). */
+    /** Updates the stresses and plastic modes (elastic, cone or apex) of the
+     *  points [begin, end), with their tangents unless null. */
     void
-    update_materials(const bool with_tangent) const;
-    void
-    update_materials(const unsigned int begin, const unsigned int end) const;
-    void
-    update_material(const Run &run, const bool with_tangent) const;
+    update_materials(const unsigned int begin,
+                     const unsigned int end,
+                     MandelMatrix      *tangents) const;
 
-    /** Computes the tangents of all points at the state of the last call to
-     *  residual(), if necessary. */
-    void
-    update_tangents() const
+    /**
+     * Tangents of the points at the state of the last call to residual(), a few
+     * cells after the other: so many tangents need not be stored.
+     */
+    class TangentsByCell
     {
-      if (!by_natural_map && !cell_pressures)
-        update_materials(true);
-    }
+    public:
+      TangentsByCell(const InternalForces &forces)
+        : forces(forces)
+      {}
+
+      /** Returns the tangents of the points of a cell. Cells are asked for in
+       *  ascending order. */
+      const MandelMatrix *
+      of_cell(const unsigned int c);
+
+    private:
+      const InternalForces     &forces;
+      std::vector<MandelMatrix> computed;
+      unsigned int              begin = 0, end = 0; ///< points computed
+    };
 
     /** Computes the strains B_p v at the points of a cell from the velocities
      *  v, multiplied by a factor (e.g. the step size). In axisymmetric problems
@@ -373,19 +383,19 @@ namespace geocone::GEOCONE_DIM
 
     /** @name Local law of the last call to residual() */
     /** @{ */
-    double friction_lag   = 0.;
-    bool   by_natural_map = false;
+    double            friction_lag = 0.;
+    const NaturalMap *natural_map  = nullptr; ///< until the end of its attempt
     /** @} */
 
-    std::vector<Mandel>               strain;
-    mutable std::vector<Mandel>       stress;
-    mutable std::vector<Mode>         mode;
-    std::vector<Mode>                 previous_mode;
-    mutable std::vector<MandelMatrix> tangent;
+    std::vector<Mandel>         strain;
+    mutable std::vector<Mandel> stress;
+    mutable std::vector<Mode>   mode;
+    std::vector<Mode>           previous_mode;
 
-    /** Polynomial mean stresses of the cells, for B-bar with dilatant soil.
-     *  They keep the tangents of the last call to residual() up to date. */
+    /** Polynomial mean stresses of the cells, for B-bar with dilatant soil, and
+     *  the tangents of the last call to residual(), empty without. */
     mutable std::optional<CellPressures> cell_pressures;
+    std::vector<MandelMatrix>            tangent;
 
     /** @name Excess pore pressure and total stress: empty without undrained
      *  soil */

@@ -78,12 +78,12 @@ namespace geocone::GEOCONE_DIM
       return iterate;
     }
 
-    /** Tangent stiffness of each point after the last call to update() (Pa). */
-    const std::vector<MandelMatrix> &
-    tangent() const
-    {
-      return slope;
-    }
+    /** Copies the tangent stiffness of the points [begin, end) after the last
+     *  call to update() (Pa). */
+    void
+    copy_tangents(const unsigned int begin,
+                  const unsigned int end,
+                  MandelMatrix      *tangent) const;
 
   private:
     /** Updates the stress and the slope of a point by the projection onto its
@@ -95,6 +95,7 @@ namespace geocone::GEOCONE_DIM
                    const Elasticity  &elasticity,
                    const Mandel      &s,
                    const Mandel      &z,
+                   MandelMatrix      &slope,
                    Error             &error,
                    double            &largest_k);
 
@@ -107,12 +108,24 @@ namespace geocone::GEOCONE_DIM
                       const Mandel      &s,
                       const Mandel      &z,
                       const Mandel      &strain,
+                      MandelMatrix      &slope,
                       Error             &error);
 
     /** Solves the law of a point by its return map, for the strain increment
      *  e. */
     Mode
-    map_back(const unsigned int p, const Mandel &strain);
+    map_back(const unsigned int p, const Mandel &strain, MandelMatrix &slope);
+
+    /** Slopes ds/de of the points of a block that flow, in the order of their
+     *  numbers. The others have their elastic stiffness. */
+    struct Slopes
+    {
+      std::vector<unsigned int> point;
+      std::vector<MandelMatrix> slope;
+    };
+
+    /** Number of points of a block. */
+    static constexpr unsigned int block_size = 4096;
 
     /** Progress of the residual of a point: its least norm (Pa), and the number
      *  of updates since it was halved. */
@@ -130,7 +143,7 @@ namespace geocone::GEOCONE_DIM
     std::vector<char>                    varies;     ///< cone differs by point
     std::vector<MandelMatrix>            compliance; ///< by material
     std::vector<Mandel>                  iterate;
-    std::vector<MandelMatrix>            slope;
+    std::vector<Slopes>                  slopes;      ///< by block of points
     std::vector<Mandel>                  last_strain; ///< empty before update()
     std::vector<Progress> progress; ///< by point; empty without laws with edges
   };
