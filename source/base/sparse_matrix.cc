@@ -12,11 +12,11 @@ namespace geocone
   int
   SparseMatrix::entry(const int row, const int col) const
   {
-    const auto begin = column.begin() + row_start[row];
-    const auto end   = column.begin() + row_start[row + 1];
-    const auto place = std::lower_bound(begin, end, col);
+    const int *const begin = columns(row);
+    const int *const end   = begin + (row_start[row + 1] - row_start[row]);
+    const int *const place = std::lower_bound(begin, end, col);
     Assert(place != end && *place == col, dealii::ExcInternalError());
-    return place - column.begin();
+    return row_start[row] + (place - begin);
   }
 
   void
@@ -24,6 +24,7 @@ namespace geocone
   {
     row_start = {0};
     column.clear();
+    column_start.clear();
     for (std::vector<int> &of_row : columns)
       {
         std::sort(of_row.begin(), of_row.end());
@@ -37,8 +38,8 @@ namespace geocone
   std::size_t
   SparseMatrix::memory() const
   {
-    return sizeof(int) *
-             (global_index.size() + row_start.size() + column.size()) +
+    return sizeof(int) * (global_index.size() + row_start.size() +
+                          column.size() + column_start.size()) +
            sizeof(double) * value.size();
   }
 } // namespace geocone

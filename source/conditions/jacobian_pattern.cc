@@ -61,6 +61,7 @@ namespace geocone::GEOCONE_DIM
     const std::vector<std::vector<unsigned int>> &groups,
     const std::vector<std::vector<unsigned int>> &links,
     const bool                                    one_triangle,
+    const bool                                    shares_columns,
     SparseMatrix                                 &matrix)
     : one_triangle(one_triangle)
   {
@@ -78,19 +79,34 @@ namespace geocone::GEOCONE_DIM
     const auto         neighbours =
       nodes_that_meet(points, n_local_nodes, groups, links);
     for (unsigned int node = 0; node < n_local_nodes; ++node)
-      for (unsigned int c = 0; c < dim; ++c)
-        if (row_of[dim * node + c] >= 0)
+      {
+        std::size_t start    = 0; // of the columns
+        bool        is_first = true;
+        for (unsigned int c = 0; c < dim; ++c)
           {
-            for (const unsigned int other : neighbours[node])
-              for (unsigned int d = 0; d < dim; ++d)
-                if (row_of[dim * other + d] >= 0 &&
-                    (!one_triangle ||
-                     row_of[dim * other + d] <= row_of[dim * node + c]))
-                  matrix.column.push_back(row_of[dim * other + d]);
-            matrix.row_start.push_back(matrix.column.size());
+            const int row = row_of[dim * node + c];
+            if (row < 0)
+              continue;
+            if (is_first || !shares_columns)
+              {
+                start = matrix.column.size();
+                for (const unsigned int other : neighbours[node])
+                  for (unsigned int d = 0; d < dim; ++d)
+                    if (const int column = row_of[dim * other + d];
+                        column >= 0 && (!one_triangle || column <= row))
+                      matrix.column.push_back(column);
+              }
+            else if (one_triangle) // one more than the row above
+              matrix.column.push_back(row);
+            matrix.row_start.push_back(matrix.row_start.back() +
+                                       (matrix.column.size() - start));
+            if (shares_columns)
+              matrix.column_start.push_back(start);
+            is_first = false;
           }
+      }
     matrix.column.shrink_to_fit();
-    matrix.value.assign(matrix.column.size(), 0.);
+    matrix.value.assign(matrix.row_start.back(), 0.);
 
     // The columns of a node's components are adjacent, and so are its rows.
     const auto first_row = [&](const unsigned int node) {

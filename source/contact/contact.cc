@@ -84,14 +84,15 @@ namespace geocone::GEOCONE_DIM
                 continue;
               // Both rows have sorted columns, and those of the first are a
               // subset.
-              int k = matrix.row_start[to];
-              for (int j = matrix.row_start[from];
-                   j < matrix.row_start[from + 1];
-                   ++j)
+              const int *column = matrix.columns(to);
+              double    *sum    = &matrix.value[matrix.row_start[to]];
+              const int  start  = matrix.row_start[from],
+                        n       = matrix.row_start[from + 1] - start;
+              for (int j = 0; j < n; ++j)
                 {
-                  while (matrix.column[k] < matrix.column[j])
-                    ++k;
-                  matrix.value[k] += part * matrix.value[j];
+                  for (; *column < matrix.columns(from)[j]; ++column)
+                    ++sum;
+                  *sum += part * matrix.value[start + j];
                 }
             }
   }
@@ -436,10 +437,11 @@ namespace geocone::GEOCONE_DIM
             for (unsigned int d = 0; d < dim; ++d)
               if (const int row = unknowns.free_row[dim * node + d]; row >= 0)
                 {
+                  const int *column = matrix.columns(row);
                   for (int j = matrix.row_start[row];
                        j < matrix.row_start[row + 1];
-                       ++j)
-                    sums[number].local_element(dof_of[matrix.column[j]]) +=
+                       ++j, ++column)
+                    sums[number].local_element(dof_of[*column]) +=
                       GQ[d] * matrix.value[j];
                   if (!is_owned(list[i]))
                     continue;

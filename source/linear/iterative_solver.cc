@@ -120,7 +120,13 @@ namespace geocone
       bool
       wants_one_triangle() const override
       {
-        return false;
+        return symmetric && takes_shared_columns();
+      }
+
+      bool
+      takes_shared_columns() const override
+      {
+        return preconditioner->takes_compact_matrix();
       }
 
       std::string
@@ -231,43 +237,47 @@ namespace geocone
       {
         ++counts.directly;
         const bool lower = direct->wants_one_triangle();
+        const bool is_as_wanted =
+          lower == last->symmetric && last->column_start.empty();
         if (!direct_is_ready)
           {
-            for_direct = lower ? lower_triangle(*last) : SparseMatrix();
-            direct->analyse(lower ? for_direct : *last);
+            for_direct =
+              is_as_wanted ? SparseMatrix() : with_own_columns(lower);
+            direct->analyse(is_as_wanted ? *last : for_direct);
             direct_is_ready = true;
           }
-        if (!lower)
+        if (is_as_wanted)
           return direct->factorise(*last);
-        copy_lower_triangle(*last, for_direct);
+        for (int i = 0; i < last->n_rows(); ++i)
+          std::copy_n(&last->value[last->row_start[i]],
+                      for_direct.row_start[i + 1] - for_direct.row_start[i],
+                      &for_direct.value[for_direct.row_start[i]]);
         return direct->factorise(for_direct);
       }
 
-      static SparseMatrix
-      lower_triangle(const SparseMatrix &full)
+      /** Creates the pattern of the last matrix, or of its lower triangle, where
+       *  each row has its own columns. */
+      SparseMatrix
+      with_own_columns(const bool lower) const
       {
-        SparseMatrix lower = full;
-        lower.symmetric    = true;
-        lower.column.clear();
-        lower.row_start.assign(1, 0);
-        for (int i = 0; i < full.n_rows(); ++i)
+        SparseMatrix result;
+        result.comm         = last->comm;
+        result.symmetric    = lower;
+        result.n_global     = last->n_global;
+        result.n_owned      = last->n_owned;
+        result.global_index = last->global_index;
+        for (int i = 0; i < last->n_rows(); ++i)
           {
-            for (int e = full.row_start[i]; e < full.row_start[i + 1]; ++e)
-              if (full.column[e] <= i)
-                lower.column.push_back(full.column[e]);
-            lower.row_start.push_back(lower.column.size());
+            const int *const begin = last->columns(i);
+            const int *const end =
+              begin + (last->row_start[i + 1] - last->row_start[i]);
+            result.column.insert(result.column.end(),
+                                 begin,
+                                 lower ? std::upper_bound(begin, end, i) : end);
+            result.row_start.push_back(result.column.size());
           }
-        lower.value.resize(lower.column.size());
-        return lower;
-      }
-
-      static void
-      copy_lower_triangle(const SparseMatrix &full, SparseMatrix &lower)
-      {
-        for (int i = 0; i < full.n_rows(); ++i)
-          std::copy_n(&full.value[full.row_start[i]],
-                      lower.row_start[i + 1] - lower.row_start[i],
-                      &lower.value[lower.row_start[i]]);
+        result.value.resize(result.column.size());
+        return result;
       }
 
       const bool                      symmetric;

@@ -61,10 +61,24 @@ namespace geocone
           c.reinit(rows.layout());
         for (unsigned int b = 0; b + 1 < first_row.size(); ++b)
           for (int i = first_row[b]; i < first_row[b + 1]; ++i)
-            for (int e = matrix.row_start[i]; e < matrix.row_start[i + 1]; ++e)
-              if (const int k = matrix.column[e] - first_row[b];
-                  k >= 0 && matrix.column[e] < first_row[b + 1])
-                column[k].local_element(rows.place(i)) = matrix.value[e];
+            {
+              const int *const columns = matrix.columns(i);
+              const int        from    = matrix.row_start[i],
+                        n              = matrix.row_start[i + 1] - from;
+              for (int k =
+                     std::lower_bound(columns, columns + n, first_row[b]) -
+                     columns;
+                   k < n && columns[k] < first_row[b + 1];
+                   ++k)
+                {
+                  const double entry = matrix.value[from + k];
+                  column[columns[k] - first_row[b]].local_element(
+                    rows.place(i)) = entry;
+                  if (matrix.symmetric)
+                    column[i - first_row[b]].local_element(
+                      rows.place(columns[k])) = entry;
+                }
+            }
         if (MPI::n_mpi_processes(matrix.comm) > 1)
           for (RowVector &c : column)
             c.compress(dealii::VectorOperation::add);
@@ -144,34 +158,29 @@ namespace geocone
       set_pattern(const SparseMatrix &fine, const bool one_triangle)
       {
         find_fine_rows(fine);
-        const int n      = coarse.global_index.size();
-        coarse.symmetric = one_triangle;
-        coarse.row_start.assign(1, 0);
-        std::vector<int> last_row(n, -1), columns;
+        const int                     n = coarse.global_index.size();
+        std::vector<std::vector<int>> columns(n);
+        std::vector<int>              last_row(n, -1);
         for (int I = 0; I < n; ++I)
-          {
-            columns.clear();
-            for (int f = first_fine[I]; f < first_fine[I + 1]; ++f)
-              {
-                const int i = fine_of[f].first;
-                for (int e = fine.row_start[i]; e < fine.row_start[i + 1]; ++e)
-                  for (int c = first[fine.column[e]];
-                       c < first[fine.column[e] + 1];
-                       ++c)
+          for (int f = first_fine[I]; f < first_fine[I + 1]; ++f)
+            {
+              const int        i      = fine_of[f].first;
+              const int *const of_row = fine.columns(i);
+              const int n_of_row = fine.row_start[i + 1] - fine.row_start[i];
+              for (int k = 0; k < n_of_row; ++k)
+                for (int c = first[of_row[k]]; c < first[of_row[k] + 1]; ++c)
+                  if (const int J = weights[c].first; last_row[J] != I)
                     {
-                      const int J = weights[c].first;
-                      if (last_row[J] == I || (one_triangle && J > I))
-                        continue;
                       last_row[J] = I;
-                      columns.push_back(J);
+                      if (!one_triangle || J <= I)
+                        columns[I].push_back(J);
+                      // The transposed entry of one triangle.
+                      if (fine.symmetric && (!one_triangle || J >= I))
+                        columns[J].push_back(I);
                     }
-              }
-            std::sort(columns.begin(), columns.end());
-            coarse.column.insert(
-              coarse.column.end(), columns.begin(), columns.end());
-            coarse.row_start.push_back(coarse.column.size());
-          }
-        coarse.value.assign(coarse.column.size(), 0.);
+            }
+        coarse.symmetric = one_triangle;
+        coarse.set_pattern(std::move(columns));
       }
 
       /** Computes the coarse matrix P' A P. */
@@ -180,25 +189,48 @@ namespace geocone
       {
         std::fill(coarse.value.begin(), coarse.value.end(), 0.);
         std::vector<int> place(coarse.n_rows(), -1);
+        // Next entry of each coarse row, for columns in ascending order.
+        std::vector<int> next(coarse.row_start.begin(),
+                              coarse.row_start.end() - 1);
         for (int I = 0; I < coarse.n_rows(); ++I)
           {
             for (int e = coarse.row_start[I]; e < coarse.row_start[I + 1]; ++e)
               place[coarse.column[e]] = e;
             for (int f = first_fine[I]; f < first_fine[I + 1]; ++f)
               {
-                const auto [i, w] = fine_of[f];
-                for (int e = fine.row_start[i]; e < fine.row_start[i + 1]; ++e)
+                const auto [i, w]       = fine_of[f];
+                const int *const column = fine.columns(i);
+                const int        from   = fine.row_start[i];
+                for (int e = from; e < fine.row_start[i + 1]; ++e)
                   {
                     const double a = w * fine.value[e];
-                    const int    j = fine.column[e];
+                    const int    j = column[e - from];
                     for (int c = first[j]; c < first[j + 1]; ++c)
-                      if (const int at = place[weights[c].first]; at >= 0)
-                        coarse.value[at] += a * weights[c].second;
+                      {
+                        const auto [J, v] = weights[c];
+                        if (!fine.symmetric)
+                          {
+                            if (const int at = place[J]; at >= 0)
+                              coarse.value[at] += a * v;
+                          }
+                        else if (J <= I) // the transposed entry counts as well
+                          coarse.value[place[J]] +=
+                            (J == I && j != i ? 2. : 1.) * a * v;
+                        else if (j != i)
+                          {
+                            int &at = next[J];
+                            while (coarse.column[at] < I)
+                              ++at;
+                            coarse.value[at] += a * v;
+                          }
+                      }
                   }
               }
             for (int e = coarse.row_start[I]; e < coarse.row_start[I + 1]; ++e)
               place[coarse.column[e]] = -1;
           }
+        if (fine.symmetric && !coarse.symmetric)
+          fill_upper_triangle();
       }
 
       /** Adds the interpolated coarse vector to owned rows. */
@@ -318,6 +350,18 @@ namespace geocone
           if (coarse_of[i] >= 0)
             coarse.global_index.push_back(
               std::lround(number.local_element(fine_rows.place(i))));
+      }
+
+      /** Copies the lower triangle of the coarse matrix to the upper one. */
+      void
+      fill_upper_triangle()
+      {
+        std::vector<int> next; // after the diagonal of each row
+        for (int I = 0; I < coarse.n_rows(); ++I)
+          next.push_back(coarse.entry(I, I) + 1);
+        for (int I = 0; I < coarse.n_rows(); ++I)
+          for (int e = coarse.row_start[I]; coarse.column[e] < I; ++e)
+            coarse.value[next[coarse.column[e]]++] = coarse.value[e];
       }
 
       /** Finds the weights of coarse rows in each fine row. Components of
@@ -465,6 +509,12 @@ namespace geocone
         // An eigenvalue beyond the interval of the polynomial.
         largest_eigenvalue *= 1.5;
         return ++n_mended <= 3;
+      }
+
+      bool
+      takes_compact_matrix() const override
+      {
+        return true;
       }
 
       std::string

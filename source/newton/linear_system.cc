@@ -28,7 +28,8 @@ namespace geocone::GEOCONE_DIM
   LinearSystem::set_pattern(IncrementalProblem &problem, TimerOutput &timer)
   {
     TimerOutput::Scope scope(timer, "analyse");
-    SparseMatrix next    = problem.make_pattern(solver->wants_one_triangle());
+    SparseMatrix       next = problem.make_pattern(solver->wants_one_triangle(),
+                                             solver->takes_shared_columns());
     const int    changes = !has_pattern || next.row_start != matrix.row_start ||
                         next.column != matrix.column ||
                         next.global_index != matrix.global_index;

@@ -375,7 +375,8 @@ namespace geocone::GEOCONE_DIM
     std::vector<std::vector<int>> columns(n_K + n_A);
     for (int r = 0; r < n_K; ++r)
       for (int e = K.row_start[r]; e < K.row_start[r + 1]; ++e)
-        columns[row_of_velocity[r]].push_back(row_of_velocity[K.column[e]]);
+        columns[row_of_velocity[r]].push_back(
+          row_of_velocity[K.columns(r)[e - K.row_start[r]]]);
     for (int r = 0; r < n_A; ++r)
       for (int e = A.row_start[r]; e < A.row_start[r + 1]; ++e)
         {
@@ -411,8 +412,9 @@ namespace geocone::GEOCONE_DIM
     std::fill(matrix.value.begin(), matrix.value.end(), 0.);
     for (int r = 0; r < K.n_rows(); ++r)
       for (int e = K.row_start[r]; e < K.row_start[r + 1]; ++e)
-        matrix.value[matrix.entry(row_of_velocity[r],
-                                  row_of_velocity[K.column[e]])] = K.value[e];
+        matrix.value[matrix.entry(
+          row_of_velocity[r],
+          row_of_velocity[K.columns(r)[e - K.row_start[r]]])] = K.value[e];
     for (int r = 0; r < A.n_rows(); ++r)
       for (int e = A.row_start[r]; e < A.row_start[r + 1]; ++e)
         {

@@ -170,7 +170,8 @@ namespace geocone::GEOCONE_DIM
   }
 
   SparseMatrix
-  IncrementalProblem::make_pattern(const bool one_triangle)
+  IncrementalProblem::make_pattern(const bool one_triangle,
+                                   const bool shares_columns)
   {
     Assert(!one_triangle || is_symmetric(), ExcInternalError());
     SparseMatrix matrix;
@@ -185,6 +186,7 @@ namespace geocone::GEOCONE_DIM
                               groups,
                               links,
                               one_triangle,
+                              shares_columns,
                               matrix);
     return matrix;
   }

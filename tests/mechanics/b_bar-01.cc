@@ -4,13 +4,14 @@
 // The incremental problem over particles in an elastoplastic state, with and
 // without mean gradients (B-bar), pressures of cells that are polynomials, a consistent
 // mass and a fluid in the pores: the assembled Jacobian and apply_tangent() must be the derivative of the residual, one stored
-// triangle must be that of the whole matrix, B-bar must give every point of a
+// triangle must be that of the whole matrix, products with rows that share columns too, B-bar must give every point of a
 // cell the mean volumetric strain of the cell and leave the deviator as it is,
 // with pressures of cells the total mean stress of a cell must be a polynomial and the
 // projection of its volumetric strains that of B-bar, also where particles are too few
 // for all polynomials, and the mass must be that of the particles.
 
 #include <geocone/conditions/constraints.h>
+#include <geocone/linear/preconditioner.h>
 #include <geocone/problem/incremental_problem.h>
 
 #include "../discretisation/setup.h"
@@ -305,6 +306,30 @@ namespace mechanics_b_bar_01
         }
     print("so is the matrix", error < 1e-12 * size);
 
+    // Products of a matrix in which the rows of a node share their columns.
+    const auto is_product_of_compact = [&](const bool one_triangle) {
+      SparseMatrix compact = problem.make_pattern(one_triangle, true);
+      problem.linearise(compact);
+      RowOperator rows;
+      rows.reinit(compact);
+      RowVector x(rows.layout()), product(rows.layout());
+      for (unsigned int i = 0; i < n; ++i)
+        if (constraints.is_free(i))
+          x.local_element(constraints.free_row[i]) = dv.local_element(i);
+      rows.vmult(product, x);
+      double difference = 0.;
+      for (unsigned int i = 0; i < n; ++i)
+        if (constraints.is_free(i))
+          difference =
+            std::max(difference,
+                     std::abs(product.local_element(constraints.free_row[i]) -
+                              tangent.local_element(i)));
+      return difference < 1e-12 * size &&
+             compact.column.size() < compact.value.size();
+    };
+    print("so is the matrix whose rows share columns",
+          is_product_of_compact(false));
+
     if (problem.is_symmetric())
       {
         SparseMatrix triangle = problem.make_pattern(true);
@@ -331,6 +356,8 @@ namespace mechanics_b_bar_01
         print("the matrix is symmetric", asymmetry < 1e-13 * largest);
         print("one triangle is that of the whole",
               other < 1e-13 * largest && triangle.column.size() == n_lower);
+        print("so is one triangle whose rows share columns",
+              is_product_of_compact(true));
       }
   }
 

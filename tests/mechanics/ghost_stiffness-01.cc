@@ -139,8 +139,14 @@ namespace mechanics_ghost_stiffness_01
     for (const bool one_triangle : {false, true})
       {
         SparseMatrix          matrix;
-        const JacobianPattern pattern(
-          none, unknowns, comm, ghost.node_groups(), {}, one_triangle, matrix);
+        const JacobianPattern pattern(none,
+                                      unknowns,
+                                      comm,
+                                      ghost.node_groups(),
+                                      {},
+                                      one_triangle,
+                                      false,
+                                      matrix);
         ghost.linearise(pattern, 0., matrix);
         std::vector<double> row_v(matrix.n_rows()),
           product(matrix.n_rows(), 0.);

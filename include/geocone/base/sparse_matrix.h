@@ -40,14 +40,28 @@ namespace geocone
     std::vector<int>    column;
     std::vector<double> value;
 
+    /** Index of the first column of each row in the array `column`, if the rows
+     *  of a node share a list of columns. Each row has as many of the first ones
+     *  as it has entries: if one triangle is stored, the last row has all of
+     *  them. Empty if each row has its own columns, in the order of the values,
+     *  as direct solvers require. */
+    std::vector<int> column_start;
+
     int
     n_rows() const
     {
       return row_start.size() - 1;
     }
 
-    /** Returns the position of a matrix entry in the arrays `column` and
-     *  `value`. The entry must be in the sparsity pattern. */
+    /** Sorted column indices of the entries of a row. */
+    const int *
+    columns(const int row) const
+    {
+      return &column[column_start.empty() ? row_start[row] : column_start[row]];
+    }
+
+    /** Returns the position of a matrix entry in the array `value`. The entry
+     *  must be in the sparsity pattern. */
     int
     entry(const int row, const int col) const;
 

@@ -31,6 +31,7 @@ namespace geocone::GEOCONE_DIM
      * first one is added (Contact::links())
      * @param one_triangle whether only the lower triangle of a symmetric matrix
      * is stored
+     * @param shares_columns whether the rows of a node share their columns
      * @param[out] matrix with the pattern and zero values
      */
     JacobianPattern(const MaterialPoints                         &points,
@@ -39,7 +40,8 @@ namespace geocone::GEOCONE_DIM
                     const std::vector<std::vector<unsigned int>> &groups,
                     const std::vector<std::vector<unsigned int>> &links,
                     const bool                                    one_triangle,
-                    SparseMatrix                                 &matrix);
+                    const bool    shares_columns,
+                    SparseMatrix &matrix);
 
     /** Returns true if only one triangle of a symmetric Jacobian is stored. Only
      *  the entries i <= j of a cell matrix are then used. */

@@ -77,6 +77,14 @@ namespace geocone
     virtual bool
     wants_one_triangle() const = 0;
 
+    /** Returns true if the rows of a node may share their columns
+     *  (SparseMatrix::column_start). */
+    virtual bool
+    takes_shared_columns() const
+    {
+      return false;
+    }
+
     virtual std::string
     name() const = 0;
 

@@ -25,8 +25,7 @@ namespace geocone
   class RowOperator
   {
   public:
-    /** Sets the matrix. All its entries are stored, not one triangle only.
-     *  Collective. */
+    /** Sets the matrix. Collective. */
     void
     reinit(const SparseMatrix &matrix);
 
@@ -53,6 +52,15 @@ namespace geocone
     const SparseMatrix                                        *matrix = nullptr;
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> rows;
     std::vector<unsigned int> ghosts; ///< place(), from the first ghost on
+
+    /**
+     * Multiplies the n rows of a node, which share their columns. The
+     * transposed entries of the lower triangle are added to the rows above.
+     * @param x, y of all local rows
+     */
+    template <int n>
+    void
+    multiply_rows(const int first, const double *x, double *y) const;
   };
 
   /**
@@ -82,6 +90,14 @@ namespace geocone
      *  @return false if this is impossible */
     [[nodiscard]] virtual bool
     make_definite()
+    {
+      return false;
+    }
+
+    /** Returns true if the matrix may be stored compactly: rows of a node share
+     *  their columns, and a symmetric matrix has one triangle. */
+    virtual bool
+    takes_compact_matrix() const
     {
       return false;
     }

@@ -85,7 +85,7 @@ namespace geocone::GEOCONE_DIM
     std::size_t
     n_nonzeros() const
     {
-      return matrix.column.size();
+      return matrix.value.size();
     }
 
     const LinearSolver &

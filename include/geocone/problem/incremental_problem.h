@@ -173,9 +173,10 @@ namespace geocone::GEOCONE_DIM
      * dofs. Its entries are zero.
      * @param one_triangle whether only the lower triangle of a symmetric Jacobian
      * is stored
+     * @param shares_columns see SparseMatrix::column_start
      */
     SparseMatrix
-    make_pattern(const bool one_triangle);
+    make_pattern(const bool one_triangle, const bool shares_columns = false);
 
     /** Global index of the node to which each row of the Jacobian belongs, for
      *  algebraic multigrid. Collective. */
