@@ -90,6 +90,7 @@ namespace geocone
         largest         = MPI::max(largest, matrix.comm);
         int is_singular = 0;
         inverse.clear();
+        inverse.reserve(first_row.size() - 1);
         for (unsigned int b = 0; first_row[b] < matrix.n_owned; ++b)
           {
             Eigen::Matrix3d block = Eigen::Matrix3d::Identity();
@@ -164,7 +165,7 @@ namespace geocone
         for (int I = 0; I < n; ++I)
           for (int f = first_fine[I]; f < first_fine[I + 1]; ++f)
             {
-              const int        i      = fine_of[f].first;
+              const int        i      = fine_of[f];
               const int *const of_row = fine.columns(i);
               const int n_of_row = fine.row_start[i + 1] - fine.row_start[i];
               for (int k = 0; k < n_of_row; ++k)
@@ -198,7 +199,8 @@ namespace geocone
               place[coarse.column[e]] = e;
             for (int f = first_fine[I]; f < first_fine[I + 1]; ++f)
               {
-                const auto [i, w]       = fine_of[f];
+                const int        i      = fine_of[f];
+                const double     w      = weight(i, I);
                 const int *const column = fine.columns(i);
                 const int        from   = fine.row_start[i];
                 for (int e = from; e < fine.row_start[i + 1]; ++e)
@@ -423,7 +425,17 @@ namespace geocone
         std::vector<int> next(first_fine.begin(), first_fine.end() - 1);
         for (int i = 0; i < fine.n_rows(); ++i)
           for (int c = first[i]; c < first[i + 1]; ++c)
-            fine_of[next[weights[c].first]++] = {i, weights[c].second};
+            fine_of[next[weights[c].first]++] = i;
+      }
+
+      /** Weight of a coarse row in a fine row, which contains it. */
+      double
+      weight(const int fine_row, const int coarse_row) const
+      {
+        int c = first[fine_row];
+        while (weights[c].first != coarse_row)
+          ++c;
+        return weights[c].second;
       }
 
       std::vector<int> coarse_of; ///< coarse row of each fine row, or -1
@@ -432,9 +444,8 @@ namespace geocone
       std::vector<std::pair<int, double>> weights;
       std::vector<int>                    first;
 
-      /** Fine rows and weights of each coarse row, and index of its first. */
-      std::vector<std::pair<int, double>> fine_of;
-      std::vector<int>                    first_fine;
+      /** Fine rows of each coarse row, and index of its first. */
+      std::vector<int> fine_of, first_fine;
     };
 
     class PMultigrid : public Preconditioner
