@@ -132,9 +132,10 @@ namespace geocone::GEOCONE_DIM
           LinearSolver      &solver,
           const unsigned int most_iterations,
           const double       wanted,
-          FlowSolution      &flow)
+          FlowSolution      &flow,
+          const double       smallest_step)
   {
-    constexpr double accepted = 1e-10, smallest_step = 1. / 64.;
+    constexpr double accepted = 1e-10;
     auto             residual = balance.residual(flow.s);
     flow.error                = balance.error(residual);
     for (unsigned int i = 0; i < most_iterations && !(flow.error <= wanted);

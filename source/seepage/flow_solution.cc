@@ -150,7 +150,7 @@ namespace geocone::GEOCONE_DIM
       double suction = 0.;
     };
 
-    constexpr unsigned int most_iterations = 60;
+    constexpr unsigned int most_full_steps = 30, most_iterations = 60;
     constexpr double       wanted          = 1e-11;
   } // namespace
 
@@ -171,6 +171,10 @@ namespace geocone::GEOCONE_DIM
     flow.s               = start;
     const auto converges = [&](const double epsilon) {
       balance.regularise(epsilon);
+      const std::vector<double> before = flow.s;
+      if (iterate(balance, *solver, most_full_steps, wanted, flow, 1.))
+        return true;
+      flow.s = before;
       return iterate(balance, *solver, most_iterations, wanted, flow);
     };
     if (!converges(regularisation))

@@ -103,13 +103,15 @@ namespace geocone::GEOCONE_DIM
    *  @param wanted error(); where rounding prevents it, at most 1e-10 is
    *  accepted
    *  @param[in,out] flow s, iterations and error
+   *  @param smallest_step of the line search, as a part of Newton's step; 1: none
    *  @return true if the method has converged */
   bool
   iterate(FlowBalance       &balance,
           LinearSolver      &solver,
           const unsigned int most_iterations,
           const double       wanted,
-          FlowSolution      &flow);
+          FlowSolution      &flow,
+          const double       smallest_step = 1. / 64.);
 } // namespace geocone::GEOCONE_DIM
 
 #endif
