@@ -242,5 +242,7 @@ namespace geocone::GEOCONE_DIM
                                         : " of drainable water left"));
     else
       log.print("discharge " + flow->text());
+    for (const std::string &warning : flow->warnings())
+      log.warn(warning);
   }
 } // namespace geocone::GEOCONE_DIM

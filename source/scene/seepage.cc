@@ -135,9 +135,10 @@ namespace geocone::GEOCONE_DIM
         file,
         "Seepage",
         "Names of the boundaries with open water, air or rain, "
-        "comma-separated; each has a subsection of its name. Later "
-        "ones override earlier ones. All other boundaries are "
-        "impervious. The pore pressures of the flow between them act in "
+        "comma-separated; each has a subsection of its name. Where they "
+        "overlap, later ones override earlier ones; where they meet, the "
+        "head is that of the more permeable soil. All other boundaries "
+        "are impervious. The pore pressures of the flow between them act in "
         "FEM, MPM and bounds. Empty: water does not flow.")
   {
     add_parameter(

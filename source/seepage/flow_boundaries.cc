@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <tuple>
 
 namespace geocone::GEOCONE_DIM
 {
@@ -22,12 +24,92 @@ namespace geocone::GEOCONE_DIM
     const auto &list = scene.water.seepage.list;
     for (unsigned int b = 0; b < list.size(); ++b)
       {
-        const Part part = part_of(*list[b]);
-        for (const unsigned int f : part.facets)
+        parts.push_back(part_of(*list[b]));
+        for (const unsigned int f : parts.back().facets)
           of_facet[f] = b;
-        for (const unsigned int v : part.vertices)
-          of_vertex[v] = b;
       }
+    all_groups = sorted_groups();
+    for (const Group &group : all_groups)
+      for (const unsigned int v : group.vertices)
+        of_vertex[v] = group.boundary;
+  }
+
+  std::vector<FlowBoundaries::Group>
+  FlowBoundaries::sorted_groups() const
+  {
+    const auto         &list = scene.water.seepage.list;
+    std::vector<double> of_facets(mesh.facet_vertices.size(), 0.),
+      of_connections(mesh.connections.size(), 0.);
+    for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+      {
+        const double k =
+          trace(scene.materials.law(mesh.material[c]).permeability());
+        for (const unsigned int f : mesh.facets_by_cell[c])
+          of_facets[f] = std::max(of_facets[f], k);
+        for (const unsigned int e : mesh.connections_of_cell[c])
+          of_connections[e] = std::max(of_connections[e], k);
+      }
+    std::vector<Group> groups;
+    for (unsigned int b = 0; b < list.size(); ++b)
+      {
+        std::map<double, Group> by_permeability;
+        for (const unsigned int f : parts[b].facets)
+          if (of_facet[f] == int(b))
+            {
+              Group &group = by_permeability[of_facets[f]];
+              group.facets.push_back(f);
+              for (const unsigned int v : mesh.facet_vertices[f])
+                group.vertices.push_back(v);
+            }
+        if (dim == 3)
+          for (const unsigned int e : parts[b].connections)
+            for (const unsigned int v : mesh.connections[e])
+              by_permeability[of_connections[e]].vertices.push_back(v);
+        for (auto &[k, group] : by_permeability)
+          {
+            group.permeability = k;
+            group.boundary     = b;
+            groups.push_back(std::move(group));
+          }
+      }
+    std::stable_sort(
+      groups.begin(), groups.end(), [&](const Group &a, const Group &b) {
+        return std::tie(a.permeability, list[a.boundary]->level) <
+               std::tie(b.permeability, list[b.boundary]->level);
+      });
+    return groups;
+  }
+
+  FlowBoundaries::Jump
+  FlowBoundaries::largest_jump(const Seepage::Levels &levels) const
+  {
+    std::vector<double> permeability(mesh.vertices.size(), 0.);
+    for (const Group &group : all_groups)
+      for (const unsigned int v : group.vertices)
+        permeability[v] = group.permeability; // the last one is the largest
+    Jump largest;
+    for (const Group &group : all_groups)
+      for (const unsigned int v : group.vertices)
+        {
+          const int    other = of_vertex[v];
+          const double jump =
+            head(levels[group.boundary], v) - head(levels[other], v);
+          if (jump == 0.)
+            continue;
+          // Permeabilities are traces.
+          const double k =
+            2. / dim / (1. / group.permeability + 1. / permeability[v]);
+          const double flow =
+            std::abs(jump) * k *
+            Geometry::measure(scene.geometry.symmetry, mesh.vertices[v]);
+          if (flow > largest.flow)
+            largest = {std::abs(jump),
+                       flow,
+                       mesh.vertices[v],
+                       jump > 0. ? group.boundary : other,
+                       jump > 0. ? other : group.boundary};
+        }
+    return largest;
   }
 
   FlowBoundaries::Part
@@ -54,6 +136,7 @@ namespace geocone::GEOCONE_DIM
           continue;
         rest -= mesh.vertices[a].distance(mesh.vertices[b]);
         part.vertices.insert(part.vertices.end(), {a, b});
+        part.connections.push_back(e);
         if (dim == 2) // the edge is a facet
           part.facets.push_back(e);
       }
@@ -75,12 +158,11 @@ namespace geocone::GEOCONE_DIM
     for (unsigned int b = 0; b < levels.size(); ++b)
       if (levels[b])
         {
-          const SeepageBoundary &boundary = *scene.water.seepage.list[b];
-          double                 lowest   = std::numeric_limits<double>::max();
-          for (const unsigned int v : part_of(boundary).vertices)
+          double lowest = std::numeric_limits<double>::max();
+          for (const unsigned int v : parts[b].vertices)
             lowest = std::min(lowest, mesh.vertices[v][1]);
           if (!(*levels[b] > lowest))
-            throw InputError(boundary.parameter("Level"),
+            throw InputError(scene.water.seepage.list[b]->parameter("Level"),
                              *levels[b],
                              format("above the lowest point of its sides, y = "
                                     "%g m",
@@ -104,10 +186,8 @@ namespace geocone::GEOCONE_DIM
     for (unsigned int v = 0; v < n; ++v)
       if (of_vertex[v] >= 0)
         {
-          const auto &level = levels[of_vertex[v]];
-          all.kind[v]       = Kind::seepage_face;
-          if (level)
-            all.head[v] = *level - mesh.vertices[v][1];
+          all.kind[v] = Kind::seepage_face;
+          all.head[v] = head(levels[of_vertex[v]], v);
           if (all.head[v] > 1e-9 * (1. + std::abs(mesh.vertices[v][1])))
             all.kind[v] = Kind::head;
         }

@@ -212,6 +212,9 @@ namespace geocone::GEOCONE_DIM
   FlowOnMesh::solve(const Seepage::Step         &step,
                     const std::function<void()> &after_mesh)
   {
+    if (const auto next = boundaries->largest_jump(step.levels);
+        next.flow > jump.flow)
+      jump = next;
     if (step.duration > 0.)
       {
         stop_if_asked(comm);
@@ -285,18 +288,16 @@ namespace geocone::GEOCONE_DIM
     confined.emplace(mesh, degree);
     const auto &nodes = confined->nodes();
     const auto &list  = scene.water.seepage.list;
+    for (const auto &boundary : list)
+      if (dim == 3 && !boundary->drain.empty())
+        throw InputError("Seepage/Degree",
+                         degree,
+                         "1 with drains in three dimensions",
+                         "let the water leave at sides");
     boundary_of_node.assign(nodes.size(), -1);
-    for (unsigned int b = 0; b < list.size(); ++b)
-      {
-        if (dim == 3 && !list[b]->drain.empty())
-          throw InputError("Seepage/Degree",
-                           degree,
-                           "1 with drains in three dimensions",
-                           "let the water leave at sides");
-        for (const unsigned int node :
-             confined->nodes_on(boundaries->part_of(*list[b]).facets))
-          boundary_of_node[node] = b;
-      }
+    for (const auto &group : boundaries->groups())
+      for (const unsigned int node : confined->nodes_on(group.facets))
+        boundary_of_node[node] = group.boundary;
     std::vector<std::optional<double>> prescribed(nodes.size());
     for (unsigned int i = 0; i < nodes.size(); ++i)
       if (boundary_of_node[i] >= 0)
@@ -540,6 +541,38 @@ namespace geocone::GEOCONE_DIM
            format(", %u iterations", solution.iterations);
   }
 
+  std::vector<std::string>
+  FlowOnMesh::warnings() const
+  {
+    constexpr double               least_growth = 0.01, largest_change = 0.03;
+    const dealii::BoundingBox<dim> body(mesh.vertices);
+    std::vector<std::string>       all;
+    // Of cells of half the size.
+    const double growth = std::log(2.) / dealii::numbers::PI * jump.flow *
+                          (dim == 2 ? 1. : body.side_length(0));
+    if (growth > least_growth * discharge())
+      all.push_back(
+        format("the heads of 'Seepage/%s' and 'Seepage/%s' differ by %.3g m "
+               "where they meet, at (",
+               scene.water.seepage.names()[jump.higher].c_str(),
+               scene.water.seepage.names()[jump.lower].c_str(),
+               jump.size) +
+        dealii::Patterns::Tools::to_string(jump.at) +
+        format("): the discharge there is infinite, and the computed one grows "
+               "by %.2g ",
+               growth) +
+        scene.geometry.unit("m^3/s/m") +
+        " as often as the cells there are halved; leave an impervious part "
+        "between them");
+    const auto change = this->change();
+    if (change && std::abs(*change) > largest_change)
+      all.push_back(format("the discharge changed by %+.2g %% on the last mesh "
+                           "of the flow, of %zu cells; raise 'Seepage/Cells'",
+                           100. * *change,
+                           mesh.cells.size()));
+    return all;
+  }
+
   void
   let_water_flow(Scene                &scene,
                  const MPI_Comm        comm,
@@ -570,6 +603,8 @@ namespace geocone::GEOCONE_DIM
                       flow.text() + format("; %.2g s", timer.cpu_time()));
           flows.push_back(flow.result());
         }
+    for (const std::string &warning : flow.warnings())
+      log.warn(warning);
     scene.water.set_flows(std::move(flows), time);
   }
 } // namespace geocone::GEOCONE_DIM

@@ -139,6 +139,11 @@ namespace geocone::GEOCONE_DIM
     std::string
     text() const;
 
+    /** Warnings of a discharge that is infinite, or changed by more than 3 % on the
+     *  last mesh. */
+    std::vector<std::string>
+    warnings() const;
+
   private:
     unsigned int
     n_levels() const;
@@ -220,6 +225,7 @@ namespace geocone::GEOCONE_DIM
     std::optional<ConfinedFlow> confined;         ///< of a higher degree
     std::vector<int>            boundary_of_node; ///< of it
     std::optional<double>       discharge_before;
+    FlowBoundaries::Jump        jump; ///< the largest one so far
     double                      rate_of_storage = 0.; ///< (m^2/s)
 
     /** @name Time steps in unsaturated soil */
