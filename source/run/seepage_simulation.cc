@@ -210,21 +210,25 @@ namespace geocone::GEOCONE_DIM
     Json json;
     json["size"] = {{"method", "seepage"},
                     {"cells", flow->current_mesh().cells.size()}};
+    // null before there is a flow, and where none was found
+    const auto known = [&](const Json &value) {
+      return flow->is_solved() ? value : Json();
+    };
     Json       inflows;
     const auto values = flow->inflows();
     for (unsigned int b = 0; b < values.size(); ++b)
-      inflows[scene.water.seepage.names()[b]] = values[b];
+      inflows[scene.water.seepage.names()[b]] = known(values[b]);
     const auto change = flow->change();
-    json["seepage"]   = {{"discharge", flow->discharge()},
+    json["seepage"]   = {{"discharge", known(flow->discharge())},
                          {"unit", scene.geometry.unit("m^3/s/m")},
                          {"inflows", inflows},
-                         {"change", change ? Json(*change) : Json()},
-                         {"imbalance", flow->imbalance()},
-                         {"iterations", flow->flow().iterations},
-                         {"natural_map_error", flow->flow().error}};
+                         {"change", change ? known(*change) : Json()},
+                         {"imbalance", known(flow->imbalance())},
+                         {"iterations", known(flow->flow().iterations)},
+                         {"natural_map_error", known(flow->flow().error)}};
     if (scene.water.flows_in_time())
       {
-        json["seepage"]["stored"]      = flow->stored();
+        json["seepage"]["stored"]      = known(flow->stored());
         json["seepage"]["stored_unit"] = scene.geometry.unit("m^3/m");
       }
     json["cost"] = times();
