@@ -675,11 +675,23 @@ namespace geocone::GEOCONE_DIM
                 (at[i][0] == at[i][1]
                    ? ""
                    : format(" .. %g", intervals[i].unit * at[i][1]));
+    return text;
+  }
+
+  std::vector<std::string>
+  IntervalBounds::warnings_of(const Answer      &answer,
+                              const std::string &bounded) const
+  {
+    std::vector<std::string> all;
     for (const auto &[side, i] : {std::pair("upper", 0), {"lower", 1}})
       if (!(i == 0 ? answer.upper : answer.lower))
-        text += std::string("\n  the ") + side + " bound is not certified: " +
-                (answer.reason[i].empty() ? "it is zero or has no limit"
-                                          : answer.reason[i]);
-    return text;
+        all.push_back(std::string("the ") + side + " bound of " + bounded +
+                      " for all parameters of the intervals is not certified "
+                      "on the last mesh: " +
+                      (answer.reason[i].empty() ? "it is zero or has no limit"
+                                                : answer.reason[i]) +
+                      "; narrow the intervals, or change 'Analysis/Maximum "
+                      "cells' to end on another mesh");
+    return all;
   }
 } // namespace geocone::GEOCONE_DIM

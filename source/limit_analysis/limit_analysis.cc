@@ -575,6 +575,9 @@ namespace geocone::GEOCONE_DIM
           bounded(),
           bounded_load.is_reaction() ? " " + bounded_load.unit() : "",
           !bounded_load.non_associated()));
+        for (const std::string &warning :
+             intervals.warnings_of(of_intervals, bounded()))
+          log.warn(warning);
       }
     if (const auto points = points_of_structures(); !points.empty())
       write_structures(

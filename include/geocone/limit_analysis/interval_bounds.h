@@ -99,6 +99,10 @@ namespace geocone::GEOCONE_DIM
             const std::string &unit,
             const bool         is_associated) const;
 
+    /** Warnings of bounds that are not certified, with the reason. */
+    std::vector<std::string>
+    warnings_of(const Answer &answer, const std::string &bounded) const;
+
   private:
     using Ranges = std::vector<std::array<double, 2>>; ///< by interval
 
