@@ -255,7 +255,9 @@ namespace geocone::GEOCONE_DIM
         "triangles");
     for (const auto &more : {space.warnings(traits, method),
                              {scene.warn_of_effective_loads()},
-                             scene.materials.warnings()})
+                             stepper->consolidates() // soil that drains
+                               ? std::vector<std::string>()
+                               : scene.materials.warnings()})
       warnings.insert(warnings.end(), more.begin(), more.end());
     remove_empty(warnings);
     if (method.is_mpm())
