@@ -180,7 +180,9 @@ PYTHON
 
 # The table of the report has soil without tension, and a cohesion that is a formula.
 PYTHONPATH=$root/python /usr/bin/python3 -B - <<'PYTHON'
-from geocone.plots.scene_tables import soils_of
+from types import SimpleNamespace
+
+from geocone.plots.scene_tables import loads_of, soils_of
 
 table = soils_of({"Materials/a/Tensile strength": "0", "Materials/a/Cohesion formula": "1e3 + y",
                   "Materials/b/Tensile strength": "none"}, ["a", "b"])
@@ -190,6 +192,12 @@ assert [row[2:] for row in table.rows] == [["1e3 + y", "0"], ["", ""]], table
 table = soils_of({"Materials/a/Density": "2000", "Materials/a/Unit weight": "18000",
                   "Materials/b/Density": "1900", "Materials/b/Unit weight": "0"}, ["a", "b"])
 assert [row[2:] for row in table.rows] == [["", "18"], ["1900", "0"]], table
+# Gravity that is not vertical, as in pseudo-static analyses, is shown by its components.
+for gravity, text in (([0., -9.81], "9.81 m/s²"), ([0.3, -9.81], "(0.3, -9.81) m/s²"),
+                      ([0., -9.81, 1.5], "(0, -9.81, 1.5) m/s²"), ([0., 0.], None)):
+    table = loads_of(SimpleNamespace(parameters={}, stress_unit="Pa", data={
+        "gravity_m_per_s2": gravity, "tractions": [], "supports": []}))
+    assert table.rows == ([["weight", text, "body"]] if text else []), table
 PYTHON
 fails "$program" "$root/prm/footing_mpm.prm" --picture 2>said
 grep -q -- '--picture goes with --dry-run' said

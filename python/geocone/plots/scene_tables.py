@@ -99,9 +99,11 @@ def stated(parameters, section, keys):
 def loads_of(model):
     """The table of weight, tractions and imposed motions."""
     parameters, rows = model.parameters, []
-    gravity = np.linalg.norm(model.data["gravity_m_per_s2"])
-    if gravity > 0.:
-        rows.append(["weight", f"{gravity:.4g} m/s²", "body"])
+    gravity = model.data["gravity_m_per_s2"]
+    if np.any(gravity):
+        is_down = gravity[1] <= 0. and not np.any(np.delete(gravity, 1))
+        rows.append(["weight", (f"{-gravity[1]:.4g}" if is_down else
+                                f"({', '.join(f'{g:.4g}' for g in gravity)})") + " m/s²", "body"])
     components = [f"{kind} {c}" for kind in ("Velocity", "Traction")
                   for c in ("x", "y", "z", "normal", "tangential")]
     for kind, section, unit in (("tractions", "Tractions", model.stress_unit),
