@@ -139,3 +139,15 @@ magnitude 'Gravity/Acceleration = 0, -9810'
 grep -q 'gravity is 9810 m/s^2' log
 magnitude 'Output/Pictures = false'
 fails grep -Eq 'weighs|gravity (is|acts)|is it meant' log
+
+# Soil that drains is not called undrained.
+dilating() {
+  "$program" "$root/prm/consolidation/terzaghi.prm" --dry-run \
+    --set 'Materials/clay/Type = Mohr-Coulomb' --set 'Materials/clay/Cohesion = 1e4' \
+    --set 'Materials/clay/Friction angle = 20' --set 'Materials/clay/Dilatancy angle = 20' \
+    --set "Time stepping/Consolidation = $1" >log 2>&1
+}
+dilating true
+fails grep -q 'the undrained soil' log
+dilating false
+grep -q "the undrained soil 'clay' dilates" log
