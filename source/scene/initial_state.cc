@@ -371,23 +371,31 @@ namespace geocone::GEOCONE_DIM
     const auto is_soil = [&](const dealii::Point<dim> &x) {
       return geometry.contains(x) && stage_of[regions.material_at(x)] < 0;
     };
-    double lowest = 1e300, highest = -1e300;
-    for (dealii::Point<dim> x : columns_of(geometry))
+    std::vector<double> x, ground;
+    for (dealii::Point<dim> place : columns_of(geometry))
       {
         const double part = (high[1] - low[1]) / 400;
         const auto   soil = [&](const double y) {
-          x[1] = y;
-          return is_soil(x);
+          place[1] = y;
+          return is_soil(place);
         };
         double middle = high[1] - part / 2.;
         while (middle > low[1] && !soil(middle))
           middle -= part;
-        const double ground =
-          middle > low[1] ? border(middle, middle + part, soil) : low[1];
-        lowest  = std::min(lowest, ground);
-        highest = std::max(highest, ground);
+        x.push_back(place[0]);
+        ground.push_back(middle > low[1] ? border(middle, middle + part, soil)
+                                         : low[1]);
       }
-    if (lowest < highest - rounding)
+    const double highest = *std::max_element(ground.begin(), ground.end());
+    const auto is_low = [&](const double y) { return y < highest - rounding; };
+    // Upright steps are those of slots, e.g. for walls; others are slopes.
+    bool slopes = is_low(ground.front()) || is_low(ground.back());
+    for (std::size_t i = 1; i < x.size(); ++i)
+      {
+        const double step = std::abs(ground[i] - ground[i - 1]);
+        slopes = slopes || (step > rounding && step < 5. * (x[i] - x[i - 1]));
+      }
+    if (slopes)
       throw InputError("Initial stress/Type",
                        type.word(),
                        "zero | given, where the ground is not level",
