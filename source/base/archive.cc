@@ -18,7 +18,7 @@ namespace geocone
 
   namespace
   {
-    const std::string format_name = "geocone checkpoint 3";
+    const std::string format_name = "geocone checkpoint 4";
 
     /** Updates the checksum with an array. */
     unsigned long

@@ -251,7 +251,7 @@ namespace geocone::GEOCONE_DIM
               law,
               law.full_stress(group.stress_components(p), values.data()),
               law.size(values.data()),
-              group.position.of(p),
+              group.start.of(p),
               values.data());
             for (unsigned int k = 0; k < n; ++k)
               group.history[k][p] = values[k];

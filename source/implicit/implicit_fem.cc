@@ -312,9 +312,9 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
-  ImplicitFEM::add(const Stage              &stage,
-                   MaterialPoints           &points,
-                   std::vector<std::string> &remarks)
+  ImplicitFEM::add(const Stage    &stage,
+                   MaterialPoints &points,
+                   BodyChange     &change)
   {
     std::vector<bool> is_there = mesh->marked_cells(points.cells);
     for (const std::string &material : stage.added_materials)
@@ -326,7 +326,7 @@ namespace geocone::GEOCONE_DIM
               is_there[cell->active_cell_index()] = true;
               ++n;
             }
-        remarks.push_back(
+        change.remarks.push_back(
           format("added %u cells of the material '",
                  dealii::Utilities::MPI::sum(
                    n, mesh->triangulation().get_communicator())) +

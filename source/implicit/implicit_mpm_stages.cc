@@ -31,10 +31,41 @@ namespace geocone::GEOCONE_DIM
     moving->remove(stage, 0., 0.); // its forces are ramped on the nodes
   }
 
+  namespace
+  {
+    /** Least share of the volume of a material that overlaps other soil: what
+     *  exceeds the volumes of its cells. Collective. */
+    double
+    overlapping_share(const BackgroundMesh &mesh,
+                      const MaterialPoints &points,
+                      const unsigned int    material)
+    {
+      const unsigned int  n = mesh.triangulation().n_active_cells();
+      std::vector<double> all(n, 0.), own(n, 0.);
+      for (unsigned int p = 0; p < points.n_points(); ++p)
+        {
+          all[points.cell[p]] += points.volume[p];
+          if (points.material[p] == material)
+            own[points.cell[p]] += points.volume[p];
+        }
+      double too_much = 0., whole = 0.;
+      for (const auto &cell : mesh.own_cells())
+        {
+          const unsigned int c = cell->active_cell_index();
+          too_much += std::clamp(all[c] - cell->measure(), 0., own[c]);
+          whole += own[c];
+        }
+      const MPI_Comm comm = mesh.triangulation().get_communicator();
+      whole               = Utilities::MPI::sum(whole, comm);
+      too_much            = Utilities::MPI::sum(too_much, comm);
+      return whole > 0. ? too_much / whole : 0.;
+    }
+  } // namespace
+
   void
-  ImplicitMPM::add(const Stage              &stage,
-                   MaterialPoints           &points,
-                   std::vector<std::string> &remarks)
+  ImplicitMPM::add(const Stage    &stage,
+                   MaterialPoints &points,
+                   BodyChange     &change)
   {
     for (unsigned int m = 0; m < scene->materials.size(); ++m)
       if (const std::string &name = scene->materials.name(m);
@@ -42,9 +73,16 @@ namespace geocone::GEOCONE_DIM
                      stage.added_materials.end(),
                      name) > 0)
         {
-          remarks.push_back(format("added %lu points of the material '",
-                                   particles.add(m, points)) +
-                            name + "'");
+          change.remarks.push_back(format("added %lu points of the material '",
+                                          particles.add(m, points)) +
+                                   name + "'");
+          if (const double share = overlapping_share(*mesh, points, m);
+              share > 0.05)
+            change.warnings.push_back(
+              format("%.2g %% of the material '%s', or more, is put where soil "
+                     "is that has moved there: begin it above that soil",
+                     100. * share,
+                     name.c_str()));
           added.push_back(m);
           moving->add(m);
         }

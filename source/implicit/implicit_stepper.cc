@@ -54,8 +54,7 @@ namespace geocone::GEOCONE_DIM
       take(stage.removal_duration,
            [&]() { remove(stage, points, change.remarks); });
     if (!stage.added_materials.empty())
-      take(stage.addition_duration,
-           [&]() { add(stage, points, change.remarks); });
+      take(stage.addition_duration, [&]() { add(stage, points, change); });
     if (!stage.changed_materials.empty())
       {
         for (const std::string &remark :

@@ -258,6 +258,14 @@ namespace geocone::GEOCONE_DIM
           }
     archive.read_row("particles/lost")(n_lost_all);
     evaluate(points);
+    // On shared meshes the order of points depends on the number of ranks.
+    if (archive.n_ranks_of("points/state") !=
+          Utilities::MPI::n_mpi_processes(comm) &&
+        dynamic_cast<const parallel::distributed::Triangulation<dim> *>(
+          &mesh->triangulation()) == nullptr)
+      for (auto &[material, later] : waiting)
+        for (unsigned int p = 0; p < later.n_points(); ++p)
+          later.id[p] |= 1U << 31;
   }
 
   void

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
+#include <geocone/base/number_in.h>
 #include <geocone/conditions/mesh_coverage.h>
 #include <geocone/points/initial_overstress.h>
 #include <geocone/run/implicit_simulation.h>
@@ -36,6 +37,44 @@ namespace geocone::GEOCONE_DIM
                          "a run with 'Analysis/Units' = " + ours,
                          "its stresses have those of " + theirs +
                            ": write both parameter files in the same units");
+    }
+
+    /** Refuses what points keep of the run from which they start, and which is
+     *  another one here. @param moves with particles, which keep their mass and
+     *  what depends on their first place */
+    void
+    check_kept(const std::string &folder,
+               const Materials   &materials,
+               const bool         moves)
+    {
+      const std::string file = folder + "/parameters.prm";
+      if (!std::ifstream(file))
+        return;
+      const ParameterFile      theirs(file, {});
+      std::vector<std::string> kept = {"Cohesion ratio"};
+      if (moves)
+        kept.insert(kept.end(),
+                    {"Density",
+                     "Unit weight",
+                     "Saturated unit weight",
+                     "Cohesion formula",
+                     "Cohesion gradient",
+                     "Cohesion level",
+                     "Young modulus formula"});
+      for (const std::string &name : materials.names())
+        for (const std::string &entry : kept)
+          {
+            const std::string path = "Materials/" + name + "/" + entry,
+                              ours = ParameterFile::value(path),
+                              its  = theirs.peek(path, ours);
+            if (ours != its && (!number_in(ours) || !number_in(its) ||
+                                *number_in(ours) != *number_in(its)))
+              throw InputError(path,
+                               ours,
+                               its + ", as in 'Initial stress/Run' = " + folder,
+                               "points keep it from there: change it in that "
+                               "run, too, and run it again");
+          }
     }
 
     void
@@ -222,6 +261,7 @@ namespace geocone::GEOCONE_DIM
     if (!start_of_run.folder.empty() && !options.resumes)
       {
         check_units(start_of_run.folder);
+        check_kept(start_of_run.folder, scene.materials, method.is_mpm());
         checkpoint.read(
           start_of_run.folder,
           log,
@@ -230,6 +270,10 @@ namespace geocone::GEOCONE_DIM
             return std::string();
           },
           "Initial stress/Run");
+        if (!method.is_mpm()) // the strength and stiffness of each place
+          for (unsigned int p = 0; p < points.n_points(); ++p)
+            scene.materials.law(points.material[p])
+              .initialise_at(points.position[p], points.history_of(p));
       }
     warnings.push_back(remark_on_bounds);
     warnings.push_back(scene.warn_of_time_histories());

@@ -90,6 +90,8 @@ namespace geocone::GEOCONE_DIM
         run_output.change_body(change);
         for (const std::string &remark : change.remarks)
           log.print("stage " + stage.name + ": " + remark);
+        for (const std::string &warning : change.warnings)
+          log.warn("stage " + stage.name + ": " + warning);
       }
     step_control.begin_stage(stage.step_sizes()[0]);
   }
@@ -334,6 +336,7 @@ namespace geocone::GEOCONE_DIM
   void
   ImplicitSimulation::state(StateRow &row)
   {
+    SceneSimulation::state(row);
     row(step_control, present, reached, scaled, kinematics.supports);
   }
 

@@ -69,11 +69,17 @@ namespace geocone::GEOCONE_DIM
           start.set(materials.law(to),
                     stress_of(stress),
                     space.band_width(BackgroundMesh::size_of(points.cells[c])),
-                    points.position[p],
+                    p < points.displacement.size()
+                      ? points.position[p] - points.displacement[p]
+                      : points.position[p],
                     points.history_of(p));
           if (!points.mass.empty())
-            points.mass[p] =
-              points.volume[p] * scene.density(to, points.position[p]);
+            {
+              const double before = scene.density(from, points.position[p]),
+                           after  = scene.density(to, points.position[p]);
+              points.mass[p] = before > 0. ? points.mass[p] * (after / before)
+                                           : points.volume[p] * after;
+            }
         }
     start.check<StepFailure>(comm);
     Utilities::MPI::sum(number, comm, number);

@@ -4,6 +4,8 @@
 #ifndef geocone_boundary_interface_law_h
 #define geocone_boundary_interface_law_h
 
+#include <geocone/base/units.h>
+
 #include <deal.II/base/parameter_acceptor.h>
 
 namespace geocone
@@ -22,7 +24,7 @@ namespace geocone
     bool
     never_opens() const
     {
-      return tension >= 1e9;
+      return tension * mass_unit() >= 1e9;
     }
 
     /** Declares the parameters 'Friction coefficient', 'Adhesion', 'Tensile

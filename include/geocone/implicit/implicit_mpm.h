@@ -315,9 +315,9 @@ namespace geocone::GEOCONE_DIM
            MaterialPoints           &points,
            std::vector<std::string> &remarks) override;
     void
-    add(const Stage              &stage,
-        MaterialPoints           &points,
-        std::vector<std::string> &remarks) override;
+    add(const Stage    &stage,
+        MaterialPoints &points,
+        BodyChange     &change) override;
 
     void
     change_nodes(const std::vector<bool> &had_mass,

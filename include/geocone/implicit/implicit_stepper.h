@@ -241,9 +241,7 @@ namespace geocone::GEOCONE_DIM
            MaterialPoints           &points,
            std::vector<std::string> &remarks) = 0;
     virtual void
-    add(const Stage              &stage,
-        MaterialPoints           &points,
-        std::vector<std::string> &remarks) = 0;
+    add(const Stage &stage, MaterialPoints &points, BodyChange &change) = 0;
 
     /** Updates the nodal variables after material is added or removed. Force
      *  differences at nodes outside the body are set to zero. @param had_mass

@@ -63,6 +63,14 @@ namespace geocone::GEOCONE_DIM
       const std::function<double(const PointArrays &group,
                                  const unsigned int p)> &excess_pressure) const;
 
+    /** Writes the identities of material points into a checkpoint, or reads
+     *  them: another number of ranks numbers points in another order. */
+    void
+    state(StateRow &row)
+    {
+      row(id);
+    }
+
   private:
     /** Observed position in a cell of this rank. */
     struct InCell

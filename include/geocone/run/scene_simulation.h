@@ -34,6 +34,12 @@ namespace geocone::GEOCONE_DIM
     const Stage &
     stage_of(const TimePoint &now) const;
 
+    void
+    state(StateRow &row) override
+    {
+      row(observed_points);
+    }
+
     /** Size of the next step of the loading programme (s). */
     double
     step_size(const TimePoint &now);

@@ -125,7 +125,7 @@ namespace geocone::GEOCONE_DIM
    *  stage. */
   struct BodyChange
   {
-    std::vector<std::string> remarks;
+    std::vector<std::string> remarks, warnings;
     Energies                 before, after; ///< energies of the body (J/m)
   };
 
