@@ -382,10 +382,13 @@ namespace geocone::GEOCONE_DIM
         double middle = high[1] - part / 2.;
         while (middle > low[1] && !soil(middle))
           middle -= part;
+        if (!(middle > low[1]))
+          continue; // beside the body
         x.push_back(place[0]);
-        ground.push_back(middle > low[1] ? border(middle, middle + part, soil)
-                                         : low[1]);
+        ground.push_back(border(middle, middle + part, soil));
       }
+    if (ground.empty())
+      return;
     const double highest = *std::max_element(ground.begin(), ground.end());
     const auto is_low = [&](const double y) { return y < highest - rounding; };
     // Upright steps are those of slots, e.g. for walls; others are slopes.
