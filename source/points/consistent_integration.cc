@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
 
 namespace geocone::GEOCONE_DIM
 {
@@ -29,39 +30,33 @@ namespace geocone::GEOCONE_DIM
       std::vector<Tensor<1, dim>> gradient; ///< of grad N_i
       std::vector<double>         hoop;     ///< of N_i/r, around an axis
 
-      CellIntegrals &
-      operator+=(const CellIntegrals &other)
+      /** Adds the integrals of another cell, for the nodes shared with this
+       *  one. */
+      void
+      add(const CellIntegrals                        &other,
+          const std::vector<types::global_dof_index> &nodes_of_other,
+          const std::vector<types::global_dof_index> &nodes)
       {
         volume += other.volume;
-        for (unsigned int i = 0; i < gradient.size(); ++i)
-          gradient[i] += other.gradient[i];
-        for (unsigned int i = 0; i < hoop.size(); ++i)
-          hoop[i] += other.hoop[i];
-        return *this;
+        for (unsigned int j = 0; j < nodes_of_other.size(); ++j)
+          if (const auto found =
+                std::find(nodes.begin(), nodes.end(), nodes_of_other[j]);
+              found != nodes.end())
+            {
+              gradient[found - nodes.begin()] += other.gradient[j];
+              if (!hoop.empty())
+                hoop[found - nodes.begin()] += other.hoop[j];
+            }
       }
     };
 
-    /** Integrals over a part of a cell, of the functions of @p nodes: its own, or
-     *  those of the cell beside it to which it belongs. The latter are scaled to
-     *  the sum 1, as functions with mass are in tractions
-     *  (keep_nodes_with_mass()), so that a uniform stress remains in equilibrium
-     *  with them, and its forces have neither sum nor moment. */
     CellIntegrals
-    integrate(const BackgroundMesh                       &mesh,
-              const Space                                &space,
-              const Space::Cell                          &cell,
-              const SoilPart                             &part,
-              const std::vector<types::global_dof_index> &nodes)
+    integrate(const BackgroundMesh &mesh,
+              const Space          &space,
+              const Space::Cell    &cell,
+              const SoilPart       &part)
     {
-      const unsigned int                   n = space.nodes_per_cell();
-      std::vector<types::global_dof_index> own;
-      space.cell_nodes(cell, own);
-      std::vector<unsigned int> place(n); // among the nodes
-      for (unsigned int i = 0; i < n; ++i)
-        place[i] =
-          nodes[i] == own[i]
-            ? i
-            : std::find(nodes.begin(), nodes.end(), own[i]) - nodes.begin();
+      const unsigned int          n   = space.nodes_per_cell();
       const BoundingBox<dim>      box = cell->bounding_box();
       std::vector<double>         values(n);
       std::vector<Tensor<1, dim>> unit_gradient(n);
@@ -78,23 +73,10 @@ namespace geocone::GEOCONE_DIM
           space.evaluate(cell, unit, values.data(), unit_gradient.data());
           const Tensor<2, dim> inverse = mesh.inverse_jacobian(cell, unit);
           sum.volume += weight;
-          double         S = 0.;
-          Tensor<1, dim> slope; // of S
           for (unsigned int i = 0; i < n; ++i)
-            if (place[i] < n)
-              {
-                S += values[i];
-                slope += unit_gradient[i];
-              }
-          for (unsigned int i = 0; i < n; ++i)
-            if (place[i] < n)
-              {
-                const double N = values[i] / S;
-                sum.gradient[place[i]] +=
-                  weight / S * ((unit_gradient[i] - N * slope) * inverse);
-                if (!sum.hoop.empty())
-                  sum.hoop[place[i]] += weight * N / x[0];
-              }
+            sum.gradient[i] += weight * (unit_gradient[i] * inverse);
+          for (unsigned int i = 0; i < sum.hoop.size(); ++i)
+            sum.hoop[i] += weight * values[i] / x[0];
         }
       return sum;
     }
@@ -228,47 +210,31 @@ namespace geocone::GEOCONE_DIM
       return result;
     }
 
-    /** Cells without points that a boundary intersects and that belong to a cell:
-     *  of those beside them with points, the one with the largest soil part. */
-    std::vector<Space::Cell>
-    slivers_beside(const Space::Cell         &cell,
-                   const KnownBoundary       &boundary,
-                   const std::vector<double> &filled)
+    /** The adjacent cell, if a boundary leaves a sliver without points in
+     *  it. */
+    std::optional<Space::Cell>
+    sliver_beside(const Space::Cell         &cell,
+                  const KnownBoundary       &boundary,
+                  const std::vector<double> &filled)
     {
-      const auto has_points = [&](const Space::Cell &other) {
-        return filled[other->active_cell_index()] > 0.;
-      };
-      const auto soil_of = [&](const Space::Cell &other) {
-        const BoundingBox<dim> box = other->bounding_box();
-        return soil_part(box, boundary).volume() / box.volume();
-      };
-      const auto beside = [](const Space::Cell &of) {
-        std::vector<Space::Cell> cells;
-        for (unsigned int face = 0; face < 2 * dim; ++face)
-          if (!of->at_boundary(face) && !of->neighbor(face)->is_artificial())
-            cells.push_back(of->neighbor(face));
-        return cells;
-      };
-      std::vector<Space::Cell> slivers;
-      for (const Space::Cell &other : beside(cell))
+      std::array<bool, 2 *dim> is_limited = {};
+      for (const SoilLimit &limit : boundary.limits)
+        is_limited[2 * limit.axis + limit.soil_is_below] = true;
+      for (const LoadedFacet &facet : boundary.loaded)
+        is_limited[2 * facet.axis + facet.soil_is_below] = true;
+      for (unsigned int face = 0; face < 2 * dim; ++face)
         {
-          const double part = has_points(other) ? 0. : soil_of(other);
-          if (!(part > negligible_part && part < 1. - negligible_part))
+          if (!is_limited[face] || cell->at_boundary(face))
             continue;
-          double      largest = 0.;
-          Space::Cell first; // of those that are equal
-          for (const Space::Cell &candidate : beside(other))
-            if (has_points(candidate))
-              if (const double soil = soil_of(candidate);
-                  soil > largest * (1. + negligible_part))
-                {
-                  largest = soil;
-                  first   = candidate;
-                }
-          if (largest > 0. && first == cell)
-            slivers.push_back(other);
+          const Space::Cell other = cell->neighbor(face);
+          if (other->is_artificial() || filled[other->active_cell_index()] > 0.)
+            continue;
+          const BoundingBox<dim> box  = other->bounding_box();
+          const double part = soil_part(box, boundary).volume() / box.volume();
+          if (part > negligible_part && part < 1. - negligible_part)
+            return other;
         }
-      return slivers;
+      return std::nullopt;
     }
 
     /** Scales the weights of the points of a cell and shifts their gradients,
@@ -320,7 +286,7 @@ namespace geocone::GEOCONE_DIM
     const std::vector<double> filled = filled_parts(mesh, rooms, points);
     const std::vector<bool>   is_surrounded =
       surrounded_vertices(mesh, boundary, filled);
-    std::vector<types::global_dof_index> nodes;
+    std::vector<types::global_dof_index> nodes, nodes_beside;
     for (unsigned int c = 0; c < points.n_cells(); ++c)
       {
         const Space::Cell  cell(points.cells[c]);
@@ -346,14 +312,18 @@ namespace geocone::GEOCONE_DIM
         if (room.share > 1. - negligible_part && !is_inside &&
             !(std::abs(room.filled - 1.) < 0.03))
           continue;
-        space.cell_nodes(cell, nodes);
-        CellIntegrals exact = integrate(mesh, space, cell, room.part, nodes);
-        for (const Space::Cell &sliver : slivers_beside(cell, boundary, filled))
-          exact += integrate(mesh,
-                             space,
-                             sliver,
-                             soil_part(sliver->bounding_box(), boundary),
-                             nodes);
+        CellIntegrals exact = integrate(mesh, space, cell, room.part);
+        if (const auto beside = sliver_beside(cell, boundary, filled))
+          {
+            space.cell_nodes(cell, nodes);
+            space.cell_nodes(*beside, nodes_beside);
+            exact.add(integrate(mesh,
+                                space,
+                                *beside,
+                                soil_part((*beside)->bounding_box(), boundary)),
+                      nodes_beside,
+                      nodes);
+          }
         match_integrals(exact, c, room.filled * room.volume, points);
       }
   }
