@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <set>
 
 namespace geocone::GEOCONE_DIM
 {
@@ -134,6 +133,7 @@ namespace geocone::GEOCONE_DIM
     , mesh(mesh)
     , space(space)
     , is_active(scene.dirichlet.acting_in(scene.loading.list.front()->name))
+    , tractions(scene, mesh, space)
   {
     const auto &list = scene.dirichlet.list;
     for (unsigned int c = 0; c < list.size(); ++c)
@@ -147,43 +147,6 @@ namespace geocone::GEOCONE_DIM
             shorten(*list[c], panels);
           supports.push_back({c, panels});
         }
-    const auto &tractions = scene.tractions.list;
-    for (unsigned int c = 0; c < tractions.size(); ++c)
-      {
-        const std::vector<SidePart> panels =
-          segments_of_body(*tractions[c], scene.geometry);
-        double size = 0.;
-        for (const SidePart &panel : panels)
-          for (unsigned int k = 0; k + 1 < dim; ++k)
-            size = std::max(size, cell_size_along(mesh, panel, k));
-        loads.push_back({c, MovingSurface(panels, size)});
-        loads.back().surface.remove(
-          [&](const Point<dim> &x) {
-            return scene.loading.adds(
-              scene.materials.name(scene.regions.material_at(x)));
-          },
-          0.,
-          0.);
-      }
-  }
-
-  void
-  MovingConditions::remove(const Stage &stage,
-                           const double t,
-                           const double duration)
-  {
-    for (LoadedSide &side : loads)
-      side.surface.remove(
-        [&](const Point<dim> &x) { return stage.removes(x); }, t, duration);
-  }
-
-  void
-  MovingConditions::add(const unsigned int material)
-  {
-    for (LoadedSide &side : loads)
-      side.surface.add([&](const Point<dim> &x) {
-        return scene.regions.material_at(x) == material;
-      });
   }
 
   void
@@ -237,117 +200,6 @@ namespace geocone::GEOCONE_DIM
                          "and its box");
   }
 
-  Tensor<1, dim>
-  MovingConditions::traction_at(const BoundaryCondition &load,
-                                const double             size,
-                                const Tensor<1, dim>    &area,
-                                const Point<dim>        &x,
-                                const double             t) const
-  {
-    // Dead loads are per initial size.
-    Tensor<1, dim> f;
-    for (unsigned int d = 0; d < dim; ++d)
-      if (const auto &traction = load.components[d])
-        f[d] = traction->value(x, t) * size;
-    // Pressure acts on the current boundary.
-    if (load.normal || load.tangential)
-      f += area.norm() * load.vector_on_side(x, area / area.norm(), t);
-    return f * mesh.measure(x); // around an axis, current radius
-  }
-
-  void
-  MovingConditions::add_tractions(Vector              &force,
-                                  const NodesWithMass &has_mass,
-                                  const double         t,
-                                  const Stage         *stage,
-                                  const bool           scaled) const
-  {
-    std::vector<double> N;
-    for (const auto &[condition, surface] : loads)
-      {
-        const BoundaryCondition &load = *scene.tractions.list[condition];
-        const bool               is_active =
-          stage == nullptr || stage->scales(load.name) == scaled;
-        const std::vector<SidePart> facets = surface.facets();
-        std::vector<double>         carried(facets.size(), 0.);
-        const auto add = [&, &surface = surface](const std::size_t    number,
-                                                 const BoundaryPoint &point) {
-          const double   left = surface.part_left(number, t);
-          Tensor<1, dim> f;
-          if (is_active && left > 0.)
-            f = left * traction_at(load,
-                                   surface.size_at_start(number),
-                                   area_of(facets[number]),
-                                   point.position,
-                                   t);
-          N = point.values;
-          if (f.norm() > 0. && has_mass &&
-              !keep_nodes_with_mass(space, has_mass, point.nodes, N))
-            return;
-          carried[number] += point.weight;
-          for (unsigned int i = 0; i < point.nodes.size(); ++i)
-            for (unsigned int d = 0; d < dim; ++d)
-              force.local_element(dim * space.local_node(point.nodes[i]) + d) +=
-                point.weight * N[i] * f[d];
-        };
-        std::vector<double> parts = for_each_point(mesh, space, facets, add);
-        std::vector<Point<dim>> middles;
-        for (std::size_t i = 0; i < facets.size(); ++i)
-          {
-            middles.push_back(facets[i].middle());
-            if (!(surface.part_left(i, t) > 0.)) // may be anywhere
-              parts[i] = carried[i] = 1.;
-          }
-        check_in_mesh(load, middles, parts);
-        if (has_mass)
-          check_on_soil(load, middles, carried);
-      }
-    if (!loads.empty())
-      force.compress(VectorOperation::add);
-  }
-
-  std::optional<MovingConditions::MissingPart>
-  MovingConditions::missing_part(const std::vector<Point<dim>> &middles,
-                                 std::vector<double>            found) const
-  {
-    sum_over_ranks(found, mesh.triangulation().get_communicator());
-    const auto least = std::min_element(found.begin(), found.end());
-    if (!(*least < 1. - 1e-6))
-      return std::nullopt;
-    return MissingPart{100. * (1. - *least),
-                       text_of_place(middles[least - found.begin()])};
-  }
-
-  void
-  MovingConditions::check_on_soil(const BoundaryCondition       &load,
-                                  const std::vector<Point<dim>> &middles,
-                                  std::vector<double>            carried) const
-  {
-    if (const auto missing = missing_part(middles, std::move(carried)))
-      throw StepFailure(
-        format("the side of '%s' has left the particles: no function with mass "
-               "carries %.3g %% of its part around (%s)\n"
-               "  remedy:  smaller steps, or B-splines, which reach farther",
-               load.name.c_str(),
-               missing->percent,
-               missing->place.c_str()));
-  }
-
-  void
-  MovingConditions::check_in_mesh(const BoundaryCondition       &condition,
-                                  const std::vector<Point<dim>> &middles,
-                                  std::vector<double>            in_mesh) const
-  {
-    if (const auto missing = missing_part(middles, std::move(in_mesh)))
-      throw StepFailure(
-        format("the side of '%s' has left the background mesh: %.3g %% of its "
-               "part around (%s) is outside\n"
-               "  remedy:  a larger Mesh/Box, so that the side stays in it",
-               condition.name.c_str(),
-               missing->percent,
-               missing->place.c_str()));
-  }
-
   void
   MovingConditions::add_rows_of_sides(const double t, Multipliers &rows) const
   {
@@ -387,7 +239,10 @@ namespace geocone::GEOCONE_DIM
                 }
               ++number;
             }
-        check_in_mesh(condition, middles, part_in_mesh);
+        check_in_mesh(condition,
+                      middles,
+                      part_in_mesh,
+                      mesh.triangulation().get_communicator());
       }
   }
 
@@ -559,14 +414,13 @@ namespace geocone::GEOCONE_DIM
             panel = spanned_by(ends);
           }
       }
-    for (LoadedSide &side : loads)
-      side.surface.move(mesh, space, has_mass, v, h);
+    tractions.move(has_mass, v, h);
   }
 
   std::vector<bool>
   MovingConditions::loaded_nodes() const
   {
-    if (supports.empty() && loads.empty())
+    if (supports.empty() && !tractions.exist())
       return {};
     Vector     mark(space.partitioner());
     const auto mark_nodes = [&](const BoundaryPoint &point) {
@@ -579,13 +433,7 @@ namespace geocone::GEOCONE_DIM
         if (is_active[side.condition])
           for (const BoundaryPoint &point : points_on(mesh, space, panel))
             mark_nodes(point);
-    for (const LoadedSide &side : loads)
-      for_each_point(mesh,
-                     space,
-                     side.surface.facets_with_soil(),
-                     [&](const std::size_t, const BoundaryPoint &point) {
-                       mark_nodes(point);
-                     });
+    tractions.for_each_loaded_point(mark_nodes);
     mark.compress(VectorOperation::add);
     mark.update_ghost_values();
     std::vector<bool> is_loaded(space.n_local_nodes());
@@ -602,8 +450,8 @@ namespace geocone::GEOCONE_DIM
     for (const PrescribedSide &side : supports)
       for (unsigned int l = 0; l < side.panels.size(); ++l)
         {
-          const SidePart &panel = side.panels[l];
-          const Seen      now   = seen_from(panel, after);
+          const SidePart          &panel = side.panels[l];
+          const Seen               now   = seen_from(panel, after);
           const BoundaryCondition &condition =
             *scene.dirichlet.list[side.condition];
           if (!now.is_close_behind() || !is_active[side.condition] ||
@@ -677,16 +525,7 @@ namespace geocone::GEOCONE_DIM
                                          area[d] > 0.,
                                          BoundingBox<dim>(panel.corners)});
         }
-    std::set<std::vector<double>> seen; // corners of facets
-    for (const LoadedSide &side : loads)
-      for (SidePart &facet : side.surface.facets_with_soil())
-        {
-          std::vector<double> places;
-          for (const Point<dim> &corner : facet.corners)
-            places.insert(places.end(), corner.begin_raw(), corner.end_raw());
-          if (seen.insert(places).second)
-            boundary.loaded.push_back(std::move(facet));
-        }
+    boundary.loaded = tractions.facets_with_soil();
     return boundary;
   }
 
@@ -701,8 +540,7 @@ namespace geocone::GEOCONE_DIM
             row(x);
           panel = spanned_by(ends);
         }
-    for (LoadedSide &side : loads)
-      side.surface.state(row);
+    tractions.state(row);
   }
 
   std::pair<Point<dim>, Point<dim>>

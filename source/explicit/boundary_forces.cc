@@ -29,7 +29,7 @@ namespace geocone::GEOCONE_DIM
     StateRow places;
     if (moving)
       moving->state(places);
-    moving = std::make_unique<MovingConditions>(scene, mesh, space);
+    moving = std::make_unique<MovingLoads>(scene, mesh, space);
     if (StateRow row(places.values()); !row.at_end())
       moving->state(row);
     absorbing =
@@ -66,7 +66,7 @@ namespace geocone::GEOCONE_DIM
       {
         tractions.zero_out_ghost_values();
         tractions = 0.;
-        moving->add_tractions(tractions, {}, t);
+        moving->add_forces(tractions, {}, t);
         tractions.update_ghost_values();
       }
     if (absorbing->exists())
@@ -134,6 +134,6 @@ namespace geocone::GEOCONE_DIM
       for (unsigned int d = 0; d < dim; ++d)
         v.local_element(dim * i + d) = nodes.read[node_size * i + d];
     v.update_ghost_values();
-    moving->move({}, v, dt, 0.);
+    moving->move({}, v, dt);
   }
 } // namespace geocone::GEOCONE_DIM

@@ -432,7 +432,7 @@ namespace geocone::GEOCONE_DIM
       stage == nullptr || stage->scales("weight") == scaled;
     const Tensor<1, dim> g =
       has_weight ? scene->gravity.at(t) : Tensor<1, dim>();
-    moving->add_tractions(dst, nodes_with_mass(), t, stage, scaled);
+    moving->loads().add_forces(dst, nodes_with_mass(), t, stage, scaled);
     if (scene->water.acts() &&
         (scene->water.scales_with_weight() ? has_weight : !scaled))
       add_water(points, t, dst);

@@ -28,7 +28,7 @@ namespace geocone::GEOCONE_DIM
       Utilities::MPI::sum(stays.size(), comm),
       "points"));
     particles.keep(stays, points);
-    moving->remove(stage, 0., 0.); // its forces are ramped on the nodes
+    moving->loads().remove(stage, 0., 0.); // its forces are ramped on the nodes
   }
 
   namespace
@@ -52,7 +52,8 @@ namespace geocone::GEOCONE_DIM
       for (const auto &cell : mesh.own_cells())
         {
           const unsigned int c = cell->active_cell_index();
-          too_much += std::clamp(all[c] - cell->measure(), 0., own[c]);
+          const double volume  = cell->measure() * mesh.measure(cell->center());
+          too_much += std::clamp(all[c] - volume, 0., own[c]);
           whole += own[c];
         }
       const MPI_Comm comm = mesh.triangulation().get_communicator();
@@ -84,7 +85,7 @@ namespace geocone::GEOCONE_DIM
                      100. * share,
                      name.c_str()));
           added.push_back(m);
-          moving->add(m);
+          moving->loads().add(m);
         }
   }
 

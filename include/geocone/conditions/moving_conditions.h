@@ -4,11 +4,9 @@
 #ifndef geocone_conditions_moving_conditions_h
 #define geocone_conditions_moving_conditions_h
 
-#include <geocone/base/state_row.h>
 #include <geocone/conditions/constraints.h>
+#include <geocone/conditions/moving_loads.h>
 #include <geocone/points/consistent_integration.h>
-#include <geocone/surfaces/moving_surface.h>
-#include <geocone/surfaces/sides_of_body.h>
 
 #include <optional>
 
@@ -17,7 +15,7 @@ namespace geocone::GEOCONE_DIM
   /**
    * Boundary conditions on particles and on boundary segments that move with the
    * body. Prescribed velocities are imposed as constraints H v = q with Lagrange
-   * multipliers, tractions as nodal forces.
+   * multipliers, tractions as nodal forces (MovingLoads).
    */
   class MovingConditions
   {
@@ -36,14 +34,12 @@ namespace geocone::GEOCONE_DIM
       is_active = scene.dirichlet.acting_in(stage);
     }
 
-    /** Removes the loads on the soil that a stage removes from time t on.
-     *  @param duration of their decrease (s); 0: at once */
-    void
-    remove(const Stage &stage, const double t, const double duration);
-
-    /** Adds the loads on the soil of a material added by a stage. */
-    void
-    add(const unsigned int material);
+    /** Tractions, which are nodal forces. */
+    MovingLoads &
+    loads()
+    {
+      return tractions;
+    }
 
     /** Returns true if a boundary condition is active in the current stage. */
     bool
@@ -57,20 +53,6 @@ namespace geocone::GEOCONE_DIM
      *  @throws InputError if a condition selects none */
     void
     check_held_particles(const MaterialPoints &points) const;
-
-    /**
-     * Adds the nodal forces of all tractions at time t to @p force, on facets with
-     * soil and nodes with mass. Collective.
-     * @param has_mass empty: on all nodes
-     * @param stage,scaled as in Loads::evaluate()
-     * @throws StepFailure if a boundary segment has left the mesh or the points
-     */
-    void
-    add_tractions(Vector              &force,
-                  const NodesWithMass &has_mass,
-                  const double         t,
-                  const Stage         *stage  = nullptr,
-                  const bool           scaled = false) const;
 
     /** Parameters of the velocity transfer from nodes to particles in a step. The
      *  step is solved for v = v^L + part (v_end - v^L); the particle velocity at
@@ -100,7 +82,7 @@ namespace geocone::GEOCONE_DIM
      * Moves the boundary segments during a time step h. Segments with prescribed
      * velocity move with this velocity at time t, all other segments with the nodal
      * velocities v of nodes with mass. Collective.
-     * @param has_mass as in add_tractions()
+     * @param has_mass as in MovingLoads::add_forces()
      */
     void
     move(const NodesWithMass &has_mass,
@@ -158,13 +140,6 @@ namespace geocone::GEOCONE_DIM
       std::vector<SidePart> before = {}; ///< panels before the last move()
     };
 
-    /** A traction boundary condition and its boundary segments. */
-    struct LoadedSide
-    {
-      unsigned int  condition;
-      MovingSurface surface;
-    };
-
     /** Number of prescribed particles of each boundary condition over all ranks.
      *  In axisymmetric problems, the sum of the circumferences of the particles
      *  (m). Collective. */
@@ -212,56 +187,12 @@ namespace geocone::GEOCONE_DIM
                      Multipliers    &rows) const;
     /** @} */
 
-    /** Returns the traction at a quadrature point of a facet times its size.
-     *  @param size initial size of the facet, on which dead loads act
-     *  @param area current outward normal times current size */
-    dealii::Tensor<1, dim>
-    traction_at(const BoundaryCondition      &load,
-                const double                  size,
-                const dealii::Tensor<1, dim> &area,
-                const dealii::Point<dim>     &x,
-                const double                  t) const;
-
-    /** Part of a facet or segment that was not found. */
-    struct MissingPart
-    {
-      double      percent;
-      std::string place; ///< of its middle
-    };
-
-    /** Finds the facet or segment with the least part found, if a part is missing.
-     *  Collective. @param found fraction of each one that this rank found */
-    std::optional<MissingPart>
-    missing_part(const std::vector<dealii::Point<dim>> &middles,
-                 std::vector<double>                    found) const;
-
-    /** Checks that functions with mass carry the facets of a traction. Collective.
-     *  @param carried fraction of each facet on this rank with such functions or
-     *  without load
-     *  @throws StepFailure if a facet has none */
-    void
-    check_on_soil(const BoundaryCondition               &load,
-                  const std::vector<dealii::Point<dim>> &middles,
-                  std::vector<double>                    carried) const;
-
-    /**
-     * Checks that the boundary segments of a condition are inside the mesh. Outside
-     * the mesh, the condition would have no effect. Collective.
-     * @param middles midpoints of the segments @param in_mesh fraction of each
-     * segment found on this rank
-     * @throws StepFailure if a segment is outside the mesh
-     */
-    void
-    check_in_mesh(const BoundaryCondition               &condition,
-                  const std::vector<dealii::Point<dim>> &middles,
-                  std::vector<double>                    in_mesh) const;
-
     const Scene          &scene;
     const BackgroundMesh &mesh;
     const Space          &space;
     std::vector<bool>     is_active; ///< per condition of Scene::dirichlet
     std::vector<PrescribedSide> supports;
-    std::vector<LoadedSide>     loads;
+    MovingLoads                 tractions;
   };
 } // namespace geocone::GEOCONE_DIM
 

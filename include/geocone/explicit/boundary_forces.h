@@ -4,7 +4,7 @@
 #ifndef geocone_explicit_boundary_forces_h
 #define geocone_explicit_boundary_forces_h
 
-#include <geocone/conditions/moving_conditions.h>
+#include <geocone/conditions/moving_loads.h>
 #include <geocone/terms/absorbing_boundary.h>
 #include <geocone/transfer/grid_transfer.h>
 
@@ -95,7 +95,7 @@ namespace geocone::GEOCONE_DIM
     const BackgroundMesh              &mesh;
     const Space                       &space;
     const bool                         has_tractions;
-    std::unique_ptr<MovingConditions>  moving;
+    std::unique_ptr<MovingLoads>       moving;
     std::unique_ptr<AbsorbingBoundary> absorbing;
     Vector                             tractions, coefficient, incoming;
   };
