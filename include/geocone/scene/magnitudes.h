@@ -20,8 +20,8 @@ namespace geocone::GEOCONE_DIM
   text_of_magnitudes(const Scene &scene, const dealii::BoundingBox<dim> &body);
 
   /** Returns warnings about dimensions, densities, stiffnesses and strengths
-   *  outside the usual range of soils. The most frequent cause is a wrong
-   *  unit. */
+   *  outside the usual range of soils, whose most frequent cause is a wrong
+   *  unit, and those of warn_of_water_thrusts(). */
   std::vector<std::string>
   warn_of_magnitudes(const Scene &scene, const dealii::BoundingBox<dim> &body);
 } // namespace geocone::GEOCONE_DIM
