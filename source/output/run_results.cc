@@ -51,14 +51,15 @@ namespace geocone::GEOCONE_DIM
         const ImplicitRecord &now = records[i], &before = records[i - 1];
         const Stage          &stage =
           scene->loading.stage_at((before.time + now.time) / 2.);
-        reduces                  = reduces || stage.strength_factor > 0.;
-        const Energies &energies = now.last.energies;
-        const double    plastic  = now.last.works.dissipation;
-        if (!reduces || stage.requires_equilibrium() || !(plastic > 0.) ||
-            energies.kinetic <= 1e-4 * energies.elastic)
+        reduces = reduces || stage.strength_factor > 0.;
+        if (!reduces || stage.requires_equilibrium())
           continue;
-        const std::string reason = stage.no_equilibrium(
-          (energies.kinetic - before.last.energies.kinetic) / plastic);
+        const Energies   &energies = now.last.energies;
+        const std::string reason   = stage.no_equilibrium(
+          share_of_plastic_work(energies.kinetic - before.last.energies.kinetic,
+                                now.last.works.dissipation,
+                                energies.kinetic,
+                                energies.elastic));
         if (!reason.empty())
           return Failure{stage.name, before.time, now.time, reason};
       }
@@ -70,33 +71,29 @@ namespace geocone::GEOCONE_DIM
   {
     const LoadingProgramme &loading = scene->loading;
     const double            end = records.empty() ? 0. : records.back().time;
-    if (const auto motion = failure ? std::nullopt : onset_of_motion())
+    if (!failure)
       {
-        const double lower = loading.strength_factor(motion->carried_until);
+        const auto   motion = onset_of_motion();
+        const bool   whole  = end >= (1. - 1e-9) * loading.duration();
+        const double sustained =
+          loading.strength_factor(motion ? motion->carried_until : end);
+        const bool is_known =
+          motion ? sustained > loading.factor_before(motion->stage)
+                 : whole || sustained != 1.;
         return {
           {"factor", Json()},
           {"displacement_growth", Json()},
-          {"lower",
-           lower > loading.factor_before(motion->stage) ? Json(lower) : Json()},
+          {"lower", is_known ? Json(sustained) : Json()},
           {"upper", Json()},
           {"criterion",
-           format("the body accelerates by the strength factor %.4f, at t = "
-                  "%.6g s: ",
-                  loading.strength_factor(motion->not_until),
-                  motion->not_until) +
-             motion->reason}};
-      }
-    if (!failure)
-      {
-        const bool   whole     = end >= (1. - 1e-9) * loading.duration();
-        const double sustained = loading.strength_factor(end);
-        return {{"factor", Json()},
-                {"displacement_growth", Json()},
-                {"lower", whole || sustained != 1. ? Json(sustained) : Json()},
-                {"upper", Json()},
-                {"criterion",
-                 whole ? "equilibrium is found for all factors of the stages"
-                       : "the stages have not come to their end"}};
+           motion
+             ? format("the body accelerates by the strength factor %.4f, at t "
+                      "= %.6g s: ",
+                      loading.strength_factor(motion->not_until),
+                      motion->not_until) +
+                 motion->reason
+           : whole ? "equilibrium is found for all factors of the stages"
+                   : "the stages have not come to their end"}};
       }
     // If even the first reduction fails, the body may have failed before.
     const double lower = loading.strength_factor(failure->carried_until),

@@ -271,10 +271,8 @@ namespace geocone::GEOCONE_DIM
         parts.kinetic += h * of_obstacles.work;
         parts.kinetic_energy += h * of_obstacles.energy;
       }
-    // Decaying waves and creep are negligible compared with the elastic energy.
-    const bool flows =
-      parts.plastic > 0. && parts.kinetic_energy > 1e-4 * parts.elastic_energy;
-    return flows ? parts.kinetic / parts.plastic : 0.;
+    return share_of_plastic_work(
+      parts.kinetic, parts.plastic, parts.kinetic_energy, parts.elastic_energy);
   }
 
   void

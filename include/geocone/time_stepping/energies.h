@@ -44,6 +44,20 @@ namespace geocone
     }
   };
 
+  /** Returns the ratio of the gain of kinetic energy to the plastic work in a
+   *  step. It is 0 while the kinetic energy is small against the elastic one:
+   *  decaying waves and creep. */
+  inline double
+  share_of_plastic_work(const double gain,
+                        const double plastic_work,
+                        const double kinetic_energy,
+                        const double elastic_energy)
+  {
+    return plastic_work > 0. && kinetic_energy > 1e-4 * elastic_energy
+             ? gain / plastic_work
+             : 0.;
+  }
+
   /** Work done on the body and energy dissipated during one or more steps
    *  (J/m). */
   struct Works
