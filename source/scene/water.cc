@@ -259,22 +259,20 @@ namespace geocone::GEOCONE_DIM
   double
   Water::pressure(const Point<dim> &x) const
   {
-    if (all_flows.empty())
-      return pressure_of(x, 0);
-    double sum = 0.;
-    for (std::size_t i = 0; i < all_flows.size(); ++i)
-      if (initial_weights[i] != 0.)
-        sum += initial_weights[i] * pressure_of(x, i);
-    return sum;
+    return mean_pressure(x, initial_weights);
   }
 
   double
   Water::pressure(const Point<dim> &x, const double t) const
   {
-    if (t == 0.)
-      return pressure(x);
-    const std::vector<double> weights = interpolation_weights(t);
-    double                    sum     = 0.;
+    return t == 0. ? pressure(x) : mean_pressure(x, interpolation_weights(t));
+  }
+
+  double
+  Water::mean_pressure(const Point<dim>          &x,
+                       const std::vector<double> &weights) const
+  {
+    double sum = 0.;
     for (std::size_t i = 0; i < weights.size(); ++i)
       if (weights[i] != 0.)
         sum += weights[i] * pressure_of(x, i);

@@ -118,7 +118,7 @@ namespace geocone::GEOCONE_DIM
     void
     set_flows(std::vector<Flow> of_steps, const double time = 0.)
     {
-      all_flows     = std::move(of_steps);
+      all_flows       = std::move(of_steps);
       initial_weights = interpolation_weights(time);
     }
 
@@ -214,6 +214,12 @@ namespace geocone::GEOCONE_DIM
     double
     pressure_of(const dealii::Point<dim> &x, const std::size_t line) const;
 
+    /** Returns the mean of these pressures (Pa). @param weights of all lines or
+     *  flow problems, see interpolation_weights() */
+    double
+    mean_pressure(const dealii::Point<dim>  &x,
+                  const std::vector<double> &weights) const;
+
     /** Rejects a pore pressure ratio out of its limits or beside other pore
      *  pressures. @throws InputError */
     void
@@ -242,7 +248,9 @@ namespace geocone::GEOCONE_DIM
     double                      pressure_ratio = 0.; ///< r_u
     std::optional<SoilColumns>  columns;
     std::vector<Flow>           all_flows;
-    std::vector<double> initial_weights; ///< parts() at the initial time
+
+    /** interpolation_weights() at the initial time. */
+    std::vector<double> initial_weights = {1.};
 
     /** Piezometric line at the end of a stage, or flow problem during the
      *  stage. */
