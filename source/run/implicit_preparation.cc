@@ -21,36 +21,27 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    /** @throws InputError if the state of a run is in other units than those of this one */
+    /** Refuses the state of a run in other units, and one that keeps other
+     *  parameters in its points than those of this run.
+     *  @param moves with particles, which keep their mass and what depends on
+     *  their first place */
     void
-    check_units(const std::string &folder)
+    check_start(const std::string &folder,
+                const Materials   &materials,
+                const bool         moves)
     {
       const std::string file = folder + "/parameters.prm";
       if (!std::ifstream(file)) // what reads the state says what is missing
         return;
-      const std::string theirs =
-                          ParameterFile(file, {}).peek("Analysis/Units", "SI"),
-                        ours = ParameterFile::value("Analysis/Units");
-      if (theirs != ours)
+      const ParameterFile theirs(file, {});
+      const std::string   units   = ParameterFile::value("Analysis/Units"),
+                        its_units = theirs.peek("Analysis/Units", "SI");
+      if (its_units != units)
         throw InputError("Initial stress/Run",
                          folder,
-                         "a run with 'Analysis/Units' = " + ours,
-                         "its stresses have those of " + theirs +
+                         "a run with 'Analysis/Units' = " + units,
+                         "its stresses have those of " + its_units +
                            ": write both parameter files in the same units");
-    }
-
-    /** Refuses what points keep of the run from which they start, and which is
-     *  another one here. @param moves with particles, which keep their mass and
-     *  what depends on their first place */
-    void
-    check_kept(const std::string &folder,
-               const Materials   &materials,
-               const bool         moves)
-    {
-      const std::string file = folder + "/parameters.prm";
-      if (!std::ifstream(file))
-        return;
-      const ParameterFile      theirs(file, {});
       std::vector<std::string> kept = {"Cohesion ratio"};
       if (moves)
         kept.insert(kept.end(),
@@ -169,7 +160,7 @@ namespace geocone::GEOCONE_DIM
   ImplicitSimulation::prepare_mesh(const RunOptions &options)
   {
     std::string remark;
-    Seeding   *seeding    = method.is_mpm() ? &implicit_mpm.seeding() : nullptr;
+    Seeding    *seeding = method.is_mpm() ? &implicit_mpm.seeding() : nullptr;
     const auto  check_size = [&]() {
       const RunEstimate estimate = estimate_run(scene,
                                                 method,
@@ -187,8 +178,9 @@ namespace geocone::GEOCONE_DIM
         scene.materials.refuse_undrained(
           "Mesh/Type = from the bounds",
           "bounds are those of drained strength: take another mesh");
-        scene.structures.refuse("'Mesh/Type' = from the bounds",
-                                "bounds do not support them: take another mesh");
+        scene.structures.refuse(
+          "'Mesh/Type' = from the bounds",
+          "bounds do not support them: take another mesh");
         scene.dirichlet.refuse_stages(
           "'Mesh/Type' = from the bounds",
           "bounds have no stages: take another mesh");
@@ -260,8 +252,7 @@ namespace geocone::GEOCONE_DIM
       refuse_beside_consolidation(start_of_run, freezer);
     if (!start_of_run.folder.empty() && !options.resumes)
       {
-        check_units(start_of_run.folder);
-        check_kept(start_of_run.folder, scene.materials, method.is_mpm());
+        check_start(start_of_run.folder, scene.materials, method.is_mpm());
         checkpoint.read(
           start_of_run.folder,
           log,

@@ -155,6 +155,42 @@ namespace geocone::GEOCONE_DIM
               check(name, d, low);
     }
 
+    /** Gives tractions of the pore pressure the field of the scene's water.
+     *  @throws InputError where there is none, or it is not known */
+    void
+    give_pore_pressures(Scene &scene)
+    {
+      const Water &water = scene.water;
+      for (const auto &load : scene.tractions.list)
+        {
+          if (!load->is_pore_pressure())
+            continue;
+          if (!water.acts())
+            throw InputError(load->parameter("Traction normal"),
+                             load->formula(dim),
+                             "a formula where there is no water",
+                             "give its pressures by 'Water' or 'Seepage'");
+          if (water.varies_in_cells() &&
+              ParameterFile::value("Discretisation/Method") != "FEM")
+            throw InputError(load->parameter("Traction normal"),
+                             load->formula(dim),
+                             "a formula where the body moves through pressures "
+                             "that are known within its start alone",
+                             "give the pressures by 'Water/Table', or set "
+                             "'Discretisation/Method' = FEM");
+          for (const auto &stage : scene.loading.list)
+            if (stage->scales(load->name))
+              throw InputError("Loading/" + stage->name + "/Scaled loads",
+                               load->name,
+                               "loads other than pore pressures",
+                               "scale the tractions of other conditions");
+          load->normal->set_field(
+            [&water](const dealii::Point<dim> &x, const double t) {
+              return water.pressure(x, t);
+            });
+        }
+    }
+
     /** Refuses tensile strengths, which steps know in the plane alone. */
     [[maybe_unused]] void
     refuse_tension(const Materials &materials)
@@ -269,33 +305,7 @@ namespace geocone::GEOCONE_DIM
         for (const auto &condition : conditions->list)
           condition->replace_groups(geometry.sides_of_hole);
       }
-    for (const auto &load : tractions.list)
-      if (load->is_pore_pressure())
-        {
-          if (!water.acts())
-            throw InputError(load->parameter("Traction normal"),
-                             load->formula(dim),
-                             "a formula where there is no water",
-                             "give its pressures by 'Water' or 'Seepage'");
-          if (water.varies_in_cells() &&
-              ParameterFile::value("Discretisation/Method") != "FEM")
-            throw InputError(load->parameter("Traction normal"),
-                             load->formula(dim),
-                             "a formula where the body moves through pressures "
-                             "that are known within its start alone",
-                             "give the pressures by 'Water/Table', or set "
-                             "'Discretisation/Method' = FEM");
-          for (const auto &stage : loading.list)
-            if (stage->scales(load->name))
-              throw InputError("Loading/" + stage->name + "/Scaled loads",
-                               load->name,
-                               "loads other than pore pressures",
-                               "scale the tractions of other conditions");
-          load->normal->set_field(
-            [this](const dealii::Point<dim> &x, const double t) {
-              return water.pressure(x, t);
-            });
-        }
+    give_pore_pressures(*this);
     refuse_free_upright_sides(*this);
   }
 
