@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/log.h>
+#include <geocone/base/over_ranks.h>
 #include <geocone/conditions/mesh_coverage.h>
 #include <geocone/shapes/part_in_box.h>
 #include <geocone/surfaces/face_points.h>
@@ -217,13 +218,9 @@ namespace geocone::GEOCONE_DIM
     const double largest = Utilities::MPI::max(worst, comm);
     if (!(largest > 0.))
       return "";
-    for (unsigned int d = 0; d < dim; ++d)
-      place[d] = Utilities::MPI::max(
-        worst == largest ? place[d] : std::numeric_limits<double>::lowest(),
-        comm);
     return format("the pore pressure changes by %.4g Pa within the cell at (",
                   largest) +
-           text_of_place(place) +
+           text_of_place(place_of_largest(worst, largest, place, comm)) +
            "), more than its points see: a part of its thrust is missing; let "
            "the line of water rise over two cells, or put edges on it "
            "(Mesh/Type = unstructured)";

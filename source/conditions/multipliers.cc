@@ -526,11 +526,8 @@ namespace geocone::GEOCONE_DIM
       {
         share.condition       = keys[worst].condition;
         const double all_most = dealii::Utilities::MPI::max(most[worst], comm);
-        for (unsigned int d = 0; d < dim; ++d)
-          share.place[d] = dealii::Utilities::MPI::max(
-            most[worst] == all_most ? place[worst][d]
-                                    : std::numeric_limits<double>::lowest(),
-            comm);
+        share.place =
+          place_of_largest(most[worst], all_most, place[worst], comm);
       }
     return share;
   }

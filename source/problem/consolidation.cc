@@ -376,7 +376,7 @@ namespace geocone::GEOCONE_DIM
     for (int r = 0; r < n_K; ++r)
       for (int e = K.row_start[r]; e < K.row_start[r + 1]; ++e)
         columns[row_of_velocity[r]].push_back(
-          row_of_velocity[K.columns(r)[e - K.row_start[r]]]);
+          row_of_velocity[K.column_of(r, e)]);
     for (int r = 0; r < n_A; ++r)
       for (int e = A.row_start[r]; e < A.row_start[r + 1]; ++e)
         {
@@ -413,8 +413,7 @@ namespace geocone::GEOCONE_DIM
     for (int r = 0; r < K.n_rows(); ++r)
       for (int e = K.row_start[r]; e < K.row_start[r + 1]; ++e)
         matrix.value[matrix.entry(
-          row_of_velocity[r],
-          row_of_velocity[K.columns(r)[e - K.row_start[r]]])] = K.value[e];
+          row_of_velocity[r], row_of_velocity[K.column_of(r, e)])] = K.value[e];
     for (int r = 0; r < A.n_rows(); ++r)
       for (int e = A.row_start[r]; e < A.row_start[r + 1]; ++e)
         {

@@ -9,6 +9,7 @@
 #include <deal.II/base/array_view.h>
 #include <deal.II/base/mpi.h>
 
+#include <limits>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -40,6 +41,23 @@ namespace geocone
     return sum > 0.
              ? fullest * dealii::Utilities::MPI::n_mpi_processes(comm) / sum
              : 1.;
+  }
+
+  /** Returns the place that belongs to the largest of the values of all ranks.
+   *  Collective. @param largest of all ranks */
+  template <typename Place>
+  Place
+  place_of_largest(const double   of_this_rank,
+                   const double   largest,
+                   Place          place,
+                   const MPI_Comm comm)
+  {
+    for (unsigned int d = 0; d < Place::dimension; ++d)
+      place[d] = dealii::Utilities::MPI::max(
+        of_this_rank == largest ? place[d]
+                                : std::numeric_limits<double>::lowest(),
+        comm);
+    return place;
   }
 
   /** Sums the state variables of each object in a list over all ranks, in

@@ -60,6 +60,13 @@ namespace geocone
       return &column[column_start.empty() ? row_start[row] : column_start[row]];
     }
 
+    /** Column index of an entry of a row. @param place in the array `value` */
+    int
+    column_of(const int row, const int place) const
+    {
+      return columns(row)[place - row_start[row]];
+    }
+
     /** Returns the position of a matrix entry in the array `value`. The entry
      *  must be in the sparsity pattern. */
     int
