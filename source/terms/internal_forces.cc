@@ -322,7 +322,7 @@ namespace geocone::GEOCONE_DIM
                         ? flow->at(p)
                         : points.excess_pressure(p) -
                             fluid_modulus(p) * trace(whole_strain(p));
-        total[p] = stress[p] - pressure[p] * unit_tensor<n_mandel>();
+        total[p]    = stress[p] - pressure[p] * unit_tensor<n_mandel>();
       }
   }
 
@@ -534,8 +534,8 @@ namespace geocone::GEOCONE_DIM
       double                         K[dim * dim * n * n];
       for (unsigned int c = 0; c < points.n_cells(); ++c)
         {
-          const unsigned int first = points.first_point[c];
-          const unsigned int n_q   = points.first_point[c + 1] - first;
+          const unsigned int        first   = points.first_point[c];
+          const unsigned int        n_q     = points.first_point[c + 1] - first;
           const MandelMatrix *const of_cell = tangents.of_cell(c);
           C.resize(n_q);
           scratch.resize(kernels::scratch_size(n_q, n));
@@ -656,48 +656,5 @@ namespace geocone::GEOCONE_DIM
               f(p, dim * points.nodes[c * n + j / dim] + j % dim, column[p]);
           }
     });
-  }
-
-  SpatialMandel
-  InternalForces::plastic_strain_increment(const unsigned int p) const
-  {
-    if (mode[p] == Mode::elastic)
-      return SpatialMandel::Zero();
-    return whole_strain(p) -
-           materials[points.material[p]].elastic_strain(
-             whole_stress_n(p), whole_stress(p), points.history_of(p));
-  }
-
-  SpatialMandel
-  InternalForces::whole_stress(const unsigned int p) const
-  {
-    return extended(stress[p], stress_zz.empty() ? 0. : stress_zz[p]);
-  }
-
-  SpatialMandel
-  InternalForces::whole_stress_n(const unsigned int p) const
-  {
-    // Plane-strain laws do not need s_zz, and frozen problems do not have it.
-    const Material &law = materials[points.material[p]];
-    return law.is_spatial()
-             ? law.whole_stress(points.stress[p], points.history_of(p))
-             : extended(points.stress[p], 0.);
-  }
-
-  SpatialMandel
-  InternalForces::whole_strain(const unsigned int p) const
-  {
-    return extended(strain[p], is_axisymmetric() ? strain_zz[p] : 0.);
-  }
-
-  InternalForces::Work
-  InternalForces::work(const unsigned int p) const
-  {
-    const SpatialMandel s = whole_stress(p);
-    double elastic        = s.dot(materials[points.material[p]].elastic_strain(
-      whole_stress_n(p), s, points.history_of(p)));
-    if (is_undrained())
-      elastic -= pressure[p] * trace(whole_strain(p));
-    return {elastic, s.dot(plastic_strain_increment(p))};
   }
 } // namespace geocone::GEOCONE_DIM

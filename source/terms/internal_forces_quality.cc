@@ -1,7 +1,8 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-// Checks of a solved state, independent of the solver.
+// State of the points after a solution, its works, and checks that are independent of
+// the solver.
 #include <geocone/base/log.h>
 #include <geocone/terms/internal_forces.h>
 
@@ -15,6 +16,49 @@
 namespace geocone::GEOCONE_DIM
 {
   using namespace dealii;
+
+  SpatialMandel
+  InternalForces::plastic_strain_increment(const unsigned int p) const
+  {
+    if (mode[p] == Mode::elastic)
+      return SpatialMandel::Zero();
+    return whole_strain(p) -
+           materials[points.material[p]].elastic_strain(
+             whole_stress_n(p), whole_stress(p), points.history_of(p));
+  }
+
+  SpatialMandel
+  InternalForces::whole_stress(const unsigned int p) const
+  {
+    return extended(stress[p], stress_zz.empty() ? 0. : stress_zz[p]);
+  }
+
+  SpatialMandel
+  InternalForces::whole_stress_n(const unsigned int p) const
+  {
+    // Plane-strain laws do not need s_zz, and frozen problems do not have it.
+    const Material &law = materials[points.material[p]];
+    return law.is_spatial()
+             ? law.whole_stress(points.stress[p], points.history_of(p))
+             : extended(points.stress[p], 0.);
+  }
+
+  SpatialMandel
+  InternalForces::whole_strain(const unsigned int p) const
+  {
+    return extended(strain[p], is_axisymmetric() ? strain_zz[p] : 0.);
+  }
+
+  InternalForces::Work
+  InternalForces::work(const unsigned int p) const
+  {
+    const SpatialMandel s = whole_stress(p);
+    double elastic        = s.dot(materials[points.material[p]].elastic_strain(
+      whole_stress_n(p), s, points.history_of(p)));
+    if (is_undrained())
+      elastic -= pressure[p] * trace(whole_strain(p));
+    return {elastic, s.dot(plastic_strain_increment(p))};
+  }
 
   std::string
   InternalForces::not_a_number() const
