@@ -9,50 +9,12 @@ says() { # TEXT CALL...
 }
 
 # Water of 4 m at rest, which only the left side knows: u = 9810 (4 - y), 78.48 kN/m.
-cat >block.prm <<'EOF'
-subsection Analysis
-  set Kind = strength reduction
-end
-subsection Geometry
-  set Box = 0, 0; 4, 4
-end
-subsection Mesh
-  set Type      = unstructured
-  set Cell size = 0.5
-end
-subsection Materials
-  set Names = soil
-  subsection soil
-    set Type         = Tresca
-    set Unit weight  = 20e3
-    set Cohesion     = 30e3
-    set Permeability = 1e-9
-  end
-end
-subsection Gravity
-  set Acceleration = 0, -9.81
-end
-subsection Boundary conditions
-  set Names = bottom
-  subsection bottom
-    set Sides      = bottom
-    set Velocity x = 0
-    set Velocity y = 0
-  end
-end
-subsection Seepage
-  set Names = left
-  subsection left
-    set Sides = left
-    set Level = 4
-  end
-end
-EOF
-says "the side 'right' is not in 'Seepage', .* up to 3.9[0-9]*e+04 Pa, 7.84[78]e+04 N/m" block.prm
-fails says 'the side' block.prm --set 'Seepage/Names = left, right' \
+block=("$root/tests/limit_load/closed_side-01.prm" --set 'Tractions/Names =')
+says "the side 'right' is not in 'Seepage', .* up to 3.9[0-9]*e+04 Pa, 7.84[78]e+04 N/m" "${block[@]}"
+fails says 'the side' "${block[@]}" --set 'Seepage/Names = left, right' \
   --set 'Seepage/right/Sides = right' --set 'Seepage/right/Level = none'
-fails says 'the side' block.prm --set 'Tractions/Names = closed' \
-  --set 'Tractions/closed/Sides = right' --set 'Tractions/closed/Traction normal = 9810*(4-y)'
+fails says 'the side' "${block[@]}" --set 'Tractions/Names = closed' \
+  --set 'Tractions/closed/Traction normal = 9810*(4-y)'
 
 # A wall of 4 m, 0.4 m wide, with water to its top behind it and to the ground before it:
 # 80 and 20 kN/m, uplift of 2 to 4 m of water, about its centre.
