@@ -84,9 +84,8 @@ namespace geocone::GEOCONE_DIM
           : "Traction [Pa] along the outward normal of the sides, -p for a "
             "pressure p; with 'Traction tangential' instead of x and y. MPM: "
             "it follows the rotation and stretch of the side. Or pore "
-            "pressure: "
-            "that of the water in the soil, for sides that are closed and dry "
-            "outside, whose total traction is zero.");
+            "pressure: that of the water in the soil, for sides that are "
+            "closed and dry outside, whose total traction is zero.");
     if (quantity == "Traction" && dim == 2)
       add_parameter(
         quantity + " tangential",

@@ -20,9 +20,9 @@ namespace geocone::GEOCONE_DIM
 {
   /**
    * Scalar function of position (m) and time (s), given by a formula, by a
-   * time history or by a field. A formula is written in muParser's language with the constant
-   * pi; where files are allowed, a time history is given as "record FILE.csv"
-   * (TimeHistory).
+   * time history or by a field. A formula is written in muParser's language with
+   * the constant pi; where files are allowed, a time history is given as "record
+   * FILE.csv" (TimeHistory).
    */
   class Expression
   {
