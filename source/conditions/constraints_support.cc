@@ -34,11 +34,12 @@ namespace geocone::GEOCONE_DIM
                   const MaterialPoints &points,
                   const MPI_Comm        comm)
     {
-      const std::vector<unsigned int> of_vertex =
+      const std::vector<unsigned int> of_cell =
         mesh.connected_parts(points.cells);
       unsigned int n_parts = 0;
-      for (const unsigned int part : of_vertex)
+      for (const unsigned int part : of_cell)
         n_parts = std::max(n_parts, part + 1);
+      n_parts = Utilities::MPI::max(n_parts, comm);
 
       // All cells of a node may be on other ranks; -1 if it has none.
       Vector found(space.partitioner());
@@ -47,7 +48,7 @@ namespace geocone::GEOCONE_DIM
       for (unsigned int c = 0; c < points.n_cells(); ++c)
         for (unsigned int i = 0; i < points.n_nodes; ++i)
           found.local_element(dim * points.nodes[c * points.n_nodes + i]) =
-            of_vertex[points.cells[c]->vertex_index(0)];
+            of_cell[c];
       found.compress(VectorOperation::max);
 
       Parts                  parts;

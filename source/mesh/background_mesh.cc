@@ -4,6 +4,7 @@
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
 #include <geocone/mesh/background_mesh.h>
+#include <geocone/mesh/divided_mesh.h>
 #include <geocone/mesh/structured_mesh.h>
 #include <geocone/shapes/edge_normal.h>
 
@@ -22,7 +23,10 @@
 #include <deal.II/lac/la_parallel_vector.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <limits>
+#include <map>
 #include <numeric>
 
 namespace geocone::GEOCONE_DIM
@@ -65,7 +69,8 @@ namespace geocone::GEOCONE_DIM
     storage.declare(*this,
                     "Triangulation",
                     ". Distributed: p4est, quadrilaterals only. Shared: each "
-                    "rank stores the whole mesh.");
+                    "rank stores the whole mesh. Fully distributed: each rank "
+                    "stores its own cells and their neighbours only (FEM).");
   }
 
   std::array<std::vector<double>, dim>
@@ -158,7 +163,9 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
-  BackgroundMesh::prepare(const Scene &scene, const Method &method)
+  BackgroundMesh::prepare(const Scene  &scene,
+                          const Method &method,
+                          const bool    may_divide)
   {
     parameters.prepare(scene.geometry, method);
     CoarseMesh mesh = fitted_mesh(
@@ -178,6 +185,7 @@ namespace geocone::GEOCONE_DIM
     scene.geometry.check_radii(mesh.points);
     sides                      = mesh.sides;
     lines                      = mesh.grid;
+    box                        = BoundingBox<dim>(mesh.points);
     simplicial                 = mesh.has_simplices();
     const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(comm);
     if (simplicial && mesh.cells.size() > 0 &&
@@ -192,43 +200,82 @@ namespace geocone::GEOCONE_DIM
       throw InputError("there are more ranks (" + std::to_string(n_ranks) +
                        ") than cells (" + std::to_string(mesh.cells.size()) +
                        ")\n  remedy:  call mpirun with fewer ranks");
-    const bool has_contacts = split_at_contacts || layers > 1;
-    if (storage == Storage::automatic)
-      storage =
-        simplicial || has_contacts ? Storage::shared : Storage::distributed;
-    if (storage == Storage::distributed && has_contacts)
-      throw InputError("Mesh/Triangulation",
-                       storage.word(),
-                       "automatic | shared where there are contacts: each rank "
-                       "searches for contacts",
-                       "set Mesh/Triangulation = automatic");
-    if (storage == Storage::distributed && simplicial)
-      throw InputError("Mesh/Triangulation",
-                       storage.word(),
-                       "automatic | shared for triangles: p4est knows only "
-                       "quadrilaterals, on 1 rank or more",
-                       "set Mesh/Triangulation = automatic");
-    if (storage == Storage::distributed)
-      tria = std::make_unique<parallel::distributed::Triangulation<dim>>(comm);
+    choose_storage(may_divide && scene.structures.list.empty());
+    if (storage == Storage::fully_distributed)
+      tria = divided_mesh(mesh, comm);
     else
-      tria = std::make_unique<parallel::shared::Triangulation<dim>>(
-        comm,
-        Triangulation<dim>::none,
-        !has_contacts,
-        parallel::shared::Triangulation<dim>::Settings::partition_metis);
-    tria->create_triangulation(mesh.points, mesh.cells, mesh.boundary);
+      {
+        if (storage == Storage::distributed)
+          tria =
+            std::make_unique<parallel::distributed::Triangulation<dim>>(comm);
+        else
+          tria = std::make_unique<parallel::shared::Triangulation<dim>>(
+            comm,
+            Triangulation<dim>::none,
+            !has_contacts(),
+            parallel::shared::Triangulation<dim>::Settings::partition_metis);
+        tria->create_triangulation(mesh.points, mesh.cells, mesh.boundary);
+      }
 
     if (simplicial)
       map = std::make_unique<MappingFE<dim>>(FE_SimplexP<dim>(1));
     else
       map = std::make_unique<MappingQ1<dim>>();
 
+    find_boundary_ids();
     find_owners();
+  }
+
+  void
+  BackgroundMesh::choose_storage(const bool may_divide)
+  {
+    if (storage == Storage::automatic)
+      storage = has_contacts() ? Storage::shared
+                : may_divide   ? Storage::fully_distributed
+                : simplicial   ? Storage::shared
+                               : Storage::distributed;
+    const auto refuse = [&](const std::string &allowed) {
+      throw InputError("Mesh/Triangulation",
+                       storage.word(),
+                       allowed,
+                       "set Mesh/Triangulation = automatic");
+    };
+    if (storage == Storage::distributed && has_contacts())
+      refuse("automatic | shared where there are contacts: each rank searches "
+             "for contacts");
+    if (storage == Storage::distributed && simplicial)
+      refuse("automatic | shared | fully distributed for triangles: p4est "
+             "knows only quadrilaterals, on 1 rank or more");
+    if (storage == Storage::fully_distributed &&
+        (has_contacts() || !may_divide))
+      refuse(std::string("automatic | shared") +
+             (simplicial ? "" : " | distributed") +
+             " with particles, contacts, structures and B-splines, which need "
+             "the whole mesh");
+  }
+
+  void
+  BackgroundMesh::find_boundary_ids()
+  {
+    std::set<types::boundary_id> own;
+    for (const auto &cell : own_cells())
+      for (const unsigned int f : cell->face_indices())
+        if (cell->face(f)->at_boundary())
+          own.insert(cell->face(f)->boundary_id());
+    boundary_ids = Utilities::MPI::compute_set_union(
+      std::vector<types::boundary_id>(own.begin(), own.end()), comm);
   }
 
   void
   BackgroundMesh::find_owners()
   {
+    owners.clear();
+    if (storage == Storage::fully_distributed)
+      {
+        for (const auto &cell : tria->active_cell_iterators())
+          owners.push_back(cell->subdomain_id());
+        return;
+      }
     // Cells are never refined, so that each rank stores all of them in the same
     // order.
     owners.assign(tria->n_active_cells(), 0);
@@ -285,6 +332,7 @@ namespace geocone::GEOCONE_DIM
       },
       *tria);
     lines = to;
+    box   = BoundingBox<dim>(tria->get_vertices());
   }
 
   std::vector<bool>
@@ -301,12 +349,6 @@ namespace geocone::GEOCONE_DIM
         result[cell->active_cell_index()] =
           flag[cell->global_active_cell_index()] > 0.;
     return result;
-  }
-
-  BoundingBox<dim>
-  BackgroundMesh::bounding_box() const
-  {
-    return BoundingBox<dim>(tria->get_vertices());
   }
 
   Tensor<2, dim>
@@ -343,27 +385,25 @@ namespace geocone::GEOCONE_DIM
   std::vector<unsigned int>
   BackgroundMesh::connected_parts(const std::vector<Cell> &cells) const
   {
-    std::vector<unsigned int> is_there(tria->n_active_cells(), 0);
-    for (const Cell &cell : cells)
-      is_there[cell->active_cell_index()] = 1;
-    Utilities::MPI::max(is_there, comm, is_there);
-
-    // Parts connected through faces, by union of the vertices of cells with dim
-    // common vertices: cells with fewer can still rotate.
-    std::vector<unsigned int> part(tria->n_active_cells());
-    std::iota(part.begin(), part.end(), 0U);
+    // Cells of this rank and its neighbours: connected by the vertices of cells
+    // with dim common vertices, since cells with fewer can still rotate.
+    const std::vector<bool>   is_there = marked_cells(cells);
+    std::vector<unsigned int> leader(tria->n_active_cells());
+    std::iota(leader.begin(), leader.end(), 0U);
     const auto root = [&](unsigned int i) {
-      while (part[i] != i)
-        i = part[i] = part[part[i]];
+      while (leader[i] != i)
+        i = leader[i] = leader[leader[i]];
       return i;
     };
     std::map<std::array<unsigned int, dim>, unsigned int> first_cell;
-    for (const auto &cell : tria->active_cell_iterators())
+    std::vector<Cell>                                     all;
+    for (const Cell &cell : tria->active_cell_iterators())
       {
         const unsigned int c = cell->active_cell_index(),
                            n = cell->n_vertices();
-        if (is_there[c] == 0)
+        if (!is_there[c])
           continue;
+        all.push_back(cell);
         for (unsigned int i = 0; i < n; ++i)
           for (unsigned int j = i + 1; j < n; ++j)
             for (unsigned int k = dim == 2 ? 0 : j + 1; k < (dim == 2 ? 1 : n);
@@ -376,26 +416,52 @@ namespace geocone::GEOCONE_DIM
                   shared.back() = cell->vertex_index(k);
                 std::sort(shared.begin(), shared.end());
                 const auto entry = first_cell.emplace(shared, c).first;
-                part[root(c)]    = root(entry->second);
+                leader[root(c)]  = root(entry->second);
               }
       }
-    std::map<unsigned int, unsigned int> number;
-    std::vector<unsigned int>            of_vertex(tria->n_vertices(), 0);
-    for (const auto &cell : tria->active_cell_iterators())
-      if (const unsigned int c = cell->active_cell_index(); is_there[c] > 0)
-        {
-          const unsigned int p =
-            number.emplace(root(c), number.size()).first->second;
-          for (unsigned int i = 0; i < cell->n_vertices(); ++i)
-            of_vertex[cell->vertex_index(i)] = p;
-        }
-    return of_vertex;
+    // Over the ranks: a part has the smallest global number of its cells, which
+    // goes from neighbour to neighbour until no rank finds a smaller one.
+    LinearAlgebra::distributed::Vector<double> number(
+      tria->global_active_cell_index_partitioner().lock());
+    for (const Cell &cell : cells)
+      number[cell->global_active_cell_index()] =
+        cell->global_active_cell_index();
+    std::vector<double> smallest(leader.size(),
+                                 std::numeric_limits<double>::max());
+    for (bool changes = true; Utilities::MPI::logical_or(changes, comm);)
+      {
+        changes = false;
+        number.update_ghost_values();
+        for (const Cell &cell : all)
+          {
+            double &of_part = smallest[root(cell->active_cell_index())];
+            of_part =
+              std::min(of_part, number[cell->global_active_cell_index()]);
+          }
+        number.zero_out_ghost_values();
+        for (const Cell &cell : cells)
+          {
+            const double of_part = smallest[root(cell->active_cell_index())];
+            changes =
+              changes || number[cell->global_active_cell_index()] > of_part;
+            number[cell->global_active_cell_index()] = of_part;
+          }
+      }
+    std::vector<unsigned int> part;
+    for (const Cell &cell : cells)
+      part.push_back(std::lround(number[cell->global_active_cell_index()]));
+    const std::set<unsigned int>    own(part.begin(), part.end());
+    const std::vector<unsigned int> numbers = Utilities::MPI::compute_set_union(
+      std::vector<unsigned int>(own.begin(), own.end()), comm);
+    for (unsigned int &p : part)
+      p = std::lower_bound(numbers.begin(), numbers.end(), p) - numbers.begin();
+    return part;
   }
 
   std::set<types::boundary_id>
   BackgroundMesh::side_ids(const BoundaryCondition &condition) const
   {
-    return geocone::side_ids(condition, sides, tria->get_boundary_ids());
+    return geocone::side_ids(condition, sides, boundary_ids);
   }
 
   types::boundary_id

@@ -40,11 +40,11 @@ namespace geocone::GEOCONE_DIM
   namespace
   {
     /** A face by its sorted vertices, which neighbours share, in the order of
-     *  its cell, and the cell. */
+     *  its cell, the cell and its number there. */
     struct FaceOfCell
     {
       CoarseMesh::Face sorted, face;
-      unsigned int     cell;
+      unsigned int     cell, number;
 
       bool
       operator<(const FaceOfCell &other) const
@@ -75,7 +75,8 @@ namespace geocone::GEOCONE_DIM
                   cell.vertices[reference.face_to_cell_vertices(f, i, true)];
               faces.push_back({CoarseMesh::sorted(face),
                                dim == 2 ? CoarseMesh::sorted(face) : face,
-                               c});
+                               c,
+                               f});
             }
         }
       std::sort(faces.begin(), faces.end());
@@ -139,6 +140,23 @@ namespace geocone::GEOCONE_DIM
           outer.push_back(faces[i].face);
       }
     return outer;
+  }
+
+  std::vector<CoarseMesh::Neighbours>
+  CoarseMesh::neighbours() const
+  {
+    const std::vector<FaceOfCell> faces = all_faces(*this);
+    Neighbours                    none;
+    none.fill(no_cell);
+    std::vector<Neighbours> of_cell(cells.size(), none);
+    for (std::size_t i = 0; i + 1 < faces.size(); ++i)
+      if (const FaceOfCell &a = faces[i], &b = faces[i + 1];
+          a.sorted == b.sorted)
+        {
+          of_cell[a.cell][a.number] = b.cell;
+          of_cell[b.cell][b.number] = a.cell;
+        }
+    return of_cell;
   }
 
   std::vector<CoarseMesh::Face>

@@ -49,12 +49,12 @@ namespace geocone::GEOCONE_DIM
     for (unsigned int i = 0; i < places.size(); ++i)
       {
         const auto place = cells.find(places[i]);
-        if (!place)
+        if (!Utilities::MPI::logical_or(place.has_value(), comm))
           throw InputError(parameter,
                            text_of_place(places[i]),
                            "places in the body, here in a cell of the mesh",
                            "move the point into the body");
-        if (!place->cell->is_locally_owned())
+        if (!place || !place->cell->is_locally_owned())
           continue;
         in_cell[i].position = places[i];
         in_cell[i].cell     = place->cell->active_cell_index();

@@ -196,7 +196,7 @@ namespace geocone::GEOCONE_DIM
       },
       scene,
       method);
-    mesh.prepare(scene, method);
+    mesh.prepare(scene, method, !method.is_mpm() && !space.is_spline());
     if (scene.geometry.is_script())
       check_size();
     return remark;

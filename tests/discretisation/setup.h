@@ -30,12 +30,13 @@ namespace discretisation_tests
       , particles(file)
     {}
 
+    /** @param may_divide false: each rank stores the whole mesh */
     void
-    prepare()
+    prepare(const bool may_divide = false)
     {
       file.parse();
       scene.prepare();
-      mesh.prepare(scene, method);
+      mesh.prepare(scene, method, may_divide);
       space.prepare(mesh, method);
     }
 

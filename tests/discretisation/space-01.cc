@@ -19,10 +19,12 @@ namespace discretisation_space_01
   using dealii::Tensor;
 
   void
-  check(const std::string &name, const std::vector<std::string> &overrides)
+  check(const std::string              &name,
+        const std::vector<std::string> &overrides,
+        const bool                      may_divide = false)
   {
     Setup setup("discretisation/box.prm", overrides);
-    setup.prepare();
+    setup.prepare(may_divide);
     const BackgroundMesh &mesh  = setup.mesh;
     const Space          &space = setup.space;
     const unsigned int    n     = space.nodes_per_cell();
@@ -213,6 +215,14 @@ namespace discretisation_space_01
       for (const std::string basis : {"Bernstein", "Lagrange"})
         check(element + " " + basis + ", triangles",
               with(triangles, element, basis));
+    for (const std::string element : {"P2", "P3"})
+      check(element + ", triangles, divided mesh",
+            with(triangles, element, "automatic"),
+            true);
+    for (const std::string element : {"Q1", "Q3"})
+      check(element + ", distorted cells, divided mesh",
+            with(distorted, element, "automatic"),
+            true);
     for (const std::string element : {"B-spline 2", "B-spline 3"})
       {
         check(element + ", squares", with(squares, element, "automatic"));

@@ -30,10 +30,12 @@ namespace geocone::GEOCONE_DIM
    * Mesh distributed over the MPI ranks, with mapping, material ids and
    * boundary ids of the sides. Material ids are indices into Scene::materials.
    *
-   * Quadrilaterals and hexahedra use parallel::distributed::Triangulation
-   * (p4est); simplices, which p4est does not support, use
-   * parallel::shared::Triangulation, where every rank stores the complete mesh
-   * and owns a part of it.
+   * Finite elements use parallel::fullydistributed::Triangulation: each rank
+   * stores its own cells and their vertex neighbours only. Where the whole mesh
+   * is needed (particles, contact, structures, B-splines), quadrilaterals and
+   * hexahedra use parallel::distributed::Triangulation (p4est), and simplices,
+   * which p4est does not support, parallel::shared::Triangulation. Both store
+   * all cells on every rank, since none is refined.
    *
    * Particle bodies in contact have one layer each: a copy of the mesh at the
    * same position, so that the particles of each body move separate nodes. Such
@@ -72,9 +74,13 @@ namespace geocone::GEOCONE_DIM
                const Scene   &scene,
                const Method  &method);
 
-    /** Creates the mesh. @throws InputError */
+    /** Creates the mesh. @param may_divide true if the method needs own and
+     *  ghost cells only, e.g. finite elements other than B-splines
+     *  @throws InputError */
     void
-    prepare(const Scene &scene, const Method &method);
+    prepare(const Scene  &scene,
+            const Method &method,
+            const bool    may_divide = false);
 
     /** @pre prepare() */
     const MeshParameters &
@@ -113,7 +119,7 @@ namespace geocone::GEOCONE_DIM
         dealii::IteratorFilters::LocallyOwnedCell());
     }
 
-    /** Owner rank of each cell of the mesh, by active cell index. */
+    /** Owner rank of each cell that this rank stores, by active cell index. */
     const std::vector<unsigned int> &
     owner_of_cell() const
     {
@@ -207,8 +213,11 @@ namespace geocone::GEOCONE_DIM
     }
 
     /** Bounding box of the complete mesh, over all ranks. */
-    dealii::BoundingBox<dim>
-    bounding_box() const;
+    const dealii::BoundingBox<dim> &
+    bounding_box() const
+    {
+      return box;
+    }
 
     /** Corner of the bounding box with the smallest coordinates. */
     dealii::Point<dim>
@@ -270,14 +279,32 @@ namespace geocone::GEOCONE_DIM
     faces_of(const BoundaryCondition &condition) const;
 
     /**
-     * Index of the connected component of the body for each mesh vertex,
-     * counted from 0. Parts without a common edge are not connected.
+     * Index of the connected component of the body that contains each cell,
+     * counted from 0 over all ranks. Parts without a common edge are not
+     * connected.
      * @param cells cells of the body on this rank. Collective.
      */
     std::vector<unsigned int>
     connected_parts(const std::vector<Cell> &cells) const;
 
   private:
+    /** Returns true for bodies in contact. */
+    bool
+    has_contacts() const
+    {
+      return split_at_contacts || layers > 1;
+    }
+
+    /** Chooses how the cells are stored, where nothing is asked.
+     *  @param may_divide see prepare()
+     *  @throws InputError if what is asked cannot be */
+    void
+    choose_storage(const bool may_divide);
+
+    /** Determines the boundary ids of all sides, over all ranks. Collective. */
+    void
+    find_boundary_ids();
+
     /** Determines the rank that owns each cell. Collective. */
     void
     find_owners();
@@ -286,7 +313,8 @@ namespace geocone::GEOCONE_DIM
     {
       automatic,
       distributed,
-      shared
+      shared,
+      fully_distributed
     };
 
     const MPI_Comm comm;
@@ -294,18 +322,22 @@ namespace geocone::GEOCONE_DIM
 
     Geometry::Symmetry symmetry = Geometry::Symmetry::plane_strain;
 
-    Choice<Storage> storage = {{{"automatic", Storage::automatic},
-                                {"distributed", Storage::distributed},
-                                {"shared", Storage::shared}}};
+    Choice<Storage> storage = {
+      {{"automatic", Storage::automatic},
+       {"distributed", Storage::distributed},
+       {"shared", Storage::shared},
+       {"fully distributed", Storage::fully_distributed}}};
 
     std::unique_ptr<dealii::parallel::TriangulationBase<dim>> tria;
     std::unique_ptr<dealii::Mapping<dim>>                     map;
     std::map<std::string, dealii::types::boundary_id>         sides;
     std::array<std::vector<double>, dim>                      lines;
+    dealii::BoundingBox<dim>                                  box;
     bool                      simplicial = false, split_at_contacts = false;
     unsigned int              layers = 1;
     std::optional<CellSizes>  sizes;
     std::vector<unsigned int> owners; ///< owner_of_cell()
+    std::vector<dealii::types::boundary_id> boundary_ids; ///< of all sides
   };
 } // namespace geocone::GEOCONE_DIM
 

@@ -53,6 +53,15 @@ namespace geocone::GEOCONE_DIM
     std::vector<Face>
     outer_faces() const;
 
+    /** Cells behind the faces of a cell, by number of the face; no_cell behind
+     *  outer faces. */
+    using Neighbours                      = std::array<unsigned int, 2 * dim>;
+    static constexpr unsigned int no_cell = -1;
+
+    /** Neighbours of all cells. */
+    std::vector<Neighbours>
+    neighbours() const;
+
     /** Mean of the vertex coordinates of a face. */
     dealii::Point<dim>
     centre(const Face &face) const;
