@@ -3,6 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
+#include <geocone/base/over_ranks.h>
 #include <geocone/mesh/background_mesh.h>
 #include <geocone/mesh/divided_mesh.h>
 #include <geocone/mesh/structured_mesh.h>
@@ -162,14 +163,16 @@ namespace geocone::GEOCONE_DIM
       sizes = sizes_of(parameters);
   }
 
-  void
-  BackgroundMesh::prepare(const Scene  &scene,
-                          const Method &method,
-                          const bool    may_divide)
+  CoarseMesh
+  BackgroundMesh::whole_mesh(const Scene   &scene,
+                             const Method  &method,
+                             const MPI_Comm communicator)
   {
-    parameters.prepare(scene.geometry, method);
-    CoarseMesh mesh = fitted_mesh(
-      parameters, scene, comm, sizes ? &*sizes : nullptr, !method.is_mpm());
+    CoarseMesh mesh = fitted_mesh(parameters,
+                                  scene,
+                                  communicator,
+                                  sizes ? &*sizes : nullptr,
+                                  !method.is_mpm());
     if (method.is_mpm())
       {
         scene.contacts.check_all_pairs();
@@ -181,14 +184,8 @@ namespace geocone::GEOCONE_DIM
         split_at_contacts = true;
         part_bodies(scene.contacts, mesh);
       }
-    symmetry = scene.geometry.symmetry;
     scene.geometry.check_radii(mesh.points);
-    sides                      = mesh.sides;
-    lines                      = mesh.grid;
-    box                        = BoundingBox<dim>(mesh.points);
-    simplicial                 = mesh.has_simplices();
-    const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(comm);
-    if (simplicial && mesh.cells.size() > 0 &&
+    if (mesh.has_simplices() &&
         std::any_of(mesh.cells.begin(), mesh.cells.end(), [](const auto &cell) {
           return cell.vertices.size() != dim + 1;
         }))
@@ -196,11 +193,45 @@ namespace geocone::GEOCONE_DIM
                        "hexahedra\n"
                        "  allowed: one kind of cells\n"
                        "  remedy:  recombine all volumes in gmsh, or none");
-    if (n_ranks > mesh.cells.size())
+    return mesh;
+  }
+
+  void
+  BackgroundMesh::prepare(const Scene  &scene,
+                          const Method &method,
+                          const bool    may_divide)
+  {
+    parameters.prepare(scene.geometry, method);
+    symmetry = scene.geometry.symmetry;
+    // Contacts and structures are sought in the whole mesh.
+    const bool has_contacts = !scene.contacts.list.empty(),
+               divides =
+                 may_divide && !has_contacts && scene.structures.list.empty();
+    if (storage == Storage::automatic && divides)
+      storage = Storage::fully_distributed;
+    CoarseMesh mesh;
+    if (storage != Storage::fully_distributed)
+      mesh = whole_mesh(scene, method, comm);
+    else
+      on_first_rank(comm, "the mesh cannot be made", [&] {
+        mesh = whole_mesh(scene, method, MPI_COMM_SELF);
+      });
+    sides               = mesh.sides;
+    lines               = mesh.grid;
+    simplicial          = mesh.has_simplices();
+    box                 = BoundingBox<dim>(mesh.points);
+    std::size_t n_cells = mesh.cells.size();
+    if (storage == Storage::fully_distributed)
+      share_description(n_cells);
+    else if (storage == Storage::automatic)
+      storage =
+        simplicial || has_contacts ? Storage::shared : Storage::distributed;
+    check_storage(has_contacts, divides);
+    const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(comm);
+    if (n_ranks > n_cells)
       throw InputError("there are more ranks (" + std::to_string(n_ranks) +
-                       ") than cells (" + std::to_string(mesh.cells.size()) +
+                       ") than cells (" + std::to_string(n_cells) +
                        ")\n  remedy:  call mpirun with fewer ranks");
-    choose_storage(may_divide && scene.structures.list.empty());
     if (storage == Storage::fully_distributed)
       tria = divided_mesh(mesh, comm);
     else
@@ -212,7 +243,7 @@ namespace geocone::GEOCONE_DIM
           tria = std::make_unique<parallel::shared::Triangulation<dim>>(
             comm,
             Triangulation<dim>::none,
-            !has_contacts(),
+            !has_contacts,
             parallel::shared::Triangulation<dim>::Settings::partition_metis);
         tria->create_triangulation(mesh.points, mesh.cells, mesh.boundary);
       }
@@ -227,27 +258,40 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
-  BackgroundMesh::choose_storage(const bool may_divide)
+  BackgroundMesh::share_description(std::size_t &n_cells)
   {
-    if (storage == Storage::automatic)
-      storage = has_contacts() ? Storage::shared
-                : may_divide   ? Storage::fully_distributed
-                : simplicial   ? Storage::shared
-                               : Storage::distributed;
+    using Utilities::MPI::broadcast;
+    const std::vector<std::pair<std::string, types::boundary_id>> named(
+      sides.begin(), sides.end());
+    const auto all = broadcast(comm, named);
+    sides          = {all.begin(), all.end()};
+    for (std::vector<double> &line : lines)
+      line = broadcast(comm, line);
+    const auto [lower, upper] = box.get_boundary_points();
+    const std::vector<Point<dim>> corners =
+      broadcast(comm, std::vector<Point<dim>>{lower, upper});
+    box        = BoundingBox<dim>({corners[0], corners[1]});
+    simplicial = broadcast(comm, int(simplicial)) != 0;
+    n_cells    = broadcast(comm, n_cells);
+  }
+
+  void
+  BackgroundMesh::check_storage(const bool has_contacts,
+                                const bool divides) const
+  {
     const auto refuse = [&](const std::string &allowed) {
       throw InputError("Mesh/Triangulation",
                        storage.word(),
                        allowed,
                        "set Mesh/Triangulation = automatic");
     };
-    if (storage == Storage::distributed && has_contacts())
+    if (storage == Storage::distributed && has_contacts)
       refuse("automatic | shared where there are contacts: each rank searches "
              "for contacts");
     if (storage == Storage::distributed && simplicial)
       refuse("automatic | shared | fully distributed for triangles: p4est "
              "knows only quadrilaterals, on 1 rank or more");
-    if (storage == Storage::fully_distributed &&
-        (has_contacts() || !may_divide))
+    if (storage == Storage::fully_distributed && !divides)
       refuse(std::string("automatic | shared") +
              (simplicial ? "" : " | distributed") +
              " with particles, contacts, structures and B-splines, which need "

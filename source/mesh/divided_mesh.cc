@@ -23,28 +23,26 @@ namespace geocone::GEOCONE_DIM
 
     /** Rank of each cell: parts of equal size with few faces between them. */
     std::vector<unsigned int>
-    ranks_of_cells(const Neighbours &neighbours, const MPI_Comm comm)
+    ranks_of_cells(const Neighbours &neighbours, const unsigned int n_ranks)
     {
-      const unsigned int        n_ranks = Utilities::MPI::n_mpi_processes(comm);
-      const std::size_t         n       = neighbours.size();
+      const std::size_t         n = neighbours.size();
       std::vector<unsigned int> ranks(n, 0);
-      if (Utilities::MPI::this_mpi_process(comm) == 0 && n_ranks > 1)
+      if (n_ranks == 1)
+        return ranks;
+      SparsityPattern graph(n, n, 2 * dim + 1);
+      for (std::size_t c = 0; c < n; ++c)
         {
-          SparsityPattern graph(n, n, 2 * dim + 1);
-          for (std::size_t c = 0; c < n; ++c)
-            {
-              graph.add(c, c);
-              for (const unsigned int other : neighbours[c])
-                if (other != CoarseMesh::no_cell)
-                  graph.add(c, other);
-            }
-          graph.compress();
-          SparsityTools::partition(graph, n_ranks, ranks);
+          graph.add(c, c);
+          for (const unsigned int other : neighbours[c])
+            if (other != CoarseMesh::no_cell)
+              graph.add(c, other);
         }
-      return Utilities::MPI::broadcast(comm, ranks);
+      graph.compress();
+      SparsityTools::partition(graph, n_ranks, ranks);
+      return ranks;
     }
 
-    /** Sorted numbers of the cells that this rank stores: its own and those
+    /** Sorted numbers of the cells that a rank stores: its own and those
      *  that share a vertex with them. */
     std::vector<unsigned int>
     stored_cells(const CoarseMesh                &mesh,
@@ -87,17 +85,23 @@ namespace geocone::GEOCONE_DIM
       return ids;
     }
 
-    Description
-    description_of_part(const CoarseMesh &mesh, const MPI_Comm comm)
+    /** A whole mesh and what its division needs. */
+    struct Whole
     {
-      const Neighbours                neighbours = mesh.neighbours();
-      const std::vector<unsigned int> ranks = ranks_of_cells(neighbours, comm);
-      const std::vector<unsigned int> stored =
-        stored_cells(mesh, ranks, Utilities::MPI::this_mpi_process(comm));
-      const auto ids = ids_of_faces(mesh);
+      const CoarseMesh                              &mesh;
+      Neighbours                                     neighbours;
+      std::vector<unsigned int>                      ranks;
+      std::map<CoarseMesh::Face, types::boundary_id> ids;
+    };
 
+    /** Cells that a rank stores. */
+    Description
+    part_of(const Whole &whole, const unsigned int rank)
+    {
+      const CoarseMesh               &mesh = whole.mesh;
+      const std::vector<unsigned int> stored =
+        stored_cells(mesh, whole.ranks, rank);
       Description part;
-      part.comm      = comm;
       part.settings  = TriangulationDescription::default_setting;
       part.smoothing = Triangulation<dim>::none;
       part.cell_infos.resize(1);
@@ -120,13 +124,13 @@ namespace geocone::GEOCONE_DIM
             ReferenceCell::n_vertices_to_type(dim, cell.vertices.size());
           TriangulationDescription::CellData<dim> info;
           info.id                 = CellId(c, {}).template to_binary<dim>();
-          info.subdomain_id       = ranks[c];
+          info.subdomain_id       = whole.ranks[c];
           info.level_subdomain_id = numbers::artificial_subdomain_id;
           info.manifold_id        = numbers::flat_manifold_id;
           info.manifold_line_ids.fill(numbers::flat_manifold_id);
           info.manifold_quad_ids.fill(numbers::flat_manifold_id);
           for (const unsigned int f : reference.face_indices())
-            if (const unsigned int other = neighbours[c][f];
+            if (const unsigned int other = whole.neighbours[c][f];
                 other == CoarseMesh::no_cell)
               {
                 CoarseMesh::Face face;
@@ -136,9 +140,9 @@ namespace geocone::GEOCONE_DIM
                      ++i)
                   face[i] =
                     cell.vertices[reference.face_to_cell_vertices(f, i, true)];
-                const auto id = ids.find(CoarseMesh::sorted(face));
+                const auto id = whole.ids.find(CoarseMesh::sorted(face));
                 info.boundary_ids.emplace_back(
-                  f, id == ids.end() ? 0 : id->second);
+                  f, id == whole.ids.end() ? 0 : id->second);
               }
             else if (!std::binary_search(stored.begin(), stored.end(), other))
               info.boundary_ids.emplace_back(f, end_of_ghost_cells);
@@ -150,6 +154,50 @@ namespace geocone::GEOCONE_DIM
         }
       return part;
     }
+
+    /** Tag of the messages of parts. */
+    constexpr int tag = 7301;
+
+    /** Sends a part. Counted in doubles, since MPI counts with int. */
+    void
+    send(const Description &part, const unsigned int rank, const MPI_Comm comm)
+    {
+      std::vector<char>        text = Utilities::pack(part, false);
+      const unsigned long long size = text.size();
+      text.resize((size + sizeof(double) - 1) / sizeof(double) *
+                  sizeof(double));
+      MPI_Send(&size, 1, MPI_UNSIGNED_LONG_LONG, rank, tag, comm);
+      MPI_Send(
+        text.data(), text.size() / sizeof(double), MPI_DOUBLE, rank, tag, comm);
+    }
+
+    Description
+    receive(const MPI_Comm comm)
+    {
+      unsigned long long size = 0;
+      MPI_Recv(
+        &size, 1, MPI_UNSIGNED_LONG_LONG, 0, tag, comm, MPI_STATUS_IGNORE);
+      std::vector<double> text((size + sizeof(double) - 1) / sizeof(double));
+      MPI_Recv(
+        text.data(), text.size(), MPI_DOUBLE, 0, tag, comm, MPI_STATUS_IGNORE);
+      const char *first = reinterpret_cast<const char *>(text.data());
+      return Utilities::unpack<Description>(
+        std::vector<char>(first, first + size), false);
+    }
+
+    /** Cells that this rank stores. @param mesh on the first rank */
+    Description
+    part_of_this_rank(const CoarseMesh &mesh, const MPI_Comm comm)
+    {
+      if (Utilities::MPI::this_mpi_process(comm) > 0)
+        return receive(comm);
+      const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(comm);
+      Whole whole = {mesh, mesh.neighbours(), {}, ids_of_faces(mesh)};
+      whole.ranks = ranks_of_cells(whole.neighbours, n_ranks);
+      for (unsigned int rank = 1; rank < n_ranks; ++rank)
+        send(part_of(whole, rank), rank, comm);
+      return part_of(whole, 0);
+    }
   } // namespace
 
   std::unique_ptr<parallel::fullydistributed::Triangulation<dim>>
@@ -157,7 +205,9 @@ namespace geocone::GEOCONE_DIM
   {
     auto tria =
       std::make_unique<parallel::fullydistributed::Triangulation<dim>>(comm);
-    tria->create_triangulation(description_of_part(mesh, comm));
+    Description part = part_of_this_rank(mesh, comm);
+    part.comm        = comm;
+    tria->create_triangulation(part);
     return tria;
   }
 } // namespace geocone::GEOCONE_DIM

@@ -3,6 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
+#include <geocone/base/over_ranks.h>
 #include <geocone/mesh/gmsh_mesh.h>
 #include <geocone/mesh/msh_mesh.h>
 
@@ -113,26 +114,9 @@ namespace geocone::GEOCONE_DIM
     MshData
     from_first_rank(const MPI_Comm comm, const Function &function)
     {
-      MshData     data;
-      std::string fault;
-      if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
-        try
-          {
-            data = function();
-          }
-        catch (const InputError &error)
-          {
-            fault = error.what();
-          }
-        catch (const std::exception &error)
-          {
-            fault = std::string("the mesh cannot be made: ") + error.what() +
-                    "\n  remedy:  mesh with fewer cells, or on a machine with "
-                    "more memory";
-          }
-      fault = dealii::Utilities::MPI::broadcast(comm, fault);
-      if (!fault.empty())
-        throw InputError(fault);
+      MshData data;
+      on_first_rank(
+        comm, "the mesh cannot be made", [&] { data = function(); });
       if (dealii::Utilities::MPI::n_mpi_processes(comm) > 1)
         data = dealii::Utilities::MPI::broadcast(comm, data);
       return data;

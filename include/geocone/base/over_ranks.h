@@ -4,12 +4,15 @@
 #ifndef geocone_base_over_ranks_h
 #define geocone_base_over_ranks_h
 
+#include <geocone/base/exceptions.h>
 #include <geocone/base/state_row.h>
 
 #include <deal.II/base/array_view.h>
 #include <deal.II/base/mpi.h>
 
+#include <exception>
 #include <limits>
+#include <string>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -41,6 +44,36 @@ namespace geocone
     return sum > 0.
              ? fullest * dealii::Utilities::MPI::n_mpi_processes(comm) / sum
              : 1.;
+  }
+
+  /** Calls a function on the first rank. Its errors are thrown on all ranks.
+   *  Collective. @param failure what an error other than of input means
+   *  @throws InputError */
+  template <typename Function>
+  void
+  on_first_rank(const MPI_Comm     comm,
+                const std::string &failure,
+                const Function    &function)
+  {
+    std::string fault;
+    if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
+      try
+        {
+          function();
+        }
+      catch (const InputError &error)
+        {
+          fault = error.what();
+        }
+      catch (const std::exception &error)
+        {
+          fault =
+            failure + ": " + error.what() +
+            "\n  remedy:  take fewer cells, or a machine with more memory";
+        }
+    fault = dealii::Utilities::MPI::broadcast(comm, fault);
+    if (!fault.empty())
+      throw InputError(fault);
   }
 
   /** Returns the place that belongs to the largest of the values of all ranks.

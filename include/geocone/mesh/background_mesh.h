@@ -288,18 +288,21 @@ namespace geocone::GEOCONE_DIM
     connected_parts(const std::vector<Cell> &cells) const;
 
   private:
-    /** Returns true for bodies in contact. */
-    bool
-    has_contacts() const
-    {
-      return split_at_contacts || layers > 1;
-    }
+    /** Creates the whole mesh. @throws InputError */
+    CoarseMesh
+    whole_mesh(const Scene   &scene,
+               const Method  &method,
+               const MPI_Comm communicator);
 
-    /** Chooses how the cells are stored, where nothing is asked.
-     *  @param may_divide see prepare()
-     *  @throws InputError if what is asked cannot be */
+    /** Takes what is known of the whole mesh from the first rank. Collective.
+     *  @param[in,out] n_cells of the whole mesh */
     void
-    choose_storage(const bool may_divide);
+    share_description(std::size_t &n_cells);
+
+    /** @param divides whether the scene needs own and ghost cells only
+     *  @throws InputError if the cells cannot be stored as they are asked to */
+    void
+    check_storage(const bool has_contacts, const bool divides) const;
 
     /** Determines the boundary ids of all sides, over all ranks. Collective. */
     void

@@ -24,7 +24,7 @@ namespace geocone::GEOCONE_DIM
    * their vertex neighbours only. The rank of each cell is determined by METIS.
    * The numbers of the coarse cells, and thus all CellId, are those of the
    * whole mesh. Collective.
-   * @param mesh whole mesh, the same on all ranks
+   * @param mesh whole mesh on the first rank; not used on the others
    */
   std::unique_ptr<dealii::parallel::fullydistributed::Triangulation<dim>>
   divided_mesh(const CoarseMesh &mesh, const MPI_Comm comm);
