@@ -15,6 +15,102 @@ namespace geocone
   namespace
   {
     /**
+     * Deflation of conjugate gradients by the solutions of earlier systems. Near
+     * a limit load these are the mechanism of failure for the most part, whose
+     * small stiffness a preconditioner misses. The solution in their span is
+     * computed at the start, and directions are conjugate to it.
+     */
+    class Deflation
+    {
+    public:
+      /** Orthonormalises the solutions in the energy of a symmetric matrix, the
+       *  last one first. Those without energy are left out. */
+      void
+      prepare(const RowOperator &matrix)
+      {
+        std::vector<RowVector> earlier;
+        earlier.swap(basis);
+        products.clear();
+        for (auto v = earlier.rbegin(); v != earlier.rend(); ++v)
+          {
+            RowVector product(*v);
+            matrix.vmult(product, *v);
+            const double of_all = *v * product;
+            for (unsigned int j = 0; j < basis.size(); ++j)
+              {
+                const double part = *v * products[j];
+                v->add(-part, basis[j]);
+                product.add(-part, products[j]);
+              }
+            const double energy = *v * product;
+            if (!(of_all > 0. && energy > smallest * of_all))
+              continue;
+            *v /= std::sqrt(energy);
+            product /= std::sqrt(energy);
+            basis.push_back(std::move(*v));
+            products.push_back(std::move(product));
+          }
+        std::reverse(basis.begin(), basis.end());
+        std::reverse(products.begin(), products.end());
+      }
+
+      /** Adds the part of the solution in the span. @param[in,out] r residual */
+      void
+      add_start(RowVector &solution, RowVector &r) const
+      {
+        for (unsigned int j = 0; j < products.size(); ++j)
+          {
+            const double part = r * basis[j];
+            solution.add(part, basis[j]);
+            r.add(-part, products[j]);
+          }
+      }
+
+      /** Makes a direction conjugate to the span. */
+      void
+      project(RowVector &direction) const
+      {
+        for (unsigned int j = 0; j < products.size(); ++j)
+          direction.add(-(direction * products[j]), basis[j]);
+      }
+
+      /** Keeps the solution of a system for the next ones. */
+      void
+      keep(const RowVector &solution)
+      {
+        const double size = solution.l2_norm();
+        if (!(size > 0. && std::isfinite(size)))
+          return;
+        if (basis.size() == most)
+          {
+            basis.erase(basis.begin());
+            if (!products.empty())
+              products.erase(products.begin());
+          }
+        basis.push_back(solution);
+        basis.back() /= size;
+      }
+
+      bool
+      is_empty() const
+      {
+        return products.empty();
+      }
+
+    private:
+      /** Number of solutions that are kept. Each takes two vectors. */
+      static constexpr unsigned int most = 4;
+
+      /** Smallest part of the energy of a solution beside those of the later
+       *  ones. */
+      static constexpr double smallest = 1e-10;
+
+      /** Solutions, the last one at the end, and the matrix times those that
+       *  are prepared, the first ones. */
+      std::vector<RowVector> basis, products;
+    };
+
+    /**
      * Conjugate gradients, or GMRES for non-symmetric matrices, with a
      * preconditioner. Systems that take too many iterations are solved
      * directly, and so are the next ones: one after the first failure, three
@@ -69,6 +165,7 @@ namespace geocone
       analyse(const SparseMatrix &matrix) override
       {
         direct_is_ready = false;
+        deflation       = Deflation();
         is_large        = nodes.n_components == 3 &&
                    std::size_t(matrix.n_global) > largest_direct;
         if (is_large)
@@ -88,6 +185,8 @@ namespace geocone
           --n_to_skip;
         else
           is_direct = !preconditioner->factorise(matrix);
+        if (symmetric && !is_direct)
+          deflation.prepare(rows);
         return !is_direct || (!is_large && factorise_directly());
       }
 
@@ -155,6 +254,8 @@ namespace geocone
         counts.most = std::max(counts.most, control.last_step());
         if (!converged && is_large)
           ++counts.stopped;
+        if (symmetric)
+          deflation.keep(solution);
         if (converged || is_large)
           std::copy_n(solution.begin(), last->n_owned, x);
         return converged || is_large;
@@ -174,7 +275,9 @@ namespace geocone
         using State    = dealii::SolverControl::State;
         RowVector &r   = right_side, z(r), p(r), product(r);
         double     r_z = 0.;
-        control.check(0, r.l2_norm());
+        deflation.add_start(solution, r);
+        if (control.check(0, r.l2_norm()) == State::success)
+          return true;
         for (unsigned int step = 0;;)
           {
             preconditioner->vmult(z, r);
@@ -187,6 +290,7 @@ namespace geocone
                 r_z = 0.;
                 continue;
               }
+            deflation.project(z);
             if (r_z == 0.)
               p = z;
             else
@@ -196,7 +300,8 @@ namespace geocone
             const double curvature = p * product;
             if (!(curvature > 0.))
               {
-                if (step == 0 && std::isfinite(curvature))
+                if (step == 0 && deflation.is_empty() &&
+                    std::isfinite(curvature))
                   solution = p;
                 return false;
               }
@@ -290,6 +395,7 @@ namespace geocone
       NodalRows        nodes;
       RowOperator      rows;
       RowVector        solution, right_side;
+      Deflation        deflation;
       LinearIterations counts;
 
       const SparseMatrix *last = nullptr; ///< last factorised
