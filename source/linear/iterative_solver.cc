@@ -254,6 +254,9 @@ namespace geocone
         counts.most = std::max(counts.most, control.last_step());
         if (!converged && is_large)
           ++counts.stopped;
+        if (is_large &&
+            (!converged || 2 * control.last_step() > max_iterations))
+          ++counts.hard;
         if (symmetric)
           deflation.keep(solution);
         if (converged || is_large)

@@ -132,16 +132,17 @@ namespace geocone::GEOCONE_DIM
   namespace
   {
     /**
-     * Successive iterations whose linear systems multigrid has not solved within
-     * its allowed iterations and that have not reduced the residual: the matrix
-     * is nearly singular as the body fails. Direct solvers have none.
+     * Successive iterations whose linear systems multigrid has solved in more
+     * than half of its allowed iterations, or not, and that have not reduced the
+     * residual: the matrix is nearly singular as the body fails. Direct solvers
+     * have none.
      */
-    class UnsolvedSystems
+    class HardSystems
     {
     public:
-      explicit UnsolvedSystems(const StepWorkspace &work)
+      explicit HardSystems(const StepWorkspace &work)
         : counts(work.system.linear_solver().iterations())
-        , n_above(n_above_tolerance())
+        , n_hard(n_hard_systems())
         , least(work.report.residual)
       {}
 
@@ -149,9 +150,9 @@ namespace geocone::GEOCONE_DIM
       void
       count(const double residual)
       {
-        const unsigned int before = n_above;
-        n_above                   = n_above_tolerance();
-        in_a_row = n_above > before && residual >= least ? in_a_row + 1 : 0;
+        const unsigned int before = n_hard;
+        n_hard                    = n_hard_systems();
+        in_a_row = n_hard > before && residual >= least ? in_a_row + 1 : 0;
         least    = std::min(least, residual);
       }
 
@@ -164,13 +165,13 @@ namespace geocone::GEOCONE_DIM
 
     private:
       unsigned int
-      n_above_tolerance() const
+      n_hard_systems() const
       {
-        return counts == nullptr ? 0 : counts->stopped;
+        return counts == nullptr ? 0 : counts->hard;
       }
 
       const LinearIterations *counts;
-      unsigned int            n_above, in_a_row = 0;
+      unsigned int            n_hard, in_a_row = 0;
       double                  least;
     };
   } // namespace
@@ -189,7 +190,7 @@ namespace geocone::GEOCONE_DIM
     line.state                = work.evaluate(law);
     work.record(line.state, 0., 0., law.friction_lag);
     ForcingTerms    forcing(work);
-    UnsolvedSystems unsolved(work);
+    HardSystems     hard(work);
     for (bool first = true;; first = false)
       {
         stop_if_asked(work.v.get_mpi_communicator());
@@ -213,7 +214,7 @@ namespace geocone::GEOCONE_DIM
               allowed + (report.residual < near_tolerance ? allowed : 0) ||
             (!flows && spent >= allowed_without_flow) ||
             (report.residual > far_threshold && spent >= allowed_if_far) ||
-            unsolved.too_many())
+            hard.too_many())
           {
             give_up(line.state, work);
             return;
@@ -252,7 +253,7 @@ namespace geocone::GEOCONE_DIM
                                              : globalisation.move(line);
         jump.defect = work.problem.free_dofs().multipliers.defect(work.v);
         work.record(line.state, length, *blend, law.friction_lag);
-        unsolved.count(report.residual);
+        hard.count(report.residual);
       }
   }
 } // namespace geocone::GEOCONE_DIM

@@ -27,6 +27,7 @@ namespace geocone
     unsigned int most     = 0; ///< for one right-hand side
     unsigned int directly = 0; ///< matrices left to the direct solver
     unsigned int stopped  = 0; ///< solutions above the tolerance
+    unsigned int hard = 0; ///< these, or after half of the allowed iterations
   };
 
   /**
