@@ -370,15 +370,15 @@ namespace geocone::GEOCONE_DIM
         return x > 0. ? 1. : x < 0. ? -1. : 0.;
       }
 
-      using Unary = Enclosure (*)(const Enclosure &);
-
       /** Functions of one argument, with their slopes. */
-      const std::map<std::string, Unary> &
-      functions_of_one()
+      using Functions = std::map<std::string, Enclosure (*)(const Enclosure &)>;
+      using E         = const Enclosure &;
+
+      /** Trigonometric functions and their inverses. */
+      const Functions &
+      trigonometric_functions()
       {
-        using E                                       = const Enclosure &;
-        static const std::map<std::string, Unary> all = {
-          {"abs", magnitude},
+        static const Functions all = {
           {"acos",
            [](E x) {
              const RealInterval s = RealInterval(1.) - square(x.value);
@@ -389,21 +389,42 @@ namespace geocone::GEOCONE_DIM
                                  : RealInterval(-infinity, infinity),
                                true);
            }},
-          {"acosh",
-           [](E x) {
-             const RealInterval s = square(x.value) - RealInterval(1.);
-             return increasing(x,
-                               std::acosh,
-                               lower(x.value) > 1.
-                                 ? reciprocal_of(sqrt(s))
-                                 : RealInterval(-infinity, infinity));
-           }},
           {"asin",
            [](E x) {
              const RealInterval s = RealInterval(1.) - square(x.value);
              return increasing(x,
                                std::asin,
                                lower(s) > 0.
+                                 ? reciprocal_of(sqrt(s))
+                                 : RealInterval(-infinity, infinity));
+           }},
+          {"atan",
+           [](E x) {
+             return increasing(
+               x, std::atan, reciprocal_of(RealInterval(1.) + square(x.value)));
+           }},
+          {"cos", cosine_of},
+          {"cot",
+           [](E x) { return product(cosine_of(x), reciprocal(sine_of(x))); }},
+          {"csc", [](E x) { return reciprocal(sine_of(x)); }},
+          {"sec", [](E x) { return reciprocal(cosine_of(x)); }},
+          {"sin", sine_of},
+          {"tan",
+           [](E x) { return product(sine_of(x), reciprocal(cosine_of(x))); }}};
+        return all;
+      }
+
+      /** Hyperbolic functions and their inverses. */
+      const Functions &
+      hyperbolic_functions()
+      {
+        static const Functions all = {
+          {"acosh",
+           [](E x) {
+             const RealInterval s = square(x.value) - RealInterval(1.);
+             return increasing(x,
+                               std::acosh,
+                               lower(x.value) > 1.
                                  ? reciprocal_of(sqrt(s))
                                  : RealInterval(-infinity, infinity));
            }},
@@ -414,11 +435,6 @@ namespace geocone::GEOCONE_DIM
                std::asinh,
                reciprocal_of(sqrt(square(x.value) + RealInterval(1.))));
            }},
-          {"atan",
-           [](E x) {
-             return increasing(
-               x, std::atan, reciprocal_of(RealInterval(1.) + square(x.value)));
-           }},
           {"atanh",
            [](E x) {
              return increasing(
@@ -426,15 +442,33 @@ namespace geocone::GEOCONE_DIM
                std::atanh,
                reciprocal_of(RealInterval(1.) - square(x.value)));
            }},
-          {"ceil", [](E x) { return steps(x, std::ceil); }},
-          {"cos", cosine_of},
           {"cosh",
            [](E x) {
              return scaled(sum(exponential(x), exponential(negative(x))), 0.5);
            }},
-          {"cot",
-           [](E x) { return product(cosine_of(x), reciprocal(sine_of(x))); }},
-          {"csc", [](E x) { return reciprocal(sine_of(x)); }},
+          {"sinh",
+           [](E x) {
+             const RealInterval slope =
+               (between(std::exp(lower(x.value)), std::exp(upper(x.value))) +
+                between(std::exp(-lower(x.value)), std::exp(-upper(x.value)))) *
+               0.5;
+             return increasing(x, std::sinh, slope);
+           }},
+          {"tanh", [](E x) {
+             const RealInterval t =
+               between(std::tanh(lower(x.value)), std::tanh(upper(x.value)));
+             return increasing(x, std::tanh, RealInterval(1.) - square(t));
+           }}};
+        return all;
+      }
+
+      /** Other functions of one argument. */
+      const Functions &
+      other_functions_of_one()
+      {
+        static const Functions all = {
+          {"abs", magnitude},
+          {"ceil", [](E x) { return steps(x, std::ceil); }},
           {"erfc",
            [](E x) {
              const Enclosure bell = exponential(negative(product(x, x)));
@@ -450,25 +484,8 @@ namespace geocone::GEOCONE_DIM
            [](E x) { return scaled(logarithm(x), 1. / std::log(10.)); }},
           {"log2", [](E x) { return scaled(logarithm(x), 1. / std::log(2.)); }},
           {"rint", [](E x) { return steps(x, nearest); }},
-          {"sec", [](E x) { return reciprocal(cosine_of(x)); }},
           {"sign", [](E x) { return steps(x, sign); }},
-          {"sin", sine_of},
-          {"sinh",
-           [](E x) {
-             const RealInterval slope =
-               (between(std::exp(lower(x.value)), std::exp(upper(x.value))) +
-                between(std::exp(-lower(x.value)), std::exp(-upper(x.value)))) *
-               0.5;
-             return increasing(x, std::sinh, slope);
-           }},
-          {"sqrt", root},
-          {"tan",
-           [](E x) { return product(sine_of(x), reciprocal(cosine_of(x))); }},
-          {"tanh", [](E x) {
-             const RealInterval t =
-               between(std::tanh(lower(x.value)), std::tanh(upper(x.value)));
-             return increasing(x, std::tanh, RealInterval(1.) - square(t));
-           }}};
+          {"sqrt", root}};
         return all;
       }
 
@@ -489,7 +506,6 @@ namespace geocone::GEOCONE_DIM
       const std::map<std::string, Function> &
       functions_of_several()
       {
-        using E        = const Enclosure &;
         using All      = const std::vector<Enclosure> &;
         const auto add = [](E a, E b) { return sum(a, b); };
         static const std::map<std::string, Function> all = {
@@ -518,7 +534,6 @@ namespace geocone::GEOCONE_DIM
     Operator
     operator_of(const std::string &name)
     {
-      using E                                          = const Enclosure &;
       static const std::map<std::string, Operator> all = {
         {"+", [](E a, E b) { return sum(a, b); }},
         {"-", [](E a, E b) { return sum(a, b, -1.); }},
@@ -551,11 +566,14 @@ namespace geocone::GEOCONE_DIM
     Function
     function_of(const std::string &name)
     {
-      const auto one = functions_of_one().find(name);
-      if (one == functions_of_one().end())
-        return functions_of_several().at(name);
-      return
-        [f = one->second](const std::vector<Enclosure> &x) { return f(x[0]); };
+      for (const Functions *all : {&trigonometric_functions(),
+                                   &hyperbolic_functions(),
+                                   &other_functions_of_one()})
+        if (const auto one = all->find(name); one != all->end())
+          return [f = one->second](const std::vector<Enclosure> &x) {
+            return f(x[0]);
+          };
+      return functions_of_several().at(name);
     }
   } // namespace enclosures
 } // namespace geocone::GEOCONE_DIM
