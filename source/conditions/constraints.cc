@@ -286,8 +286,7 @@ namespace geocone::GEOCONE_DIM
     const auto                               &list = scene.dirichlet.list;
     std::vector<std::set<types::boundary_id>> ids(list.size());
     std::vector<double>                       sizes(n_shares, 0.);
-    std::map<unsigned int,
-             std::map<std::array<unsigned int, 2>, Tensor<1, dim>>>
+    std::map<unsigned int, std::map<std::array<unsigned int, 2>, FaceMoments>>
       of_cell;
     for (unsigned int c = 0; c < list.size(); ++c)
       if (!list[c]->moves_with_body())
@@ -321,9 +320,13 @@ namespace geocone::GEOCONE_DIM
                     const unsigned int place =
                       found->second.first + (at - conditions.begin());
                     const double part = point.weight * point.values[i];
-                    sizes[place] += part;
-                    of_cell[cell->active_cell_index()][{{place, d}}] +=
-                      part * point.normal;
+                    sizes[place] += std::abs(part);
+                    FaceMoments &faces =
+                      of_cell[cell->active_cell_index()][{{place, d}}];
+                    const Tensor<1, dim> arm = point.position - cell->center();
+                    faces.normal += part * point.normal;
+                    for (unsigned int k = 0; k < dim; ++k)
+                      faces.along[k] += part * arm[k] * point.normal;
                   }
               }
     sum_over_ranks(sizes, comm);
@@ -336,8 +339,8 @@ namespace geocone::GEOCONE_DIM
       {
         first_part.push_back(parts.size());
         if (const auto found = of_cell.find(c); found != of_cell.end())
-          for (const auto &[key, weight] : found->second)
-            parts.push_back({key[0], key[1], weight});
+          for (const auto &[key, faces] : found->second)
+            parts.push_back({key[0], key[1], faces});
       }
     first_part.push_back(parts.size());
   }
@@ -499,6 +502,7 @@ namespace geocone::GEOCONE_DIM
 
   std::vector<double>
   Constraints::exerted_on_faces(const MaterialPoints      &points,
+                                const BackgroundMesh      &mesh,
                                 const std::vector<Mandel> &stress) const
   {
     std::vector<double> exerted(n_shares, 0.);
@@ -509,27 +513,10 @@ namespace geocone::GEOCONE_DIM
         const unsigned int cell = points.cells[c]->active_cell_index();
         if (first_part[cell] == first_part[cell + 1])
           continue;
-        Mandel mean = Mandel::Zero();
-        for (unsigned int p = points.first_point[c];
-             p < points.first_point[c + 1];
-             ++p)
-          mean += points.weight[p] * stress[p];
-        mean /= points.cells[c]->measure();
+        const LinearStress in_cell(points, c, mesh, space, stress);
         for (unsigned int i = first_part[cell]; i < first_part[cell + 1]; ++i)
-          {
-            const FaceIntegral &part = parts[i];
-            exerted[part.place] += mean[index_of_normal[part.component]] *
-                                   part.weight[part.component];
-            for (int k = 0; k < n_shears; ++k)
-              {
-                const auto [place, a, b] = shears[k];
-                const double shear       = mean[place] / sqrt2;
-                if (static_cast<int>(part.component) == a)
-                  exerted[part.place] += shear * part.weight[b];
-                else if (static_cast<int>(part.component) == b)
-                  exerted[part.place] += shear * part.weight[a];
-              }
-          }
+          exerted[parts[i].place] +=
+            in_cell.force(parts[i].component, parts[i].faces);
       }
     sum_over_ranks(exerted, comm);
     return exerted;
@@ -587,10 +574,11 @@ namespace geocone::GEOCONE_DIM
   std::vector<Reaction>
   Constraints::reactions(const Vector              &residual,
                          const MaterialPoints      &points,
+                         const BackgroundMesh      &mesh,
                          const std::vector<Mandel> &stress,
                          const double               t) const
   {
-    const std::vector<double> exerted = exerted_on_faces(points, stress);
+    const std::vector<double> exerted = exerted_on_faces(points, mesh, stress);
     std::vector<Reaction>     result(scene.dirichlet.list.size());
     for (const PrescribedNode &p : prescribed)
       {

@@ -206,6 +206,7 @@ namespace geocone::GEOCONE_DIM
         problem->contact(), *constraints, of_supports);
     return constraints->reactions(of_supports,
                                   points,
+                                  *mesh,
                                   problem->internal_forces().total_stress(),
                                   step.solved_at);
   }

@@ -18,8 +18,10 @@ run() # NAME N OPTION ...
 bore=('Boundary conditions/bore/Sides = bore' 'Observation/Conditions = bore')
 radial=("${bore[@]}" 'Boundary conditions/bore/Velocity x = 1e-3*x'
   'Boundary conditions/bore/Velocity y = 1e-3*y')
-for n in 8 16; do
-  for element in Q1 Q2; do
+for element in Q1 Q2; do
+  # Errors of Q1 are a tenth of those of Q2, and of second order on finer meshes only.
+  case $element in Q1) sizes=(32 64) ;; Q2) sizes=(8 16) ;; esac
+  for n in "${sizes[@]}"; do
     degree="Discretisation/Element = $element"
     run "$element-last" $n "$degree" "${radial[@]}" \
       'Boundary conditions/Names = plane_x, plane_y, bore'
@@ -40,9 +42,10 @@ def value(run, n, column):
     return float(list(csv.DictReader(open(f"{run}-{n}/statistics.csv")))[-1][column])
 failed = False
 def check(run, column, exact, least_order, largest_error):
-    """Errors on 8 and 16 cells, relative, and their order."""
+    """Errors on two meshes, relative, and their order."""
     global failed
-    errors = [abs(value(run, n, column) / exact - 1) for n in (8, 16)]
+    sizes = (32, 64) if run.startswith("Q1") else (8, 16)
+    errors = [abs(value(run, n, column) / exact - 1) for n in sizes]
     order = math.log2(errors[0] / errors[1])
     good = order >= least_order and errors[1] <= largest_error
     failed = failed or not good

@@ -4,6 +4,7 @@
 #ifndef geocone_conditions_constraints_h
 #define geocone_conditions_constraints_h
 
+#include <geocone/conditions/linear_stress.h>
 #include <geocone/conditions/prescribed_node.h>
 #include <geocone/conditions/unknowns.h>
 #include <geocone/points/material_points.h>
@@ -104,6 +105,7 @@ namespace geocone::GEOCONE_DIM
     std::vector<Reaction>
     reactions(const Vector              &residual,
               const MaterialPoints      &points,
+              const BackgroundMesh      &mesh,
               const std::vector<Mandel> &stress,
               const double               t) const;
 
@@ -182,17 +184,17 @@ namespace geocone::GEOCONE_DIM
     struct Shared
     {
       std::vector<unsigned int> conditions; ///< the last one governs
-      std::vector<double>       size;       ///< int N_i, by condition (m)
+      std::vector<double>       size;       ///< int |N_i|, by condition (m)
       unsigned int              first = 0;  ///< offset of FaceIntegral::place
     };
 
-    /** Integral int N_i n dA of the shape function times the normal, over those
-     *  faces of a cell on which a boundary condition is active. */
+    /** Integrals over those faces of a cell on which a boundary condition is
+     *  active. */
     struct FaceIntegral
     {
-      unsigned int           place; ///< number, starts at Shared::first
-      unsigned int           component;
-      dealii::Tensor<1, dim> weight; ///< int N_i n dA (m)
+      unsigned int place; ///< number, starts at Shared::first
+      unsigned int component;
+      FaceMoments  faces;
     };
 
     /** Computes the mean unit normal at each node of the boundary on which a
@@ -235,11 +237,13 @@ namespace geocone::GEOCONE_DIM
       const std::map<unsigned int, std::vector<unsigned int>> &of_dof);
 
     /** Computes the nodal forces on boundary faces due to the stresses in the
-     *  adjacent cells, at nodes shared by several boundary conditions. Nodes
+     *  adjacent cells, linear in each (LinearStress), at nodes shared by several
+     *  boundary conditions. Nodes
      *  are shared if several conditions prescribe the same component. The
      *  forces are ordered by FaceIntegral::place. Collective. */
     std::vector<double>
     exerted_on_faces(const MaterialPoints      &points,
+                     const BackgroundMesh      &mesh,
                      const std::vector<Mandel> &stress) const;
 
     /** Divides a nodal force among the boundary conditions that prescribe the
