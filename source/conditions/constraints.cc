@@ -125,7 +125,31 @@ namespace geocone::GEOCONE_DIM
                             dof % dim,
                             conditions.back(),
                             space.node_positions()[dof / dim],
-                            dof / dim < space.n_owned_nodes()});
+                            dof / dim < space.n_owned_nodes(),
+                            carrier_of(dof, conditions)});
+  }
+
+  unsigned int
+  Constraints::carrier_of(const unsigned int               dof,
+                          const std::vector<unsigned int> &conditions) const
+  {
+    const auto found = shared.find(space.partitioner()->local_to_global(dof));
+    if (found == shared.end())
+      return conditions.back();
+    const auto   &list    = scene.dirichlet.list;
+    const Shared &among   = found->second;
+    unsigned int  carrier = conditions.back();
+    double        largest = 0.;
+    for (unsigned int k = among.conditions.size(); k-- > 0;)
+      if (const double size = std::abs(among.normal[k]);
+          size > largest * (1. + 1e-6) &&
+          list[among.conditions[k]]->formula(dof % dim) ==
+            list[conditions.back()]->formula(dof % dim))
+        {
+          carrier = among.conditions[k];
+          largest = size;
+        }
+    return carrier;
   }
 
   std::map<unsigned int, Tensor<1, dim>>
@@ -286,6 +310,7 @@ namespace geocone::GEOCONE_DIM
     const auto                               &list = scene.dirichlet.list;
     std::vector<std::set<types::boundary_id>> ids(list.size());
     std::vector<double>                       sizes(n_shares, 0.);
+    std::vector<double>                       normals(n_shares, 0.);
     std::map<unsigned int, std::map<std::array<unsigned int, 2>, FaceMoments>>
       of_cell;
     for (unsigned int c = 0; c < list.size(); ++c)
@@ -321,6 +346,7 @@ namespace geocone::GEOCONE_DIM
                       found->second.first + (at - conditions.begin());
                     const double part = point.weight * point.values[i];
                     sizes[place] += std::abs(part);
+                    normals[place] += std::abs(part) * point.normal[d];
                     FaceMoments &faces =
                       of_cell[cell->active_cell_index()][{{place, d}}];
                     const Tensor<1, dim> arm = point.position - cell->center();
@@ -330,10 +356,15 @@ namespace geocone::GEOCONE_DIM
                   }
               }
     sum_over_ranks(sizes, comm);
+    sum_over_ranks(normals, comm);
     for (auto &entry : shared)
-      entry.second.size.assign(sizes.begin() + entry.second.first,
-                               sizes.begin() + entry.second.first +
-                                 entry.second.conditions.size());
+      {
+        const unsigned int first = entry.second.first,
+                           end   = first + entry.second.conditions.size();
+        entry.second.size.assign(sizes.begin() + first, sizes.begin() + end);
+        entry.second.normal.assign(normals.begin() + first,
+                                   normals.begin() + end);
+      }
     const unsigned int n_cells = mesh.triangulation().n_active_cells();
     for (unsigned int c = 0; c < n_cells; ++c)
       {

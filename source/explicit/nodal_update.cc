@@ -288,8 +288,8 @@ namespace geocone::GEOCONE_DIM
   void
   NodalUpdate::add_impulse(const PrescribedNode &node, const double impulse)
   {
-    support_impulse[node.condition].add(
-      node.place - transfer.centres[node.condition], node.component, impulse);
+    support_impulse[node.carrier].add(
+      node.place - transfer.centres[node.carrier], node.component, impulse);
     sum.impulse[node.component] += impulse;
   }
 
@@ -303,10 +303,10 @@ namespace geocone::GEOCONE_DIM
     for (const PrescribedNode &node : transfer.prescribed)
       if (const auto at = carried.find(node.node);
           node.mine && at != carried.end())
-        support_impulse[node.condition].add(node.place -
-                                              transfer.centres[node.condition],
-                                            node.component,
-                                            -at->second[node.component]);
+        support_impulse[node.carrier].add(node.place -
+                                            transfer.centres[node.carrier],
+                                          node.component,
+                                          -at->second[node.component]);
   }
 
   std::vector<Reaction>

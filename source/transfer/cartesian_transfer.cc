@@ -81,7 +81,7 @@ namespace geocone::GEOCONE_DIM
   {
     const std::vector<GridSide> sides = sides_of_grid(grid);
 
-    std::map<std::array<unsigned int, dim + 1>, std::vector<PrescribedNode>>
+    std::map<std::array<unsigned int, dim + 1>, std::vector<HeldComponent>>
       of_component;
     for (unsigned int c = 0; c < conditions.list.size(); ++c)
       {
@@ -105,7 +105,7 @@ namespace geocone::GEOCONE_DIM
                   function[side.axis] = side.function;
                   PrescribedNode p;
                   p.node      = number_in_grid(function, n_functions());
-                  p.condition = c;
+                  p.condition = p.carrier = c;
                   for (unsigned int d = 0; d < dim; ++d)
                     p.place[d] = grid.axes[d].places[function[d]];
                   if (!condition.holds_at(p.place))
@@ -123,7 +123,7 @@ namespace geocone::GEOCONE_DIM
                       {
                         key[dim]    = d;
                         p.component = d;
-                        of_component[key].push_back(p);
+                        of_component[key].push_back({p, side.axis == d});
                       }
                 }
             }
@@ -296,16 +296,25 @@ namespace geocone::GEOCONE_DIM
         }
 
     prescribed.clear();
-    for (const std::vector<PrescribedNode> &all : prescribed_functions)
+    for (const std::vector<HeldComponent> &all : prescribed_functions)
       {
         // The last acting condition in the list determines the component.
-        const auto last = std::find_if(
-          all.rbegin(), all.rend(), [&](const PrescribedNode &one) {
-            return acts[one.condition];
+        const auto last =
+          std::find_if(all.rbegin(), all.rend(), [&](const HeldComponent &one) {
+            return acts[one.node.condition];
           });
         if (last == all.rend())
           continue;
-        PrescribedNode  p         = *last;
+        PrescribedNode p       = last->node;
+        const auto     formula = [&](const HeldComponent &one) {
+          return conditions.list[one.node.condition]->formula(p.component);
+        };
+        const auto carrier =
+          std::find_if(last, all.rend(), [&](const HeldComponent &one) {
+            return one.is_normal && acts[one.node.condition] &&
+                   formula(one) == formula(*last);
+          });
+        p.carrier = (carrier == all.rend() ? last : carrier)->node.condition;
         const GridIndex function  = index_in_grid(p.node, n_functions());
         bool            is_stored = true;
         for (unsigned int d = 0; d < dim; ++d)

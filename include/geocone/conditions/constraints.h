@@ -185,6 +185,7 @@ namespace geocone::GEOCONE_DIM
     {
       std::vector<unsigned int> conditions; ///< the last one governs
       std::vector<double>       size;       ///< int |N_i|, by condition (m)
+      std::vector<double>       normal;     ///< int |N_i| n_d, by condition (m)
       unsigned int              first = 0;  ///< offset of FaceIntegral::place
     };
 
@@ -235,6 +236,11 @@ namespace geocone::GEOCONE_DIM
     find_shared(
       const BackgroundMesh                                    &mesh,
       const std::map<unsigned int, std::vector<unsigned int>> &of_dof);
+
+    /** Finds PrescribedNode::carrier of a prescribed dof. */
+    unsigned int
+    carrier_of(const unsigned int               dof,
+               const std::vector<unsigned int> &conditions) const;
 
     /** Computes the nodal forces on boundary faces due to the stresses in the
      *  adjacent cells, linear in each (LinearStress), at nodes shared by several

@@ -20,6 +20,10 @@ namespace geocone::GEOCONE_DIM
     unsigned int       condition; ///< index in Scene::dirichlet
     dealii::Point<dim> place;     ///< position of the node (m)
     bool               mine;      ///< whether this rank includes it in sums
+
+    /** Condition that carries the force in explicit steps: of those that prescribe
+     *  the same value, the one on a side along whose normal the component is. */
+    unsigned int carrier;
   };
 
   /** Lever arm: moment about a rotation axis due to a unit force along a

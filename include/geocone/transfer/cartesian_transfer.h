@@ -183,10 +183,17 @@ namespace geocone::GEOCONE_DIM
     const BoundaryConditions &conditions;
     std::vector<bool>         acts; ///< true for active conditions
 
-    /** Prescribed velocity components of each basis function, with the index of
-     *  the boundary condition. Basis functions of the whole grid are indexed by
+    /** Velocity component that a condition prescribes on a side of the grid. */
+    struct HeldComponent
+    {
+      PrescribedNode node;
+      bool           is_normal; ///< along the normal of the side
+    };
+
+    /** Prescribed velocity components of each basis function, in the order of the
+     *  boundary conditions. Basis functions of the whole grid are indexed by
      *  number_in_grid(). */
-    std::vector<std::vector<PrescribedNode>> prescribed_functions;
+    std::vector<std::vector<HeldComponent>> prescribed_functions;
 
     std::vector<int>   slab_begin;     ///< first cell column of each rank
     Range              cells[dim];     ///< cells with points of this rank
