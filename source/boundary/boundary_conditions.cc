@@ -268,6 +268,18 @@ namespace geocone::GEOCONE_DIM
     return result;
   }
 
+  dealii::Tensor<1, dim>
+  BoundaryCondition::vector_at(const dealii::Point<dim>     &x,
+                               const dealii::Tensor<1, dim> &n,
+                               const double                  t) const
+  {
+    dealii::Tensor<1, dim> result = vector_on_side(x, n, t);
+    for (unsigned int d = 0; d < dim; ++d)
+      if (components[d])
+        result[d] += components[d]->value(x, t);
+    return result;
+  }
+
   void
   BoundaryCondition::refuse_normal(const std::string &allowed,
                                    const std::string &remedy) const

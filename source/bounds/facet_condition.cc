@@ -207,11 +207,7 @@ namespace geocone::GEOCONE_DIM
                         const FacetCondition    &held)
   {
     const auto traction = [&](const Point<dim> &x) {
-      Tensor<1, dim> t = load.vector_on_side(x, place.normal, 0.);
-      for (unsigned int d = 0; d < dim; ++d)
-        if (load.components[d])
-          t[d] += load.components[d]->value(x, 0.);
-      return t;
+      return load.vector_at(x, place.normal, 0.);
     };
     std::array<Tensor<1, dim>, dim> t;
     double                          largest = 0., on_held = 0.;

@@ -176,13 +176,8 @@ namespace geocone::GEOCONE_DIM
       {
         if (!acts[c])
           continue;
-        const BoundaryCondition &condition = *scene.tractions.list[c];
-        Tensor<1, dim>           traction;
-        for (unsigned int d = 0; d < dim; ++d)
-          if (condition.components[d])
-            traction[d] = condition.components[d]->value(point.position, t);
-        if (condition.normal || condition.tangential)
-          traction = condition.vector_on_side(point.position, point.normal, t);
+        const Tensor<1, dim> traction =
+          scene.tractions.list[c]->vector_at(point.position, point.normal, t);
         for (unsigned int d = 0; d < dim; ++d)
           {
             if (traction[d] == 0.)

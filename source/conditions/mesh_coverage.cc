@@ -226,6 +226,116 @@ namespace geocone::GEOCONE_DIM
            "(Mesh/Type = unstructured)";
   }
 
+  namespace
+  {
+    /** Forces of a traction, summed over the ends of stages. */
+    struct HeldForce
+    {
+      double whole = 0.; ///< (N/m)
+      double free  = 0.; ///< along velocities that are not prescribed (N/m)
+      std::set<std::string> holders; ///< conditions that prescribe the others
+
+      /** Adds a force at a point where conditions may hold. */
+      void
+      add(Tensor<1, dim>                                force,
+          const FacePoint                              &point,
+          const std::vector<const BoundaryCondition *> &held)
+      {
+        whole += force.norm();
+        for (const BoundaryCondition *condition : held)
+          {
+            if (!condition->holds_at(point.position))
+              continue;
+            const double before = force.norm();
+            for (unsigned int d = 0; d < dim; ++d)
+              if (condition->components[d])
+                force[d] = 0.;
+            if (condition->normal)
+              force -= (force * point.normal) * point.normal;
+            if (force.norm() < 0.5 * before)
+              holders.insert(condition->name);
+          }
+        free += force.norm();
+      }
+
+      void
+      unite(const MPI_Comm comm)
+      {
+        whole = Utilities::MPI::sum(whole, comm);
+        free  = Utilities::MPI::sum(free, comm);
+        const std::vector<std::string> own(holders.begin(), holders.end());
+        for (const auto &of_rank : Utilities::MPI::all_gather(comm, own))
+          holders.insert(of_rank.begin(), of_rank.end());
+      }
+
+      /** Names of the conditions, in quotes. */
+      std::string
+      names() const
+      {
+        std::string text;
+        for (const std::string &name : holders)
+          text += (text.empty() ? "'" : ", '") + name + "'";
+        return text;
+      }
+    };
+
+    HeldForce
+    held_force(const BoundaryCondition &traction,
+               const Scene             &scene,
+               const BackgroundMesh    &mesh,
+               const Space             &space)
+    {
+      HeldForce sum;
+      for_each_face(
+        mesh, mesh.side_ids(traction), [&](const auto &cell, const unsigned f) {
+          const auto part = part_of_face(traction, mesh, cell, f);
+          if (!part)
+            return;
+          std::vector<const BoundaryCondition *> held;
+          for (const auto &condition : scene.dirichlet.list)
+            if (condition->stages.are_all() && !condition->moves_with_body() &&
+                mesh.side_ids(*condition).count(cell->face(f)->boundary_id()) >
+                  0)
+              held.push_back(condition.get());
+          for (const FacePoint &point :
+               points_on_face(mesh, space, cell, f, *part))
+            {
+              double t = 0.;
+              for (const auto &stage : scene.loading.list)
+                {
+                  t += stage->duration;
+                  sum.add(point.weight *
+                            traction.vector_at(point.position, point.normal, t),
+                          point,
+                          held);
+                }
+            }
+        });
+      sum.unite(mesh.triangulation().get_communicator());
+      return sum;
+    }
+  } // namespace
+
+  std::vector<std::string>
+  warn_of_held_tractions(const Scene          &scene,
+                         const BackgroundMesh &mesh,
+                         const Space          &space)
+  {
+    constexpr double         noticed = 0.5; ///< part that is held
+    std::vector<std::string> warnings;
+    for (const auto &traction : scene.tractions.list)
+      if (const HeldForce force = held_force(*traction, scene, mesh, space);
+          force.whole - force.free > noticed * force.whole)
+        warnings.push_back(
+          format("the traction '%s' acts for %.3g %% along velocities that %s "
+                 "prescribes: that part only changes the reaction there; give "
+                 "the traction other sides, or leave that velocity free",
+                 traction->name.c_str(),
+                 100. * (1. - force.free / force.whole),
+                 force.names().c_str()));
+    return warnings;
+  }
+
   std::vector<std::string>
   warn_of_cut_cells(const Scene &scene, const BackgroundMesh &mesh)
   {

@@ -101,12 +101,8 @@ namespace geocone::GEOCONE_DIM
         {
           if (!condition.stages.include(stage))
             continue;
-          Tensor<1, dim> value;
-          if (condition.normal || condition.tangential)
-            value = condition.vector_on_side(x, area / area.norm(), t);
-          for (unsigned int c = 0; c < dim; ++c)
-            if (condition.components[c])
-              value[c] += condition.value(c, x, t);
+          const Tensor<1, dim> value =
+            condition.vector_at(x, area / area.norm(), t);
           if (value.norm() > largest.norm())
             largest = value;
         }

@@ -37,11 +37,7 @@ namespace geocone::GEOCONE_DIM
              const double             unit,
              const double             time)
     {
-      Tensor<1, dim> t = load.vector_on_side(x, n, time);
-      for (unsigned int d = 0; d < dim; ++d)
-        if (load.components[d])
-          t[d] += load.components[d]->value(x, time);
-      return t / unit;
+      return load.vector_at(x, n, time) / unit;
     }
 
     /** Node of a boundary edge. */

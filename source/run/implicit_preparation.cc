@@ -270,11 +270,14 @@ namespace geocone::GEOCONE_DIM
     warnings.push_back(scene.warn_of_time_histories());
     const BoundingBox<dim> body = box_of_body(scene, mesh);
     log.print(options.name + ": " + text_of_magnitudes(scene, body));
-    for (const auto &more : {warn_of_magnitudes(scene, body),
-                             warn_of_partial_coverage(scene, mesh, space),
-                             method.is_mpm() ? std::vector<std::string>()
-                                             : warn_of_cut_cells(scene, mesh),
-                             warn_of_fixed_ends(scene.structures, mesh)})
+    for (const auto &more :
+         {warn_of_magnitudes(scene, body),
+          warn_of_partial_coverage(scene, mesh, space),
+          method.is_mpm() ? std::vector<std::string>()
+                          : warn_of_cut_cells(scene, mesh),
+          method.is_mpm() ? std::vector<std::string>()
+                          : warn_of_held_tractions(scene, mesh, space),
+          warn_of_fixed_ends(scene.structures, mesh)})
       warnings.insert(warnings.end(), more.begin(), more.end());
     warnings.push_back(warn_of_steep_water(scene, mesh));
     warnings.push_back(warn_of_overstress(points, scene.materials, comm));

@@ -74,10 +74,7 @@ namespace geocone::GEOCONE_DIM
                              const double              t) {
         if (!condition.holds_at(x))
           return;
-        for (const auto &component : condition.components)
-          if (component)
-            component->value(x, t);
-        condition.vector_on_side(x, dealii::Tensor<1, dim>(), t);
+        condition.vector_at(x, dealii::Tensor<1, dim>(), t);
       };
       const auto check_at = [&](const Stage &stage, const double t) {
         for (const auto &obstacle : scene.obstacles.list)

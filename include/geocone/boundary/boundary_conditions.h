@@ -233,6 +233,13 @@ namespace geocone::GEOCONE_DIM
                    const dealii::Tensor<1, dim> &n,
                    const double                  t) const;
 
+    /** Returns the prescribed vector, by Cartesian, normal and tangential
+     *  components. @param n outward unit normal */
+    dealii::Tensor<1, dim>
+    vector_at(const dealii::Point<dim>     &x,
+              const dealii::Tensor<1, dim> &n,
+              const double                  t) const;
+
     /** Rejects a boundary condition that prescribes a normal velocity
      *  component. Called by methods that do not support it. @throws InputError
      *  @param allowed,remedy texts of the error message */

@@ -21,6 +21,14 @@ namespace geocone::GEOCONE_DIM
                            const BackgroundMesh &mesh,
                            const Space          &space);
 
+  /** Returns a warning for each traction that acts for the most part along
+   *  velocities that boundary conditions prescribe in all stages, so that the body
+   *  carries little of it. For methods whose mesh fits the body. Collective. */
+  std::vector<std::string>
+  warn_of_held_tractions(const Scene          &scene,
+                         const BackgroundMesh &mesh,
+                         const Space          &space);
+
   /** Returns a warning for each material region and each excavation whose cells
    *  differ in volume from the region in the mesh by more than 2 %: cells belong
    *  to regions by their centres. For methods whose points are those of cells.
