@@ -216,6 +216,39 @@ namespace geocone::GEOCONE_DIM
   }
 
   std::vector<std::string>
+  ImplicitSimulation::warn_of_scene() const
+  {
+    std::vector<std::string> warnings;
+    const auto               add = [&](const std::vector<std::string> &more) {
+      warnings.insert(warnings.end(), more.begin(), more.end());
+    };
+    add(warn_of_partial_coverage(scene, mesh, space));
+    if (!method.is_mpm())
+      {
+        add(warn_of_cut_cells(scene, mesh));
+        add(warn_of_held_tractions(scene, mesh, space));
+      }
+    add(warn_of_fixed_ends(scene.structures, mesh));
+    warnings.push_back(warn_of_steep_water(scene, mesh));
+    warnings.push_back(warn_of_overstress(points, scene.materials, comm));
+    LawTraits traits = scene.materials.traits();
+    // The remedies of undrained soil are refused.
+    traits.undrained = traits.undrained && !stepper->consolidates();
+    if (stepper->consolidates() && !mesh.is_simplicial() &&
+        !space.has_b_bar() && traits.can_yield && !traits.frictionless)
+      warnings.push_back(
+        "volume changes within cells of " + space.element() +
+        " where soil hardly drains: loads of soil with friction came out 19 % "
+        "too high and more; set Discretisation/B-bar = true, or take "
+        "triangles");
+    add(space.warnings(traits, method));
+    warnings.push_back(scene.warn_of_effective_loads());
+    if (!stepper->consolidates()) // soil that does not drain
+      add(scene.materials.warnings());
+    return warnings;
+  }
+
+  std::vector<std::string>
   ImplicitSimulation::prepare_method(const RunOptions &options)
   {
     scene.materials.check_closed_form(method.name());
@@ -270,32 +303,7 @@ namespace geocone::GEOCONE_DIM
     warnings.push_back(scene.warn_of_time_histories());
     const BoundingBox<dim> body = box_of_body(scene, mesh);
     log.print(options.name + ": " + text_of_magnitudes(scene, body));
-    for (const auto &more :
-         {warn_of_magnitudes(scene, body),
-          warn_of_partial_coverage(scene, mesh, space),
-          method.is_mpm() ? std::vector<std::string>()
-                          : warn_of_cut_cells(scene, mesh),
-          method.is_mpm() ? std::vector<std::string>()
-                          : warn_of_held_tractions(scene, mesh, space),
-          warn_of_fixed_ends(scene.structures, mesh)})
-      warnings.insert(warnings.end(), more.begin(), more.end());
-    warnings.push_back(warn_of_steep_water(scene, mesh));
-    warnings.push_back(warn_of_overstress(points, scene.materials, comm));
-    LawTraits traits = scene.materials.traits();
-    // The remedies of undrained soil are refused.
-    traits.undrained = traits.undrained && !stepper->consolidates();
-    if (stepper->consolidates() && !mesh.is_simplicial() &&
-        !space.has_b_bar() && traits.can_yield && !traits.frictionless)
-      warnings.push_back(
-        "volume changes within cells of " + space.element() +
-        " where soil hardly drains: loads of soil with friction came out 19 % "
-        "too high and more; set Discretisation/B-bar = true, or take "
-        "triangles");
-    for (const auto &more : {space.warnings(traits, method),
-                             {scene.warn_of_effective_loads()},
-                             stepper->consolidates() // soil that drains
-                               ? std::vector<std::string>()
-                               : scene.materials.warnings()})
+    for (const auto &more : {warn_of_magnitudes(scene, body), warn_of_scene()})
       warnings.insert(warnings.end(), more.begin(), more.end());
     remove_empty(warnings);
     if (method.is_mpm())

@@ -62,6 +62,10 @@ namespace geocone::GEOCONE_DIM
     void
     remember_friction();
 
+    /** Returns warnings of the scene on the mesh and of its materials. Collective. */
+    std::vector<std::string>
+    warn_of_scene() const;
+
     std::vector<std::string>
     prepare_method(const RunOptions &options) override;
     void
