@@ -87,10 +87,15 @@ namespace geocone
             names.insert(name + ".part");
           }
       for (const auto &entry : fs::directory_iterator(folder, ignored))
-        if (const std::string name = entry.path().filename().string();
-            names.count(name) == 0 && is_name_of_runs(name))
-          return "its file '" + printable(name) + "' is not in the " +
-                 list_of_files + " of the run before: move it away yourself";
+        {
+          const std::string name     = entry.path().filename().string();
+          const bool        is_known = names.count(name) > 0;
+          if (is_known ? fs::is_directory(entry.symlink_status(ignored))
+                       : is_name_of_runs(name))
+            return (is_known ? "its folder '" : "its file '") +
+                   printable(name) + "' is not in the " + list_of_files +
+                   " of the run before: move it away yourself";
+        }
       for (const std::string &name : names)
         fs::remove(folder / name, ignored);
       fs::remove(folder / list_of_files, ignored);

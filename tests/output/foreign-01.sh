@@ -33,6 +33,10 @@ for name in report.html cells.pvd points-0003.vtu checkpoint-000100.h5 surfaces.
   rm "a/$name"
   diff -r a before
 done
+mkdir a/parameters.prm.part
+refused "its folder 'parameters.prm.part' is not in the files.txt" run "${over[@]}"
+rmdir a/parameters.prm.part
+diff -r a before
 # Other names stay, as do foreign files that a run meets only later.
 echo mine >a/checkpoint-9.h5
 echo mine >a/notes.pvd
