@@ -135,6 +135,14 @@ namespace geocone::GEOCONE_DIM
   void
   BoundAnalysis::prepare_scene(const RunOptions &options)
   {
+    if (const std::string tied =
+          ParameterFile::value("Discretisation/Tied sides");
+        !tied.empty())
+      throw InputError("Discretisation/Tied sides",
+                       tied,
+                       "empty with " + where(),
+                       "its sides would be free in bounds: hold them, or take "
+                       "steps");
     scene.geometry.may_run_script = options.may_run_scripts;
     scene.geometry.prepare();
     if (!is_possible_around_axis())

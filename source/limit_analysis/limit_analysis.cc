@@ -5,6 +5,7 @@
 #include <geocone/base/files.h>
 #include <geocone/base/number_in.h>
 #include <geocone/base/parameter_file.h>
+#include <geocone/bounds/time_in_bounds.h>
 #include <geocone/limit_analysis/bound_fields.h>
 #include <geocone/limit_analysis/certificate_files.h>
 #include <geocone/limit_analysis/fans_of_jumps.h>
@@ -186,6 +187,8 @@ namespace geocone::GEOCONE_DIM
   LimitAnalysis::warnings_of(const dealii::BoundingBox<dim> &body) const
   {
     std::vector<std::string> warnings = warn_of_magnitudes(scene, body);
+    for (const std::string &warning : warn_of_time_in_bounds(scene))
+      warnings.push_back(warning);
     if (!refines() && most_levels > 1)
       warnings.push_back(
         "the mesh from the file is not refined: " + file_domain->obstacle() +

@@ -42,6 +42,19 @@ namespace geocone::GEOCONE_DIM
                          "a run with 'Analysis/Units' = " + units,
                          "its stresses have those of " + its_units +
                            ": write both parameter files in the same units");
+      const auto names_in = [](const std::string &list) {
+        return dealii::Utilities::split_string_list(list);
+      };
+      const std::vector<std::string> installed =
+        names_in(theirs.peek("Structures/Names", ""));
+      for (const std::string &name :
+           names_in(ParameterFile::value("Structures/Names")))
+        if (std::count(installed.begin(), installed.end(), name) > 0)
+          throw InputError("Initial stress/Run",
+                           folder,
+                           "a run without the structure '" + name + "'",
+                           "its forces there are not known here: compute the "
+                           "earlier stages in the same run");
       std::vector<std::string> kept = {"Cohesion ratio"};
       if (moves)
         kept.insert(kept.end(),

@@ -4,6 +4,7 @@
 #include <geocone/base/exceptions.h>
 #include <geocone/base/resources.h>
 #include <geocone/base/unused_parameters.h>
+#include <geocone/bounds/time_in_bounds.h>
 #include <geocone/linear/blas_kernels.h>
 #include <geocone/materials/retention.h>
 #include <geocone/mesh/bisection.h>
@@ -145,6 +146,8 @@ namespace geocone::GEOCONE_DIM
                   (reduces_strength() ? " for each of about 4 factors" : ""),
                 body);
     std::vector<std::string> warnings = warn_of_magnitudes(scene, body);
+    for (const std::string &warning : warn_of_time_in_bounds(scene))
+      warnings.push_back(warning);
     if (const double available = available_memory(); cost.megabytes > available)
       warnings.push_back(format(
         "the last mesh of 'Analysis/Maximum cells' = %u needs about %.0f MB of "
